@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kPosesAStratum = 50;
 constexpr std::size_t kQuickPosesAStratum = 12;
 
-/// Steps and about how long each takes against the others: by their first words.
+/// A step, by its first words, and its approximate share of the time relative to the others.
 struct Weight {
     std::string_view step;
     double full;
@@ -53,7 +53,7 @@ double weight_of(const Weight& weight, bool is_quick) {
     return is_quick ? weight.quick : weight.full;
 }
 
-/// Turns steps that begin into shares that are done.
+/// Computes the completed share of the work from the steps that begin.
 class Steps {
 public:
     explicit Steps(const AccuracyOptions& options) : options_(options) {
@@ -65,7 +65,7 @@ public:
         const auto starts = [&](const Weight& weight) { return step.starts_with(weight.step); };
         const auto* const known = std::ranges::find_if(kWeights, starts);
         double weight = weight_of(known == kWeights.end() ? kStorage : *known, options_.is_quick);
-        // These begin several times, for a level or a way each.
+        // These begin several times, once for each level or way.
         if (step.starts_with("tetra") || step.starts_with("octree") || step.starts_with("storage"))
             weight /= 7;
         done_ = std::min(all_, done_ + weight_);
@@ -75,7 +75,7 @@ public:
         if (options_.progress) options_.progress(done_ / all_, step_);
     }
 
-    /// Tells again, once a second, how far a long step should be by what came before it.
+    /// Reports once a second the estimated progress of a long step, from the time of earlier steps.
     void tick() {
         const Clock::time_point now = Clock::now();
         if (!options_.progress || done_ <= 0 || now - told_ < std::chrono::seconds(1)) return;
@@ -107,7 +107,7 @@ StudiedModel describe(const mesh::Mesh& mesh, const MemoryModel& model) {
             mesh.single_precision};
 }
 
-/// What the clock can tell apart: the exact question against itself.
+/// Returns the time ratio of the exact query to itself, which shows the resolution of the clock.
 TimeRatio check_clock(const Climb& climb) {
     Workspace workspace;
     const Question exact = question_of([&](std::size_t i) {

@@ -20,15 +20,15 @@ struct AccuracyOptions {
     /// Names of ladders; empty: all of kLadderNames.
     std::vector<std::string> ladders{};
     ParallelFor parallel_for = serial_for;
-    std::function<bool()> stop{};  ///< true ends all soon, with what there is
-    /// Told now and then what is being done, and which share of all is done.
+    std::function<bool()> stop{};  ///< true ends the study soon
+    /// Called now and then with the current step and the completed share of the work.
     std::function<void(double share, const std::string& step)> progress{};
 };
 
 inline constexpr std::array<const char*, 5> kLadderNames = {"geometry", "distance", "predicates",
                                                             "storage", "coherence"};
 
-/// One of the two models, as it was studied.
+/// The facts about one of the two models, as it was studied.
 struct StudiedModel {
     std::size_t triangles = 0;
     std::size_t vertices = 0;
@@ -37,24 +37,24 @@ struct StudiedModel {
     bool single_precision = false;
 };
 
-/// What accuracy costs in time, for one pair of models.
+/// The time and the errors of all ways to answer, for one pair of models.
 struct AccuracyStudy {
     Machine machine;
     StudiedModel a;
     StudiedModel b;
     bool is_quick = false;
-    TimingOptions timing;  ///< that every ladder was climbed with
+    TimingOptions timing;  ///< the options of all ladders
     PoseSet set;
     std::size_t rigid = 0;  ///< poses whose answer is proved at level E3 too
-    TimeRatio self;         ///< the exact question against itself
+    TimeRatio self;         ///< the exact query against itself
     std::vector<Ladder> ladders;
     Broken broken;       ///< promises that did not hold: bugs of ours
-    double seconds = 0;  ///< of the clock, in all
+    double seconds = 0;  ///< total wall-clock time
 };
 
-/// Studies two welded meshes. Fails with bad_argument where one has no triangles, where both
-/// have no extent, or where no poses are found; with over_budget where a hull would leave the
-/// range of double; with interrupted when `stop` said so.
+/// Studies two welded meshes. Fails with bad_argument if one has no triangles, if both have no
+/// extent, or if no poses are found. Fails with over_budget if a hull would leave the range of
+/// double, and with interrupted if `stop` returned true.
 [[nodiscard]] Result<AccuracyStudy> study_accuracy(const mesh::Mesh& a, const mesh::Mesh& b,
                                                    const AccuracyOptions& options = {});
 

@@ -18,14 +18,14 @@ namespace {
 using study::Ladder;
 using study::Rung;
 
-// Units of the picture.
+// The following lengths are in units of the chart.
 constexpr double kLeft = 84;
 constexpr double kRight = 24;
 constexpr double kTop = 16;
 constexpr double kPlotHeight = 380;
-constexpr double kFloor = 44;    ///< of the strip for errors of 0
-constexpr double kBelow = 56;    ///< for the axis' numbers and name
-constexpr double kLetter = 6.3;  ///< about how wide one of 11 units is
+constexpr double kFloor = 44;    ///< the height of the strip for errors of 0
+constexpr double kBelow = 56;    ///< the height of the axis' numbers and name
+constexpr double kLetter = 6.3;  ///< the approximate width of a letter of 11 units
 constexpr double kLine = 13;
 
 struct Box {
@@ -54,7 +54,7 @@ std::string words(double x, double y, const std::string& anchor, const std::stri
            "\" class=\"" + look + "\">" + escaped(text) + "</text>\n";
 }
 
-/// Which colour a rung has: those of one kind share one.
+/// Returns the colour number of a rung. Rungs of one kind share a colour.
 std::size_t family_of(const std::string& name) {
     if (name.ends_with("pieces")) return 1;
     if (name.starts_with("tetra-tree")) return 2;
@@ -91,7 +91,8 @@ public:
         return from_ + std::clamp(share, 0.0, 1.0) * (to_ - from_);
     }
 
-    /// Powers of ten, with others between where these are few, and not all where many.
+    /// Returns powers of ten: with other values in between if they are few, and without some of
+    /// them if they are many.
     [[nodiscard]] std::vector<double> ticks() const {
         std::vector<double> ticks;
         const std::vector<double> digits = digits_between();
@@ -131,7 +132,7 @@ struct Point {
     bool hollow;
 };
 
-/// Time against something that should be small.
+/// A chart of time against a quantity that should be small.
 class Pareto {
 public:
     Pareto(std::size_t ladder, std::string y_name, std::vector<Point> points)
@@ -203,7 +204,7 @@ private:
         return text;
     }
 
-    /// The stairs along the rungs that none beats.
+    /// Returns the staircase along the rungs that are not dominated.
     [[nodiscard]] std::string front() const {
         std::vector<Point> best;
         for (const Point& point : points_) {
@@ -245,7 +246,8 @@ private:
         taken_.push_back({x - 6, y - 6, x + 6, y + 6});
     }
 
-    /// Beside its point where there is room; else without: the page tells on hovering.
+    /// Returns the label beside its point if there is room, else "". The HTML page shows the name
+    /// on hovering.
     [[nodiscard]] std::string label(const Point& p) {
         const double x = x_.at(p.x);
         const double y = height_of(p.y);
@@ -255,7 +257,7 @@ private:
             double y;
             const char* anchor;
         };
-        // Off the bars first, which go through the point along both axes.
+        // Places off the bars come first. The bars pass through the point along both axes.
         const std::array<Try, 8> tries = {{{x + 7, y - 7, "start"},
                                            {x + 7, y + 15, "start"},
                                            {x - 7, y - 7, "end"},
@@ -287,7 +289,7 @@ private:
     std::vector<Box> taken_;
 };
 
-/// Time by how far apart the models are: one line a rung.
+/// A chart of time by stratum: one line per rung.
 class StrataChart {
 public:
     StrataChart(std::size_t ladder, const std::vector<Rung>& rungs,
@@ -298,7 +300,7 @@ public:
           columns_(used_strata()),
           times_(all_times()) {}
 
-    /// "" when nothing was timed.
+    /// Returns the content of the chart, or "" if nothing was timed.
     [[nodiscard]] std::string body() const {
         if (times_.empty()) return "";
         const auto [low, high] = std::ranges::minmax(times_);
@@ -320,7 +322,7 @@ private:
     static constexpr double kBottom = kTop + kPlotHeight;
     static constexpr double kWide = kChartWidth - kRight - kNames - kLeft;
 
-    /// The strata in which a shown rung was timed, from far to deep.
+    /// Returns the strata in which a shown rung was timed, from far to deep.
     [[nodiscard]] std::vector<std::size_t> used_strata() const {
         constexpr std::array<std::size_t, study::kStrata> kOrder = {4, 3, 2, 1, 0};
         std::vector<std::size_t> used;
@@ -384,7 +386,7 @@ private:
         return "<path d=\"" + path + "\" class=\"trend " + family + "\"/>\n" + marks;
     }
 
-    /// The names of the rungs, in the order of the lines' ends, none over another.
+    /// Returns the names of the rungs in the order of the lines' ends, without overlaps.
     [[nodiscard]] std::string names(std::vector<End> ends) const {
         std::ranges::sort(ends, {}, &End::y);
         std::string text;
@@ -407,7 +409,7 @@ private:
 
 constexpr int kBarHeight = 30;
 
-/// A bar a rung: the median, and a line to where 95 % of the cases end.
+/// Returns a bar for each rung: the median, and a line to the 95th percentile of the cases.
 std::string bars_body(std::size_t ladder, const std::vector<Rung>& rungs) {
     constexpr double kNames = 150;
     std::vector<double> values;
@@ -461,7 +463,7 @@ std::vector<Point> points_by_shape(const Ladder& ladder) {
     std::vector<Point> points;
     for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
         const Rung& rung = ladder.rungs[i];
-        // How far vertices moved is close to the error, and no shape.
+        // A rung with moved vertices is no shape, and its displacement is close to its error.
         if (!rung.outer || rung.displacement || rung.time.cases == 0) continue;
         points.push_back({i, rung.name, rung.time.median_s, rung.time.low_s, rung.time.high_s,
                           *rung.outer, *rung.outer, *rung.outer, false});
@@ -519,12 +521,12 @@ void add_charts(std::size_t number, const Ladder& ladder, std::vector<Chart>& ch
                       StrataChart(number, ladder.rungs, rungs_of_front(ladder)).body()});
 }
 
-/// Without its folders, which may be long.
+/// Returns the file name without its folders, which may be long.
 std::string file_name(const std::string& path) {
     return printable(std::filesystem::path(path).filename().string());
 }
 
-/// Cut at spaces into lines of at most so many letters.
+/// Splits the text at spaces into lines of at most `most` letters.
 std::vector<std::string> lines_of(const std::string& text, std::size_t most) {
     std::vector<std::string> lines;
     std::size_t begin = 0;
@@ -549,7 +551,7 @@ std::vector<Chart> accuracy_charts(const AccuracyReport& report) {
 }
 
 std::string chart_style() {
-    // The colours of Okabe and Ito, told apart with any colour vision.
+    // The colours of Okabe and Ito are distinguishable with any colour vision.
     std::string style =
         ".grid{stroke:#dfe3e8;stroke-width:1}.axis{stroke:#59626f;stroke-width:1}"
         ".floor{fill:#f1f4f8}.tick,.label{font-size:11px;fill:#3a434f}"

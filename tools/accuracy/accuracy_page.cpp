@@ -20,7 +20,7 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// A table with a head. Rows with a ladder's number are marks of its rungs.
+/// Returns a table with a header row. With a ladder's number, each row refers to one of its rungs.
 std::string table_element(const Rows& rows, const std::string& ladder) {
     std::string text = "<div class=\"table\"><table>\n<thead><tr>";
     for (const std::string& name : rows.front()) text += "<th>" + escaped(name) + "</th>";

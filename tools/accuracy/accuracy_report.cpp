@@ -17,7 +17,7 @@ namespace {
 using study::Ladder;
 using study::Rung;
 
-constexpr double kLeastPriced = 1.5;  ///< times the error
+constexpr double kLeastPriced = 1.5;  ///< minimum ratio of errors for a price per digit
 
 std::string padded(std::string text, std::size_t width) {
     if (text.size() < width) text.insert(0, width - text.size(), ' ');
@@ -35,7 +35,7 @@ std::string in_three_digits(double value) {
     return text.data();
 }
 
-/// A share as per cent in few digits.
+/// Returns a share in per cent with few digits.
 std::string per_cent(double share) {
     if (share == 0) return "0";
     const double value = 100 * share;
@@ -44,7 +44,7 @@ std::string per_cent(double share) {
     return in_three_digits(value) + " %";
 }
 
-/// "1.5..7.2 %".
+/// Returns a range of shares: "1.5..7.2 %".
 std::string per_cent_between(double low, double high) {
     std::string from = per_cent(low);
     const std::string to = per_cent(high);
@@ -80,13 +80,14 @@ std::string misses_word(const Rung& rung) {
            per_cent_between(share.low, share.high) + ")";
 }
 
-/// Wrong flags of the poses at which the truth is proved of the exact rotation.
+/// Returns the number of wrong answers and the number of poses, as "2/250", over the poses whose
+/// answer is proved at level E3.
 std::string rigid_word(const study::RigidErrors& rigid) {
     return std::to_string(rigid.misses.count + rigid.false_hits.count) + "/" +
            std::to_string(rigid.misses.of + rigid.false_hits.of);
 }
 
-/// Which columns a ladder has something to say in.
+/// The columns of a ladder's table that are not empty.
 struct Columns {
     bool misses = false;
     bool pairs = false;
@@ -204,7 +205,7 @@ std::string ladder_text(const Ladder& ladder) {
     return text;
 }
 
-/// The cells of a row, one after the other; those of what was not measured are empty.
+/// The cells of a row, one after the other. Cells without a measurement are empty.
 class CsvRow {
 public:
     void add(const std::string& cell) {
@@ -271,7 +272,8 @@ void add_errors(const Rung& rung, CsvRow& row) {
     }
 }
 
-/// What holds for all rungs, as the last cells of every row: a comment would be a row to readers.
+/// Returns the facts that all rungs share, as the last cells of every row. Readers of CSV would
+/// take a comment line for a row.
 std::string study_cells(const AccuracyReport& report) {
     const study::AccuracyStudy& study = report.study;
     std::string cells;
@@ -366,7 +368,7 @@ std::vector<NextDigit> next_digits(const Ladder& ladder) {
         const double time = to.time.median_s / from.time.median_s;
         const double error =
             *to.error > 0 ? *from.error / *to.error : std::numeric_limits<double>::infinity();
-        // Where the error hardly shrinks, its price by the digit means nothing.
+        // If the error hardly shrinks, its price per digit means nothing.
         const bool has_price = std::isfinite(error) && error >= kLeastPriced;
         const double a_digit = has_price ? std::pow(time, 1 / std::log10(error))
                                          : std::numeric_limits<double>::quiet_NaN();
@@ -426,7 +428,8 @@ std::vector<std::vector<std::string>> study_facts(const study::AccuracyStudy& st
             {"clock", clock}};
 }
 
-/// One line for who reads no table: what exact answers cost, and what is cheaper and nearly right.
+/// Returns one line instead of a table: the cost of exact answers, and a cheaper way that is nearly
+/// right.
 std::string recommendation(const study::AccuracyStudy& study) {
     const auto geometry = std::ranges::find(study.ladders, "geometry", &Ladder::name);
     if (geometry == study.ladders.end() || geometry->rungs.empty()) {

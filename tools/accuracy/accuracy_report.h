@@ -9,61 +9,63 @@
 
 namespace cdprep::report {
 
-/// What `cdprep accuracy` gave.
+/// The result of `cdprep accuracy`.
 struct AccuracyReport {
     std::string input;    ///< A
     std::string input_b;  ///< B
     std::string version;  ///< of the program
     study::AccuracyStudy study;
     int exit = 0;
-    std::optional<std::string> error;  ///< the sentence, when it failed
+    std::optional<std::string> error;  ///< the message, when the study failed
 };
 
-/// One step along a ladder's front: of rungs that none beats in time and error, each against
-/// the one before.
+/// One step along a ladder's front: the ratios between two consecutive rungs that are not
+/// dominated in time and error.
 struct NextDigit {
     std::size_t from;     ///< rung
     std::size_t to;       ///< rung
-    double time;          ///< so many times as long
-    double error;         ///< the error is so many times as small; infinite where it ends
-    double time_a_digit;  ///< times as long for a tenth of the error; NaN where it ends or hardly
-                          ///< shrinks
+    double time;          ///< time of `to` divided by time of `from`
+    double error;         ///< error of `from` divided by error of `to`; infinite if the latter is 0
+    double time_a_digit;  ///< factor of time for a tenth of the error; NaN if `error` is infinite
+                          ///< or close to 1
 };
 
-/// The steps along the front, by rising time. Rungs whose error is 0 are its end.
+/// Returns the steps along the front, by ascending time. The front ends at the rungs whose error is
+/// 0.
 [[nodiscard]] std::vector<NextDigit> next_digits(const study::Ladder& ladder);
 
-/// Tables for a person: every rung of every ladder, and what the next digit costs.
+/// Returns text tables: every rung of every ladder, and the cost of the next digit.
 [[nodiscard]] std::string accuracy_text(const AccuracyReport& report);
 
-/// One object with everything that was measured: poses, rungs, times and answers by pose, so
-/// that every number of the text and the charts can be derived again.
+/// Returns one JSON object with all measurements: poses, rungs, times and answers by pose. Every
+/// number in the text and the charts follows from it.
 [[nodiscard]] std::string accuracy_json(const AccuracyReport& report);
 
-/// A line for each rung, for spreadsheets. Lines about what all share begin with '#'.
+/// Returns a header line and a line for each rung, for spreadsheets. The last cells of each line
+/// hold the facts that all rungs share.
 [[nodiscard]] std::string accuracy_csv(const AccuracyReport& report);
 
-/// The table of a ladder: a head, and a row for each rung, in words.
+/// Returns the table of a ladder in words: a header row, and a row for each rung.
 [[nodiscard]] std::vector<std::vector<std::string>> ladder_table(const study::Ladder& ladder);
 
-/// The steps along the front in words: a head, and a row each.
+/// Returns the steps along the front in words: a header row, and a row for each step.
 [[nodiscard]] std::vector<std::vector<std::string>> next_digit_table(
     const std::vector<study::Ladder>& ladders);
 
-/// Facts about a study, name by name: poses, truth, machine, clock.
+/// Returns facts about a study as pairs of a name and a text: poses, truth, machine, clock.
 [[nodiscard]] std::vector<std::vector<std::string>> study_facts(const study::AccuracyStudy& study);
 
-/// One complete HTML page: the charts, which tell more where one points at them, and the
-/// tables. It asks no network for anything, by its own Content-Security-Policy too.
+/// Returns one complete HTML page with the charts and the tables. The charts show details on
+/// hovering. The page loads nothing from the network; its Content-Security-Policy forbids it too.
 [[nodiscard]] std::string accuracy_page(const AccuracyReport& report);
 
-/// The object of accuracy_json() without what the page does not show, for a script element.
+/// Returns the part of accuracy_json() that the page shows, for a script element.
 [[nodiscard]] std::string accuracy_page_data(const AccuracyReport& report);
 
-/// "exact", "no misses", ...
+/// Returns the name of a promise: "exact", "no misses", ...
 [[nodiscard]] const char* promise_name(study::Promise promise) noexcept;
 
-/// Seconds in a unit that fits: "12.3 us".
+/// Returns seconds in a suitable unit: "12.3 us".
 [[nodiscard]] std::string in_time(double seconds);
 
 }  // namespace cdprep::report

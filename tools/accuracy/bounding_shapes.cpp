@@ -29,7 +29,7 @@ Double3 turned(const Pose& pose, const Double3& v) {
             r[6] * v.x + r[7] * v.y + r[8] * v.z};
 }
 
-/// What lengths of a question about these are enlarged by.
+/// Returns the length by which a query about these shapes enlarges lengths.
 double slack_of(const Double3& centre_a, double size_a, const Double3& centre_b, double size_b,
                 const Pose& pose) {
     return kSlack *
@@ -50,7 +50,8 @@ constexpr std::array<Double3, BoundingDop::kDirections> kDopDirections = {{{1, 0
                                                                            {0, 1, 1},
                                                                            {0, 1, -1}}};
 
-/// Rounding of the planes and of the points where three of them meet, of the polytope's size.
+/// A bound of the rounding errors of planes and of the points where three of them meet, relative to
+/// the polytope's size.
 constexpr double kDopRounding = 1e-12;
 
 struct Plane {
@@ -58,10 +59,11 @@ struct Plane {
     double at;
 };
 
-/// The point of three planes, where they meet in one: by Cramer's rule.
+/// Returns the point where three planes meet, by Cramer's rule, or nothing if there is not exactly
+/// one.
 std::optional<Double3> meeting_of(const Plane& p, const Plane& q, const Plane& r) {
     const Double3 qr = cross(q.normal, r.normal);
-    const double volume = dot(p.normal, qr);  // whole numbers
+    const double volume = dot(p.normal, qr);  // exact, since normals are small whole numbers
     if (volume == 0) return std::nullopt;
     const Double3 rp = cross(r.normal, p.normal);
     const Double3 pq = cross(p.normal, q.normal);
@@ -79,7 +81,7 @@ bool is_within(const BoundingDop& dop, const Double3& p, double slack) {
     return true;
 }
 
-/// Of all points where three planes meet those that none cuts off.
+/// Returns the points where three planes meet and that no plane cuts off.
 std::vector<Double3> dop_corners(const BoundingDop& dop, double slack) {
     std::vector<Plane> planes;
     for (std::size_t i = 0; i < BoundingDop::kDirections; ++i) {
@@ -102,12 +104,12 @@ std::vector<Double3> dop_corners(const BoundingDop& dop, double slack) {
     return corners;
 }
 
-/// More than the diagonal.
+/// Returns a length of at least the diagonal.
 double size_of(const BoundingDop& dop) {
     return dop.upper[0] - dop.lower[0] + dop.upper[1] - dop.lower[1] + dop.upper[2] - dop.lower[2];
 }
 
-/// From where to where points reach along an axis.
+/// The interval of points along an axis.
 struct Shadow {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
@@ -123,7 +125,7 @@ Shadow shadow_of(const std::vector<Double3>& points, const Double3& along) {
     return shadow;
 }
 
-/// How far the box reaches along an axis from its centre.
+/// Returns the extent of the box from its centre along an axis.
 double reach(const std::array<Double3, 3>& axes, const Double3& half, const Double3& along) {
     return half.x * std::fabs(dot(axes[0], along)) + half.y * std::fabs(dot(axes[1], along)) +
            half.z * std::fabs(dot(axes[2], along));
@@ -141,7 +143,8 @@ BoundingSphere bounding_sphere(const mesh::Mesh& mesh) {
             return dot(d, d);
         });
     };
-    // The step towards the farthest point shrinks: the centre comes to that of the least.
+    // The steps towards the farthest point shrink, so the centre converges to that of the smallest
+    // sphere.
     BoundingSphere best{sphere.centre, std::numeric_limits<double>::infinity()};
     for (int step = 1; step <= kSphereSteps; ++step) {
         const Double3 d = minus(farthest(), sphere.centre);
@@ -215,7 +218,7 @@ bool may_touch(const BoundingBox& a, const BoundingBox& b, const Pose& a_from_b)
     const Double3 d = minus(transform_point(a_from_b, b.centre), a.centre);
     const std::array<Double3, 3> axes = {turned(a_from_b, b.axis[0]), turned(a_from_b, b.axis[1]),
                                          turned(a_from_b, b.axis[2])};
-    // An axis of length up to 1 parts them when their shadows on it lie apart.
+    // An axis of length at most 1 separates the boxes if their projections on it are disjoint.
     const auto parts = [&](const Double3& along) {
         return std::fabs(dot(d, along)) >
                reach(a.axis, a.half, along) + reach(axes, b.half, along) + slack;
@@ -236,7 +239,7 @@ bool may_touch(const BoundingBox& a, const BoundingBox& b, const Pose& a_from_b)
 
 bool may_touch(const BoundingDop& a, const BoundingDop& b, const Pose& a_from_b) noexcept {
     if (a.corners.empty() || b.corners.empty()) return false;
-    // Directions are up to two long.
+    // The directions have lengths up to 2.
     const double slack = 2 * slack_of(a.centre, size_of(a), b.centre, size_of(b), a_from_b);
     const Double3 d = minus(transform_point(a_from_b, b.centre), a.centre);
     const auto& r = a_from_b.rotation();

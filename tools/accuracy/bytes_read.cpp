@@ -6,7 +6,8 @@
 namespace cdprep::study {
 namespace {
 
-/// Of a node with the bounds that questions prefer to its boxes; both kinds are as large.
+/// Returns the bytes of a node with the tight bounds that queries prefer to its boxes. Both kinds
+/// of tight bounds have the same size.
 double node_bytes(const Model& model) noexcept {
     static_assert(sizeof(format::OrientedNode) == sizeof(format::SweptNode));
     const bool has_tight = !model.bvh().oriented.empty() || !model.bvh().swept.empty();

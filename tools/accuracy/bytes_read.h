@@ -10,13 +10,14 @@
 
 namespace cdprep::study {
 
-/// Bytes of two models' hierarchies that were read for these counts, at most: of each pair of
-/// nodes both with their tight bounds, of each pair of leaves both, of each pair of triangles
-/// that float could not decide, or that was measured, both with their corners. What is read
-/// again counts again.
+/// Returns an upper bound of the bytes that a query with these counts read of two models' BVHs.
+/// Each pair of nodes counts both with their tight bounds, and each pair of leaves counts both.
+/// Each pair of triangles that float could not decide, or whose distance was measured, counts both
+/// with their corners. Data that is read again counts again.
 [[nodiscard]] double bytes_read(const QueryCounts& counts, const Model& a, const Model& b) noexcept;
 
-/// The same in the mean of the cases, each asked once with this workspace. 0 without any.
+/// Returns the mean of bytes_read() over the cases, or 0 without cases. Runs each case once with
+/// this workspace.
 [[nodiscard]] double mean_bytes_read(const Model& a, const Model& b, Workspace& workspace,
                                      std::size_t cases,
                                      const std::function<void(std::size_t number)>& ask);

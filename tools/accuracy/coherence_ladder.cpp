@@ -19,7 +19,7 @@ constexpr std::uint64_t kUsualCache = 32U << 20U;
 
 using Walk = std::vector<Pose>;
 
-/// B's middle goes straight on and B turns about it.
+/// Returns a walk on which B's middle moves in a straight line and B turns about it.
 Walk walk_from(const Climb& climb, const StudyPose& start, std::size_t frames,
                SeededRandom& random) {
     const format::Bounds& box = *climb.b.model.record().bounds;
@@ -50,7 +50,7 @@ Walk walk_from(const Climb& climb, const StudyPose& start, std::size_t frames,
     return walk;
 }
 
-/// From poses of every stratum in turn.
+/// Returns walks that start from poses of every stratum in turn.
 std::vector<Walk> all_walks(const Climb& climb) {
     const std::size_t count = climb.is_quick ? kStrata : 2 * kStrata;
     const std::size_t frames = climb.is_quick ? 8 : 20;
@@ -64,7 +64,7 @@ std::vector<Walk> all_walks(const Climb& climb) {
     return walks;
 }
 
-/// Reads so much that nothing else is left in the caches.
+/// Evicts everything else from the caches by accessing a large array.
 class Eviction {
 public:
     explicit Eviction(std::uint64_t last_cache)
@@ -84,7 +84,7 @@ constexpr std::array<const char*, 3> kHow = {"the models are not in the processo
                                              "the same query again at once",
                                              "frame after frame with a PairCache"};
 
-/// What was answered in a frame.
+/// The answer in a frame.
 struct Said {
     double lower;
     double upper;
@@ -108,7 +108,8 @@ public:
         return {found->lower, found->upper};
     }
 
-    /// Bytes that a frame's question reads, with what was found before or without.
+    /// Returns the mean bytes that the query of a frame reads, with or without a cache of earlier
+    /// frames.
     [[nodiscard]] double bytes_read(const std::vector<Walk>& walks, bool is_coherent) {
         return mean_bytes_read(climb_.a.model, climb_.b.model, workspace_, walks.size(),
                                [&](std::size_t number) {
@@ -126,7 +127,7 @@ private:
     Workspace workspace_;
 };
 
-/// Asks all walks once in one way; adds a round to `timings`.
+/// Runs the queries of all walks once in one way, and adds a round to `timings`.
 std::vector<Said> ask_walks(Asker& asker, Way way, const std::vector<Walk>& walks,
                             Eviction& eviction, Timings& timings,
                             const std::function<bool()>& stop) {
@@ -150,7 +151,7 @@ std::vector<Said> ask_walks(Asker& asker, Way way, const std::vector<Walk>& walk
     return said;
 }
 
-/// Two intervals for one number have some number in common.
+/// Returns whether the intervals intersect, as two intervals of the same number must.
 bool agree(const Said& one, const Said& other) {
     return one.lower <= other.upper && other.lower <= one.upper;
 }

@@ -35,7 +35,7 @@ struct Arguments {
     fs::path a;
     fs::path b;
     fs::path output;
-    std::vector<fs::path> saves;  ///< more files, of formats by their names
+    std::vector<fs::path> saves;  ///< more files; the extension gives the format
     bool is_quick = false;
     std::uint64_t seed = 1;
     std::vector<std::string> ladders;
@@ -46,7 +46,7 @@ struct Arguments {
     ImportArguments import;
 };
 
-/// Tells how far the study is and about how long it goes on.
+/// Shows the progress of the study and an estimate of the remaining time.
 class Teller {
 public:
     explicit Teller(Progress& progress) : progress_(progress) {}
@@ -70,13 +70,13 @@ private:
 
 constexpr std::array<const char*, 5> kFormats = {"text", "json", "csv", "svg", "html"};
 
-/// One place to which the study is written.
+/// One destination of the report.
 struct Output {
     std::string format;
     ReportOutput to;
 };
 
-/// The format that a file's name asks for.
+/// Returns the format that the extension of a file name selects.
 Result<std::string> format_of(const fs::path& path) {
     std::string end = path.extension().string();
     if (!end.empty()) end.erase(0, 1);
@@ -86,7 +86,7 @@ Result<std::string> format_of(const fs::path& path) {
                  path.string() + ": the extension must be .txt, .json, .csv, .svg or .html."};
 }
 
-/// Begins the file, so that a place where none can be is said before the work.
+/// Opens the file, so that an unwritable path fails before the work.
 Result<Output> open_output(const Arguments& arguments, const fs::path& path,
                            const std::string& format) {
     for (const fs::path* input : {&arguments.a, &arguments.b}) {
@@ -149,7 +149,7 @@ std::string written_as(const std::string& format, const report::AccuracyReport& 
     return report::accuracy_text(report);
 }
 
-/// Writes what was found; an output that fails says so.
+/// Writes the report to all outputs. Prints an error for each output that fails.
 Exit write(const report::AccuracyReport& report, std::vector<Output>& outputs) {
     for (Output& output : outputs) {
         Result<Done> written = output.to.append(written_as(output.format, report));

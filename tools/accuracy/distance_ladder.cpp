@@ -34,14 +34,14 @@ std::string number(double value) {
     return text.str();
 }
 
-/// |estimate - truth| by the truth, of a pose that does not touch.
+/// Returns |estimate - truth| divided by the truth, for a pose in which the models do not touch.
 double error_of(const StudyPose& truth, const Interval& found, bool is_bound) {
     const double estimate = is_bound ? found.lower : found.upper;
     return std::max(0.0, is_bound ? truth.gap_lower - estimate : estimate - truth.gap_upper) /
            truth.gap_upper;
 }
 
-/// Both intervals hold the truth, so they have a number in common.
+/// Returns whether the intervals intersect: both must contain the truth.
 bool holds(const StudyPose& truth, const Interval& found) {
     return found.lower <= truth.gap_upper && truth.gap_lower <= found.upper;
 }
@@ -157,7 +157,7 @@ private:
     std::vector<Contender> contenders_;
 };
 
-/// Time in all and by stratum, of timings by place in `poses`.
+/// Sets the rung's times, in total and by stratum. The timings are indexed as `poses`.
 void keep_time_of(const Climb& climb, const std::vector<std::size_t>& poses, const Timings& timings,
                   Rung& rung) {
     rung.time = timing_of(timings);

@@ -30,12 +30,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using format::SectionId;
 
-// Processor time of all threads for pieces. No search begins that would need more, if it takes
-// twice what the one for half as many took.
+// The processor time of all threads for pieces. A search does not begin if twice the time of the
+// search for half as many pieces would exceed it.
 constexpr double kPieceShare_s = 60;
 constexpr double kQuickPieceShare_s = 6;
-// Of one search (convex::ApproximateOptions): about 4 s and 0.5 s of one core. Solids of few
-// plane faces take all that they are given.
+// The work of one search (convex::ApproximateOptions): about 4 s and 0.5 s of one core. Solids of
+// few plane faces use all of it.
 constexpr std::size_t kPieceWork = 400'000'000;
 constexpr std::size_t kQuickPieceWork = 50'000'000;
 constexpr std::uint32_t kTetraThreshold = 4;
@@ -48,7 +48,7 @@ struct Contender {
     std::function<Answer(std::size_t pose)> ask;
 };
 
-/// Of all threads.
+/// Returns the processor time of all threads.
 double processor_seconds() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
@@ -65,7 +65,7 @@ auto timed(double& seconds, Work work) {
     return made;
 }
 
-/// How far shapes stick out of the two solids, by the diagonal.
+/// Computes how far shapes stick out of the two solids, as a share of the diagonal.
 class Outside {
 public:
     explicit Outside(const Climb& climb)
@@ -73,7 +73,7 @@ public:
           solid_a_(climb.mesh_a, convex::Reference::solid, climb.parallel_for),
           solid_b_(climb.mesh_b, convex::Reference::solid, climb.parallel_for) {}
 
-    /// Of the hulls of these points.
+    /// Returns how far the hulls of these points stick out, the larger of both models.
     [[nodiscard]] double of_points(const std::vector<Double3>& around_a,
                                    const std::vector<Double3>& around_b) const {
         return std::max(error_of(around_a, solid_a_), error_of(around_b, solid_b_)) /
@@ -116,13 +116,13 @@ std::vector<Double3> corners_of(const BoundingDop& dop) {
     return corners;
 }
 
-/// Points whose hull holds the sphere, and little more: a grid of directions, each pushed out
-/// by what the widest gap between neighbours asks for.
+/// Returns points whose hull contains the sphere and little more: a grid of directions at a radius
+/// that covers the widest gap between neighbours.
 std::vector<Double3> corners_around(const BoundingSphere& sphere) {
     constexpr int kRings = 24;
     constexpr int kSides = 48;
     constexpr double kPi = 3.14159265358979323846;
-    // No direction is farther from a corner than half a diagonal of a patch.
+    // The angle from any direction to a corner is at most half the diagonal of a grid cell.
     const double widest = 0.5 * std::hypot(kPi / kRings, 2 * kPi / kSides);
     const double out = sphere.radius / std::cos(widest);
     std::vector<Double3> corners;
@@ -138,7 +138,7 @@ std::vector<Double3> corners_around(const BoundingSphere& sphere) {
     return corners;
 }
 
-/// The rungs with what they are made of, which stays where it is.
+/// The rungs and the structures behind them, at stable addresses.
 class Contenders {
 public:
     Contenders(const Climb& climb, Ladder& ladder)
@@ -172,7 +172,7 @@ private:
         contender.rung.how = how;
         contender.rung.promise = promise;
         contender.ask = std::move(ask);
-        // Shapes enclose; of the hierarchy's boxes there is no one shape.
+        // Shapes enclose the model. The boxes of a BVH are not a single shape.
         const bool is_shape = promise == Promise::no_misses || promise == Promise::both_sides;
         if (is_shape && !name.starts_with("float")) contender.rung.inner = 0;
         contenders_.push_back(std::move(contender));
@@ -222,7 +222,7 @@ private:
         dop.outer = outside_.of_points(corners_of(dop_a_), corners_of(dop_b_));
     }
 
-    /// Bytes that a question about a pair of shapes reads, which ask(pose, sum) adds to a sum.
+    /// Returns the mean bytes that a query about two shapes reads; ask(pose, sum) adds them to sum.
     template <class Ask>
     [[nodiscard]] double mean_read(Ask ask) const {
         std::uint64_t read = 0;
@@ -312,7 +312,7 @@ private:
                                      .answer;
                              });
             constexpr format::SectionSet kNodes = {SectionId::tetra_tree, SectionId::tetra_nodes};
-            // All are looked at for the level's error.
+            // The error of a level comes from all nodes.
             keep_all_read(rung, in_a.seconds.tetra_tree + in_b.seconds.tetra_tree,
                           bytes_of(in_a, kNodes) + bytes_of(in_b, kNodes));
             rung.outer = std::max(level_error(in_a.model, level), level_error(in_b.model, level)) /
@@ -440,7 +440,7 @@ private:
         rung.bytes = bytes;
     }
 
-    /// Of what every question reads completely.
+    /// Sets the build time and bytes of structures that every query reads completely.
     static void keep_all_read(Rung& rung, double build_s, std::uint64_t bytes) {
         keep(rung, build_s, bytes);
         rung.touched = static_cast<double>(bytes);

@@ -6,11 +6,11 @@
 namespace cdprep::study {
 namespace {
 
-/// Wrong answers of a rung, as poses.
+/// The poses in which a rung's answer is wrong.
 struct Wrong {
     std::vector<std::size_t> misses;
-    std::vector<std::size_t> false_hits;     ///< not called apart; unknown is no broken promise
-    std::vector<std::size_t> false_promise;  ///< called a hit, and is none, not as solids either
+    std::vector<std::size_t> false_hits;     ///< not called apart; unknown breaks no promise
+    std::vector<std::size_t> false_promise;  ///< called a hit, but not even the solids touch
 };
 
 bool is_miss(const StudyPose& pose, Answer answer) {
@@ -21,7 +21,8 @@ bool is_false_hit(const StudyPose& pose, Answer answer) {
     return !pose.hit && answer != Answer::no;
 }
 
-/// A rung may answer for solids: what is inside touches nothing, and is hit all the same.
+/// Returns whether a hit is false even for solids. A rung may answer for solids: a model inside the
+/// other is then a hit, although the surfaces do not touch.
 bool is_false_yes(const StudyPose& pose, Answer answer) {
     return !pose.hit && answer == Answer::yes && pose.solid == Answer::no;
 }
@@ -37,7 +38,7 @@ Wrong find_wrong(const PoseSet& set, const Rung& rung) {
     return wrong;
 }
 
-/// Wrong flags of some of the poses.
+/// The wrong answers in some of the poses.
 struct WrongFlags {
     ShareInterval misses;
     ShareInterval false_hits;
@@ -74,7 +75,7 @@ RigidErrors rigid_errors(const PoseSet& set, const Rung& rung) {
     return {wrong.misses, wrong.false_hits, set.poses.size() - proved.size()};
 }
 
-/// The deepest miss; without one the false hit that is farthest apart.
+/// Sets the worst pose: the deepest miss or, without misses, the false hit that is farthest apart.
 void find_worst(const PoseSet& set, const Wrong& wrong, Rung& rung) {
     const auto depth = [&](std::size_t i) { return set.poses[i].depth; };
     const auto gap = [&](std::size_t i) { return set.poses[i].gap_upper; };

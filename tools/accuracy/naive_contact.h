@@ -10,11 +10,11 @@
 
 namespace cdprep::study {
 
-/// Two triangles as code without exact arithmetic tests them, in a type of its choice: six
-/// edges against triangles by the signs of volumes, of which those of at most `tolerance`
-/// (relative to the largest difference of coordinates, cubed) count as 0, and 0 as touching.
-/// Triangles in one plane are taken to be apart, as is common. Not for answers: to show what
-/// they cost.
+/// A triangle-triangle test as code without exact arithmetic does it, in a given number type. It
+/// tests six edges against triangles by the signs of volumes. Volumes of at most `tolerance`,
+/// relative to the cube of the largest difference of coordinates, count as 0, and 0 counts as
+/// touching. Triangles in one plane count as apart, as is common. This test only shows the cost and
+/// the errors of such code; do not use its answers.
 template <class Number>
 class NaiveContact {
 public:
@@ -23,7 +23,7 @@ public:
 
     explicit NaiveContact(Number tolerance) : tolerance_(tolerance) {}
 
-    /// Corners are rounded to the type.
+    /// Returns the corners rounded to the type.
     [[nodiscard]] static Corners rounded(const std::array<format::Double3, 3>& corners) {
         Corners result;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -38,7 +38,7 @@ public:
     }
 
 private:
-    /// -1, 0 or 1: the side of the plane of a, b, c on which d is.
+    /// Returns the side of the plane of a, b, c on which d lies: -1, 0 or 1.
     [[nodiscard]] int side(const Point& a, const Point& b, const Point& c, const Point& d) const {
         Point u{};
         Point v{};

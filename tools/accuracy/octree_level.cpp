@@ -12,7 +12,7 @@ namespace {
 
 using format::OctreeNode;
 
-/// Where a node's cube is: decoded from its key.
+/// The cube of a node, decoded from its key.
 struct Cube {
     Double3 centre;
     double half;
@@ -37,8 +37,8 @@ double size_of(const format::OctreeGrid& grid) {
            3 * edge;
 }
 
-/// Cubes of the one grid against those of the other, which all stand alike: what depends on
-/// the rotation alone is kept.
+/// Tests cubes of one grid against those of the other. All cubes of a grid have the same axes, so
+/// the terms that depend only on the rotation are computed once.
 class CubeTest {
 public:
     CubeTest(const CellModel& a, const CellModel& b, const Pose& pose) : pose_(pose) {
@@ -74,7 +74,7 @@ public:
     }
 
 private:
-    /// Along the cross product of A's axis i and B's axis j.
+    /// Returns whether the cross product of A's axis i and B's axis j separates the cubes.
     [[nodiscard]] bool parts(const Cube& a, const Cube& b, const std::array<double, 3>& d,
                              std::size_t i, std::size_t j) const {
         const auto& r = pose_.rotation();

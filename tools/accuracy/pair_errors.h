@@ -6,14 +6,14 @@
 
 namespace cdprep::study {
 
-/// A share, 0 to 1, and between which it lies with 95 % confidence.
+/// A share, 0 to 1, and its interval with 95 % confidence.
 struct ShareBand {
     double share = 0;
     double low = 0;
     double high = 0;
 };
 
-/// Two sets of pairs of triangles against each other: what is wanted and what was found.
+/// The comparison of two sets of triangle pairs: the wanted pairs and the found pairs.
 struct PairCounts {
     std::size_t wanted = 0;  ///< pairs of the exact set
     std::size_t found = 0;
@@ -22,18 +22,17 @@ struct PairCounts {
     friend bool operator==(const PairCounts&, const PairCounts&) = default;
 };
 
-/// The same over many poses.
+/// The errors in the pairs of many poses.
 struct PairErrors {
     PairCounts all;       ///< the sums
-    ShareBand recall;     ///< of the wanted pairs those that were found; 1 where none is wanted
-    ShareBand precision;  ///< of the found pairs those that are wanted; 1 where none was found
-    ShareBand wrong;      ///< missing or too many, of the pairs in either set; 0 without any
+    ShareBand recall;     ///< the share of the wanted pairs that were found; 1 if none is wanted
+    ShareBand precision;  ///< the share of the found pairs that are wanted; 1 if none was found
+    ShareBand wrong;      ///< missing or extra pairs, of the pairs in either set; 0 without pairs
 };
 
-/// The errors of all poses together. Pairs of one pose are right or wrong together, so poses
-/// are what is drawn again: a bootstrap of a thousand, by percentiles, from a fixed seed. Where
-/// all poses err alike, and so where none errs, the band is a point; no more is known of poses
-/// that were not asked.
+/// Returns the errors of all poses together. Errors of pairs in one pose are correlated, so the
+/// bootstrap resamples poses: a thousand times, with percentiles, from a fixed seed. If all poses
+/// err alike, and so if none errs, the band is a point. This proves nothing about other poses.
 [[nodiscard]] PairErrors pair_errors(std::span<const PairCounts> by_pose);
 
 }  // namespace cdprep::study

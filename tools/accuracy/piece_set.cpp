@@ -108,7 +108,7 @@ bool pieces_touch(const PieceSet& a, const PieceSet& b, const Pose& a_from_b,
             QueryCounts counts;
             const bool touch =
                 convex_collide(in_a, in_b, placement, nullptr, read != nullptr ? &counts : nullptr);
-            // Without neighbours a step looks at all points of both.
+            // Without hull neighbours, each step reads all points of both.
             reads(counts.hull_steps * (bytes_of(in_a) + bytes_of(in_b)));
             if (touch) return true;
         }

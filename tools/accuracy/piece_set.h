@@ -15,27 +15,27 @@
 
 namespace cdprep::study {
 
-/// Convex pieces that enclose a mesh, ready for questions: as a file stores them, with a
-/// sphere around each.
+/// Convex pieces that enclose a mesh, ready for queries: as a file stores them, with a sphere
+/// around each.
 struct PieceSet {
     convex::HullSections sections;
     std::vector<BoundingSphere> around;
     double outer_error = 0;  ///< no point of a piece is farther from the solid; model units
-    double seconds = 0;      ///< what finding them took, of the clock
+    double seconds = 0;      ///< the wall-clock time of the search
 
-    /// Of corners and spheres: what a question may read.
+    /// Returns the bytes of corners and spheres, which a query may read.
     [[nodiscard]] std::uint64_t bytes() const noexcept;
 };
 
-/// At most so many pieces, of at most 64 corners each, by so much work
-/// (convex::ApproximateOptions). Nothing when `stop` said so.
+/// Returns at most `count` pieces of at most 64 corners each. `work` bounds the search
+/// (convex::ApproximateOptions). Returns nothing if `stop` returned true.
 [[nodiscard]] std::optional<PieceSet> make_piece_set(const mesh::Mesh& mesh, std::size_t count,
                                                      std::size_t work, ParallelFor parallel_for,
                                                      const std::function<bool()>& stop);
 
-/// Whether any piece of A has a point in common with one of B as moved: spheres first, then
-/// convex_collide(). `moved_centres` is scratch. To `read`, or null, it adds the bytes of what it
-/// reads; what it reads again counts again.
+/// Returns whether any piece of A shares a point with a piece of the moved B. Tests spheres first,
+/// then convex_collide(). `moved_centres` is scratch memory. Adds the bytes that it reads to `read`
+/// if that is not null; data that is read again counts again.
 [[nodiscard]] bool pieces_touch(const PieceSet& a, const PieceSet& b, const Pose& a_from_b,
                                 std::vector<Double3>& moved_centres, std::uint64_t* read = nullptr);
 

@@ -16,15 +16,15 @@ constexpr double kNearby = 1e-4;  ///< of the diagonal
 constexpr std::size_t kPairsAPose = 2000;
 constexpr std::size_t kPairsACase = 64;
 
-/// Two triangles as they stand in a pose.
+/// Two triangles in a pose.
 struct Candidate {
     Corners a;
     Corners b;
     std::size_t pose;
-    bool touch;  ///< exactly
+    bool touch;  ///< the exact answer
 };
 
-/// Of each pose a sample of the pairs that are hard at all.
+/// Returns a sample of the hard pairs of each pose: those that are near or touch.
 std::vector<Candidate> find_candidates(const Climb& climb) {
     std::vector<Candidate> candidates;
     Workspace workspace;
@@ -36,7 +36,7 @@ std::vector<Candidate> find_candidates(const Climb& climb) {
         std::vector<TrianglePair> pairs;
         std::size_t met = 0;
         const auto keep = [&](const TrianglePair& pair) {
-            // Every pair is as likely to be among those kept (reservoir).
+            // Reservoir sampling: every pair is equally likely to be kept.
             ++met;
             if (pairs.size() < kPairsAPose) {
                 pairs.push_back(pair);
@@ -100,12 +100,13 @@ std::vector<Contender> all_contenders(bool has_float) {
     return contenders;
 }
 
-/// Right answers of a pose, as pairs that are wanted and found.
+/// The counts of right answers by pose: `wanted` and `found` count all answers, `both` the right
+/// ones.
 using RightAnswers = std::vector<PairCounts>;
 
-/// The share of wrong answers. Its band is the wider one of two: poses drawn again, for pairs
-/// of one pose are alike, and Clopper's and Pearson's, which is none too narrow where no answer
-/// is wrong.
+/// Sets the share of wrong answers. Its band covers two intervals. One is a bootstrap over poses,
+/// since pairs of one pose are correlated. The other is by Clopper and Pearson, which is not too
+/// narrow if no answer is wrong.
 void keep_wrong_share(const RightAnswers& right, Rung& rung) {
     const PairErrors drawn = pair_errors(right);
     const std::size_t wrong = drawn.all.wanted - drawn.all.both;
@@ -162,7 +163,7 @@ Ladder climb_predicates(const Climb& climb, Broken& broken) {
     if (!has_float) ladder.left_out.emplace_back("float: coordinates are beyond its range.");
     std::vector<Contender> contenders = all_contenders(has_float);
     std::vector<Question> questions;
-    // Cases are spread over all poses.
+    // The cases are spread over all poses.
     const std::size_t stride = pairs.size() / kPairsACase / cases * kPairsACase;
     for (Contender& contender : contenders) {
         judge(climb, pairs, contender, broken);

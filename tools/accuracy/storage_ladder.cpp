@@ -101,7 +101,7 @@ public:
         rung.displacement =
             std::max(moved_by(climb_.mesh_a, mesh_a), moved_by(climb_.mesh_b, mesh_b)) /
             climb_.set.diagonal;
-        // Every point of a triangle moves by at most what its corners do, either way.
+        // No point of a triangle moves more than its corners, in either direction.
         rung.outer = rung.inner = rung.displacement;
         rung.promise = *rung.displacement == 0 ? Promise::exact : Promise::none;
         const std::size_t before = degenerate_count(climb_.mesh_a, climb_.parallel_for) +
@@ -147,7 +147,7 @@ public:
         way.rung.pairs = errors;
         judge_answers("storage", climb_.set, way.rung, broken);
         judge_pairs("storage", way.rung, broken);
-        // Few flags change; how many pairs do tells more.
+        // Few collision answers change. The number of changed pairs is more informative.
         keep_error(errors.wrong, way.rung);
     }
 

@@ -7,9 +7,9 @@
 
 namespace cdprep::cli {
 
-/// The mesh of a mesh file, as load_mesh() gives it, or of a baked file, as it was baked: told
-/// by what the file begins with. A baked file needs triangles and positions, and is taken as it
-/// is: bad_argument when it has none, and when the options ask for more.
+/// Returns the mesh of a mesh file by load_mesh(), or the mesh of a baked file as it was baked. The
+/// first bytes decide which kind the file is. Fails with bad_argument if a baked file has no
+/// triangles or positions, or if the options ask to normalize or weld it.
 [[nodiscard]] Result<mesh::Mesh> load_for_study(const std::filesystem::path& input,
                                                 const LoadOptions& options);
 

@@ -18,10 +18,10 @@ struct BakeOptions {
     bool normalize = false;
     double weld_distance = 0;    ///< model units
     std::string repair;          ///< a preset of mesh::find_repair_preset(), or empty
-    double piece_tolerance = 0;  ///< of the effect "pieces"; model units, as baked; 0: exact
+    double piece_tolerance = 0;  ///< for the effect "pieces"; model units, as baked; 0: exact
     /// The search for crossings ends at this number of pairs.
     std::uint64_t max_pairs = mesh::kDefaultMaxPairs;
-    bool strict = false;  ///< refuse a mesh with findings
+    bool strict = false;  ///< refuse a mesh with a warning or error, or not fully examined
     build::BvhBounds bounds = build::BvhOptions{}.bounds;
     import::ImportOptions import;
 };

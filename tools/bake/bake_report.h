@@ -15,13 +15,13 @@ namespace cdprep::report {
 /// Convex parts that enclose the mesh.
 struct BakedParts {
     std::size_t count = 0;
-    double outer_error = 0;  ///< proved: no point of one is farther from the solid, model units
+    double outer_error = 0;  ///< proved: no point of a part is farther from the solid, model units
     bool is_as_asked = true;
-    std::uint64_t fragments = 0;  ///< of triangles, each proved to lie in one
-    std::uint64_t outside = 0;    ///< corners of fragments that do not: 0
+    std::uint64_t fragments = 0;  ///< fragments of triangles, each proved to lie in a part
+    std::uint64_t outside = 0;    ///< corners of fragments that lie in no part: 0
 };
 
-/// What baking one file gave.
+/// The result of baking one file.
 struct BakeReport {
     std::string input;
     std::string output;
@@ -32,10 +32,10 @@ struct BakeReport {
     std::uint64_t degenerate_triangles = 0;
     bool closed = false;
     std::string repaired;               ///< the preset, or empty
-    std::vector<std::string> promises;  ///< what answers mean on it, as promise_words()
+    std::vector<std::string> promises;  ///< the guarantees of queries on it, as promise_words()
     bool crossings_complete = true;     ///< all pairs of triangles were examined
     std::vector<std::string> remarks;   ///< sentences on limits that were reached
-    std::uint64_t warnings = 0;         ///< rules that found a warning or more
+    std::uint64_t warnings = 0;         ///< rules that found a warning or an error
     bool single_precision = false;
     std::vector<StructureReport> structures;
     std::optional<BakedParts> parts;
@@ -43,13 +43,14 @@ struct BakeReport {
     double seconds = 0;
     std::vector<StageTime> stages;
     int exit = 0;                      ///< exit code for this file
-    std::optional<std::string> error;  ///< the sentence, when it failed
+    std::optional<std::string> error;  ///< the message, when the bake failed
 };
 
-/// A line for a person; with the times of the stages when asked for.
+/// Returns a line of text, and lines for remarks, structures and parts if there are any. With
+/// `timings`, a line for each stage follows.
 [[nodiscard]] std::string bake_text(const BakeReport& report, Timings timings);
 
-/// {"models": [...]}: one object a file.
+/// Returns {"models": [...]} with one object per file.
 [[nodiscard]] std::string bake_json(const std::vector<BakeReport>& reports);
 
 }  // namespace cdprep::report

@@ -12,7 +12,7 @@ namespace {
 
 using format::SectionId;
 
-/// Each name ended by a zero byte.
+/// The names one after the other, each followed by a zero byte.
 std::string ended_names(const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& name : names) text += name + '\0';

@@ -18,7 +18,7 @@
 
 namespace cdprep::cli {
 
-/// Texts that a bake keeps, and what was found of its mesh.
+/// The texts that a bake stores, and the verdicts on its mesh.
 struct BakedNotes {
     std::vector<format::Verdict> verdicts;
     std::string findings;                      ///< JSON
@@ -26,29 +26,29 @@ struct BakedNotes {
     std::vector<std::uint32_t> repaired_from;  ///< empty: nothing was repaired
 };
 
-/// Everything a bake may hold, as arrays that sections can point into.
+/// Everything a baked file may hold, as arrays that sections can point into.
 class BakedArrays {
 public:
-    /// `ordered` and `bvh` are in tree order; `degenerate` as find_degenerate()
-    /// gives it. Takes from the soup what is kept of the source.
+    /// Copies from `soup` the facts about the source that a file holds. `ordered` and `bvh` are in
+    /// tree order. `degenerate` has the form that find_degenerate() returns.
     BakedArrays(const mesh::TriangleSoup& soup, mesh::Mesh ordered, build::Bvh bvh,
                 std::vector<std::uint64_t> degenerate, std::vector<format::Component> components,
                 const format::Bounds& bounds, const std::optional<format::MassProperties>& mass,
                 BakedNotes notes);
 
-    /// Adds what was built over mesh().
+    /// Adds the structures that were built over mesh().
     void keep(Structures structures);
 
     /// Adds the pieces of mesh()'s surface, and the hierarchy over them.
     void keep(convex::PieceArrays pieces, convex::PieceTree tree);
-    /// Adds what contacts between pieces need besides them.
+    /// Adds the arrays that contacts between pieces use besides the pieces.
     void keep(convex::ContactArrays contacts);
     [[nodiscard]] const convex::PieceArrays& pieces() const noexcept {
         return pieces_;
     }
 
-    /// Views of those sections in `wanted` that have something to say. Valid
-    /// while this object lives and stays where it is.
+    /// Returns views of the sections in `wanted`, without those whose absence means the same as
+    /// an empty array. The views are valid while this object lives and does not move.
     [[nodiscard]] build::SectionList sections(format::SectionSet wanted) const;
 
     [[nodiscard]] const mesh::Mesh& mesh() const noexcept {

@@ -15,11 +15,11 @@
 namespace cdprep::cli {
 namespace {
 
-/// Kept of each finding in a baked file: who wants all asks validate.
+/// The number of places that a baked file stores for each finding. 'cdprep validate' lists more.
 constexpr std::size_t kPlaces = 100;
 constexpr std::size_t kNumbersInSentence = 4;
 
-/// The soup with its vertices where welding has put them.
+/// Returns the soup with each vertex where welding has put it.
 mesh::TriangleSoup as_welded(const mesh::TriangleSoup& soup, const mesh::Mesh& welded) {
     mesh::TriangleSoup joined = soup;
     for (std::size_t i = 0; i < soup.triangles.size(); ++i) {

@@ -12,23 +12,23 @@
 
 namespace cdprep::cli {
 
-/// Finds the defects of a mesh as it is baked: `soup` with the vertices that `welded` joined in one
-/// place. The exit code is Exit::findings if a finding is a warning or an error, which --strict
-/// refuses. The report names no input.
+/// Finds the defects of a mesh as it is baked: `soup`, each vertex at its position in `welded`.
+/// The report's exit code is Exit::findings if a finding is a warning or an error; --strict
+/// refuses such a mesh. The report names no input.
 [[nodiscard]] report::ValidationReport find_for_bake(const mesh::TriangleSoup& soup,
                                                      const mesh::Mesh& welded,
                                                      std::uint64_t max_pairs,
                                                      ParallelFor parallel_for);
 
-/// How many rules found a warning or more.
+/// Returns the number of rules that found a warning or an error.
 [[nodiscard]] std::uint64_t count_warnings(const report::ValidationReport& found);
 
-/// The message of --strict, without the input's name: the first warning or error, and how many
-/// rules found one.
+/// Returns the message of --strict, without the input's name: the first warning or error, and the
+/// number of other rules that found one. Without either, the message is the report's first remark.
 [[nodiscard]] std::string strict_refusal(const report::ValidationReport& found);
 
-/// What the file keeps of it and of the repair before, if any: JSON, without names of
-/// files.
+/// Returns the summary of the findings, and of the repair before them if any, that the baked file
+/// stores. The text is JSON without file names.
 [[nodiscard]] std::string kept_findings(const report::ValidationReport& found,
                                         const std::optional<mesh::RepairReport>& repair);
 

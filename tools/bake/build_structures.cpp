@@ -12,7 +12,7 @@ namespace cdprep::cli {
 
 Structures build_structures(const mesh::Mesh& ordered, const build::Frame& frame,
                             StructureChoice choice, const Threads& threads, Stages& stages) {
-    // One after the other: each uses all threads, and only one holds scratch memory.
+    // One after the other: each uses all threads, and only one at a time holds scratch memory.
     Structures built;
     if (choice.has_octree()) {
         choice.octree.parallel_for = threads.parallel_for();

@@ -16,7 +16,8 @@
 
 namespace cdprep::cli {
 
-/// Builds the chosen octrees and tetra-trees over a mesh in tree order, whose numbers they hold.
+/// Builds the chosen octrees and tetra-trees over a mesh in tree order. They hold triangle numbers
+/// in this order.
 [[nodiscard]] Structures build_structures(const mesh::Mesh& ordered, const build::Frame& frame,
                                           StructureChoice choice, const Threads& threads,
                                           Stages& stages);
@@ -26,7 +27,7 @@ struct BuiltHulls {
     std::optional<report::BakedParts> parts;  ///< the parts that enclose the mesh, if chosen
 };
 
-/// Builds hulls over the mesh in source order, in which components and instances are numbered.
+/// Builds hulls over the mesh in source order; components and instances are numbered in this order.
 /// Errors name `input`.
 [[nodiscard]] Result<BuiltHulls> build_hulls(const std::filesystem::path& input,
                                              const mesh::TriangleSoup& soup, const mesh::Mesh& mesh,

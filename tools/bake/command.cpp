@@ -38,7 +38,7 @@ struct Arguments {
     BakeOptions options;
 };
 
-/// NAME.cdp.h5 beside the input, or where the arguments say.
+/// Returns the path that the arguments give, or else NAME.cdp.h5 beside the input.
 fs::path output_for(const Arguments& arguments, const fs::path& input) {
     if (!arguments.output.empty()) return arguments.output;
     fs::path name = input.filename();
@@ -47,13 +47,13 @@ fs::path output_for(const Arguments& arguments, const fs::path& input) {
     return input.parent_path() / name;
 }
 
-/// One spelling for every way to name a file.
+/// Returns the same spelling for every way to write a path. Does not resolve links.
 fs::path spelled_out(const fs::path& path) {
     return fs::absolute(path).lexically_normal();
 }
 
-/// Fails when two inputs would become one file, or an output would replace an
-/// input.
+/// Returns an output path for each input. Fails if two inputs have the same output, or if an output
+/// would replace an input.
 Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
     std::map<fs::path, fs::path> input_of;
     std::set<fs::path> inputs;
@@ -84,7 +84,7 @@ Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
     return outputs;
 }
 
-/// Bakes one file, whatever happens.
+/// Bakes one file. Returns exceptions as errors.
 Result<report::BakeReport> bake_one(const fs::path& input, const fs::path& output,
                                     const Arguments& arguments, const Threads& threads,
                                     const std::function<void(const char*)>& begins) {
@@ -139,8 +139,8 @@ Exit bake_all(const Arguments& arguments, const std::vector<fs::path>& outputs,
     return is_interrupted() ? Exit::interrupted : worst;
 }
 
-/// What wins for the questions that a bake is to serve: swept rectangles come nearer to
-/// a distance, as contacts too ask for, and nothing else uses them.
+/// Returns the fastest bounds for the queries that a bake serves. Swept rectangles bound distances
+/// more tightly, which helps distance and contact queries; no other query uses them.
 build::BvhBounds bounds_for(const Effects& effects) {
     const bool measures =
         std::any_of(effects.names.begin(), effects.names.end(), [](const std::string& name) {
@@ -149,7 +149,8 @@ build::BvhBounds bounds_for(const Effects& effects) {
     return measures ? build::BvhBounds::oriented_and_swept : build::BvhBounds::oriented;
 }
 
-/// Of kBoundsNames, or "auto"; the command line lets no other name through.
+/// Returns the bounds with this name in kBoundsNames, or the best for `effects` if it is "auto".
+/// The command line admits no other name.
 build::BvhBounds bounds_named(const std::string& name, const Effects& effects) {
     const auto* at =
         std::find_if(report::kBoundsNames.begin(), report::kBoundsNames.end(),
@@ -190,7 +191,7 @@ Exit run(Arguments& arguments) {
     return bake_all(arguments, outputs.value(), style.value());
 }
 
-/// What goes into the baked file, and where that is written.
+/// Adds the options for the content and the path of the baked file.
 void add_output_options(const Command& command, Arguments& arguments) {
     const Option output = command
                               .add_option("-o,--output", arguments.output,

@@ -11,7 +11,7 @@ namespace {
 using format::SectionId;
 using format::SectionSet;
 
-/// In every bake, whatever it serves.
+/// The sections of every baked file, whatever its effects.
 constexpr SectionSet kAlways = {SectionId::bounds, SectionId::provenance, SectionId::verdicts,
                                 SectionId::findings};
 
@@ -19,7 +19,7 @@ bool is_effect(const Needs& row) {
     return row.bake_option == std::string("--effects ") + row.name;
 }
 
-/// In the order of their names.
+/// Returns the names of all effects, sorted.
 std::vector<std::string> all_names() {
     std::vector<std::string> names;
     for (const Needs& row : needs()) {
@@ -29,7 +29,8 @@ std::vector<std::string> all_names() {
     return names;
 }
 
-/// Structures are chosen by `--structures`, also where an effect needs one.
+/// Returns the sections of all structures. `--structures` chooses these, even where an effect
+/// needs one.
 SectionSet sections_of_structures() {
     Ask structures = Ask::nothing;
     for (const Needs& row : needs()) {

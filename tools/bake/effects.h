@@ -9,17 +9,18 @@
 
 namespace cdprep::cli {
 
-/// What a bake is to serve.
+/// The effects that a file is baked for.
 struct Effects {
     std::vector<std::string> names;  ///< sorted, each once
     Ask asks = Ask::nothing;
-    format::SectionSet sections;  ///< what they need or use, without structures
-    bool all = false;             ///< asked for by that word
+    format::SectionSet sections;  ///< sections that they need or use, without structures
+    bool all = false;             ///< the list contains "all"
 };
 
-/// Takes a comma-separated list of effects: the rows of the table of needs that `--effects` adds.
-/// "all" stands for every one; an empty list for the default: collide, overlap, distance, within,
-/// ray, closest. Fails with bad_argument on an unknown name, and lists the known ones.
+/// Parses a comma-separated list of effects. An effect is a row of needs() whose option is
+/// `--effects`. "all" selects every effect. An empty list selects the default: collide, overlap,
+/// distance, within, ray, closest. Fails with bad_argument on an unknown name, and lists the known
+/// ones.
 [[nodiscard]] Result<Effects> parse_effects(const std::string& list);
 
 }  // namespace cdprep::cli

@@ -33,7 +33,7 @@ struct RepairOutcome {
     std::vector<std::uint32_t> triangle_from;
     std::vector<std::uint32_t> vertex_from;
     std::optional<mesh::RepairReport> report;  ///< none without --repair
-    std::string worse;                         ///< how many more triangles cross; empty: none
+    std::string worse;                         ///< new crossing triangles, in words; empty: none
 };
 
 /// The results of the stages that examine the mesh.
@@ -167,7 +167,7 @@ private:
         return options_.effects.sections.contains(section);
     }
 
-    /// Brings the mesh and all that was found of it into tree order.
+    /// Brings the mesh and all facts found about it into tree order.
     void arrange() {
         if (repair_.report) {
             for (std::uint32_t& vertex : welded_.mesh.source_vertex) {

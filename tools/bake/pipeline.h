@@ -12,8 +12,8 @@
 namespace cdprep::cli {
 
 /// Bakes one file: import, repair, weld, examine, arrange, build structures, write. Calls `begins`
-/// with the name of each stage as it begins. Fails with the code of the reason; `interrupted` if
-/// the user stopped the program between two stages.
+/// with the name of each stage as it begins. Fails with the error code of the failed stage, or with
+/// `interrupted` if the user stopped the program between two stages.
 [[nodiscard]] Result<report::BakeReport> bake(const std::filesystem::path& input,
                                               const std::filesystem::path& output,
                                               const BakeOptions& options, const Threads& threads,

@@ -18,7 +18,7 @@ std::string hexadecimal(std::uint64_t value) {
     return text.data();
 }
 
-/// {} when nothing besides the hierarchy of boxes was built.
+/// Returns {} if no structure besides the BVH was built.
 nlohmann::json structures_json(const std::vector<report::StructureSettings>& structures) {
     nlohmann::json json = nlohmann::json::object();
     for (const report::StructureSettings& settings : structures) {
@@ -35,7 +35,7 @@ std::string provenance_json(const BakeOptions& options, const mesh::TriangleSoup
     const HullChoice& hulls = options.structures.hulls;
     nlohmann::json json = {
         {"tool", {{"name", "cdprep"}, {"version", CDPREP_VERSION}}},
-        // Raised whenever a stage gives other bytes for the same input.
+        // Raise a stage's number when its result for the same input changes.
         {"algorithms",
          {{"bvh", 1},
           {"weld", 1},

@@ -9,7 +9,7 @@
 
 namespace cdprep::convex {
 
-/// Adds the arrays to the sections of a model, also those that are empty.
+/// Adds the arrays to the sections of a model, including empty arrays.
 void add_sections(build::SectionList& list, const HullSections& hulls);
 void add_sections(build::SectionList& list, const PieceArrays& pieces);
 void add_sections(build::SectionList& list, const PieceTree& tree);

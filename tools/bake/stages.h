@@ -25,7 +25,7 @@ public:
         return result;
     }
 
-    /// Adds a stage that runs beside others. `timed()` fills in its time.
+    /// Adds a stage that runs in parallel with others. `timed()` sets its time.
     double& add(const char* name) {
         return times_.emplace_back(report::StageTime{name, 0}).seconds;
     }
@@ -43,7 +43,7 @@ public:
         return {times_.begin(), times_.end()};
     }
 
-    /// Seconds since the stages were made.
+    /// Returns the seconds since the construction of this object.
     [[nodiscard]] double total() const {
         return since(begin_);
     }
@@ -57,7 +57,7 @@ private:
 
     const std::function<void(const char*)>& begins_;
     Clock::time_point begin_ = Clock::now();
-    std::deque<report::StageTime> times_;  ///< a deque, because it never moves its elements
+    std::deque<report::StageTime> times_;  ///< a deque, because add() returns references
 };
 
 }  // namespace cdprep::cli

@@ -15,7 +15,7 @@
 namespace cdprep::cli {
 namespace {
 
-/// Convex hulls: no tree, but chosen as the trees are.
+/// Convex hulls are no tree, but --structures chooses them too.
 constexpr const char* kHull = "hull";
 
 const report::StructureName* find_baked(const std::string& name) {
@@ -25,7 +25,7 @@ const report::StructureName* find_baked(const std::string& name) {
     return at == report::kStructureNames.end() ? nullptr : at;
 }
 
-/// What the file holds for a structure that is baked.
+/// Returns the sections that a baked structure needs.
 format::SectionSet needed_by(Structure structure) {
     return find_needs(ask_of(structure))->needed;
 }
@@ -46,7 +46,7 @@ Error unknown_structure(const std::string& name) {
             message + "all or none." + report::suggestion(name, baked_names())};
 }
 
-/// The structures that a list names.
+/// Returns the structures that a comma-separated list names.
 Result<std::vector<std::string>> parse_list(const std::string& list) {
     if (list == "none") return std::vector<std::string>{};
     std::vector<std::string> names;
@@ -62,7 +62,7 @@ Result<std::vector<std::string>> parse_list(const std::string& list) {
     return names;
 }
 
-/// An option that would change nothing was meant for something.
+/// Returns an error if an option is given that has no effect: the user expects it to have one.
 std::optional<Error> find_idle_option(const StructureArguments& arguments,
                                       const StructureChoice& choice) {
     const bool has_some_octree = choice.has_octree() || choice.has_adaptive_octree();
@@ -94,7 +94,7 @@ std::optional<Error> find_idle_option(const StructureArguments& arguments,
     return std::nullopt;
 }
 
-/// Of a name that the command line let through.
+/// Returns the preset with this name. The command line admits no unknown name.
 const build::StructurePreset& preset_named(const std::string& name) {
     return *std::find_if(build::kStructurePresets.begin(), build::kStructurePresets.end(),
                          [&](const build::StructurePreset& preset) { return name == preset.name; });
@@ -144,7 +144,7 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
         parse_list(arguments.list.empty() ? unless_said : arguments.list);
     if (!names) return names.error();
     StructureChoice choice;
-    // The one effect that needs a structure, when it was asked for by its own name.
+    // `inaccessible` is the one effect that needs a structure. "all" does not add it here.
     if (!effects.all && contains(effects.asks, Ask::inaccessible)) {
         choice.sections.insert(needed_by(Structure::tetra_tree));
     }
@@ -195,7 +195,7 @@ namespace {
 
 constexpr const char* kGroup = "Structures";
 
-/// How cells are split and bounded.
+/// Adds the options for splitting and bounding cells.
 void add_cell_rules(const Command& command, StructureArguments& arguments) {
     command
         .add_option("--split", arguments.split,

@@ -18,18 +18,19 @@
 
 namespace cdprep::cli {
 
-/// How convex hulls are built.
+/// The options for convex hulls and enclosing parts. Parts are built if `parts` or `max_error` is
+/// set.
 struct HullChoice {
     std::uint32_t max_vertices = 0;        ///< of each; 0: any number, exact
-    std::optional<std::size_t> parts;      ///< at most so many enclose the mesh; else none,
-    std::optional<double> max_error = {};  ///< unless they may stick out this far, model units
+    std::optional<std::size_t> parts;      ///< maximum number of parts that enclose the mesh
+    std::optional<double> max_error = {};  ///< maximum distance that they stick out, model units
 
     [[nodiscard]] bool has_parts() const noexcept {
         return parts || max_error;
     }
 };
 
-/// What the command line says of structures.
+/// The command-line arguments about structures.
 struct StructureArguments {
     std::string list = {};  ///< --structures; empty: not given
     std::string preset = "tuned";
@@ -43,18 +44,18 @@ struct StructureArguments {
     HullChoice hulls = {};
 };
 
-/// Adds --structures and the options that say how they are built.
+/// Adds --structures and the options for building them.
 void add_structure_options(const Command& command, StructureArguments& arguments);
 
-/// The structures that a bake builds, and how.
+/// The structures that a bake builds, and their options.
 struct StructureChoice {
-    std::vector<std::string> names;  ///< those that can be asked, as --structures spells them
-    format::SectionSet sections;     ///< what they are stored in
-    build::OctreeOptions octree;     ///< of the hashed octree too
+    std::vector<std::string> names;  ///< those that queries can use, as --structures spells them
+    format::SectionSet sections;     ///< the sections that store them
+    build::OctreeOptions octree;     ///< for the hashed octree too
     build::AdaptiveOctreeOptions adaptive_octree;
     build::TetraTreeOptions tetra_tree;
     HullChoice hulls;
-    std::vector<report::StructureSettings> settings;  ///< that decide the bytes of each of `names`
+    std::vector<report::StructureSettings> settings;  ///< these decide the bytes of each structure
 
     [[nodiscard]] bool has_octree() const noexcept {
         return sections.contains(format::SectionId::octree_nodes);
@@ -62,7 +63,7 @@ struct StructureChoice {
     [[nodiscard]] bool has_adaptive_octree() const noexcept {
         return sections.contains(format::SectionId::adaptive_octree_nodes);
     }
-    /// Whether their cells get boxes.
+    /// Returns whether the cells of the octree store bounding boxes.
     [[nodiscard]] bool octree_boxes() const noexcept {
         return sections.contains(format::SectionId::octree_boxes);
     }
@@ -77,13 +78,13 @@ struct StructureChoice {
     }
 };
 
-/// Decides what is built: what --structures lists; without it every structure for all
-/// effects, none otherwise. Fails with bad_argument on a name that is unknown, and on
-/// options of a structure that is not built.
+/// Returns the structures that --structures lists. Without this option, returns every structure if
+/// the effects are "all", else none. The effect `inaccessible` adds the tetra-tree if it is named.
+/// Fails with bad_argument on an unknown name, or on an option of a structure that is not built.
 [[nodiscard]] Result<StructureChoice> choose_structures(const StructureArguments& arguments,
                                                         const Effects& effects);
 
-/// What was built; empty where it was not asked for.
+/// The structures that were built; those that were not chosen are empty.
 struct Structures {
     build::Octree octree;
     build::AdaptiveOctree adaptive_octree;

@@ -62,7 +62,7 @@ std::string report_in(const std::string& format, const report::ComparisonReport&
     return report::comparison_text(report.comparison);
 }
 
-/// An exact strategy that differs from the others is a fault of ours.
+/// Returns the exit code. A failed promise of an exact strategy is an internal error.
 Exit exit_of(const study::Comparison& comparison) {
     const bool is_wrong = std::ranges::any_of(comparison.checks, [](const study::Check& check) {
         return check.is_promise && check.verdict == study::Verdict::fails;
@@ -70,7 +70,7 @@ Exit exit_of(const study::Comparison& comparison) {
     return is_wrong ? Exit::internal : Exit::success;
 }
 
-/// Says why nothing came of it, in JSON too where that was asked for.
+/// Reports why there is no result, also as JSON if that was requested.
 Exit failed_with(const Arguments& arguments, const Error& error) {
     if (arguments.format == "json" && arguments.output.empty()) {
         std::cout << report::comparison_json(

@@ -12,7 +12,7 @@
 
 namespace cdprep::study {
 
-/// A model as it stands in a comparison.
+/// A model in a comparison, as read and as built.
 struct ComparedModel {
     std::string name;
     std::string file;
@@ -25,14 +25,14 @@ struct ComparedModel {
     std::string likeness;  ///< a sentence
 };
 
-/// The poses at which a pair was asked.
+/// The poses at which a pair was queried.
 struct ComparedPair {
     std::string a;
     std::string b;
     PoseSet poses;
 };
 
-/// How everything was measured: with the models, enough to measure it again.
+/// The settings of all measurements. With the models, they suffice to repeat them.
 struct ComparisonSettings {
     std::string version;  ///< of the program
     bool quick = false;
@@ -44,7 +44,7 @@ struct ComparisonSettings {
     std::size_t threads = 0;
 };
 
-/// The papers' tables on some models.
+/// The tables of the comparative study and of Ponce Atencio's talk, for some models.
 struct Comparison {
     ComparisonSettings settings;
     Machine machine;
@@ -52,8 +52,8 @@ struct Comparison {
     std::vector<ComparedPair> pairs;
     std::vector<Table> tables;
     std::vector<Check> checks;
-    std::vector<std::string> errata;  ///< of the papers: a sentence each
-    std::vector<std::string> peers;   ///< who answered beside us, or why nobody did: sentences
+    std::vector<std::string> errata;  ///< of both publications: a sentence each
+    std::vector<std::string> peers;   ///< which libraries answered, or why none did: sentences
 };
 
 }  // namespace cdprep::study

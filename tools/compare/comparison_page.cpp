@@ -26,7 +26,7 @@ std::string text_of(const std::string& text) {
     return escaped(valid_utf8(text));
 }
 
-/// What is shown of a cell when it is pointed at.
+/// Returns the tooltip of a cell.
 std::string hint_of(const Cell& cell, Unit unit) {
     std::string hint = cell.is_filled() ? "" : cell.reason;
     for (const study::Detail& detail : cell.details) {
@@ -63,7 +63,7 @@ std::string list_html(const char* kind, const std::vector<std::string>& lines) {
     return html + "</ul>\n";
 }
 
-/// Notes, what signs mean, and why cells are empty.
+/// Returns the notes, the meaning of signs, and why cells are empty.
 std::vector<std::string> legend_of(const Table& table) {
     std::vector<std::string> lines = table.notes;
     const auto add = [&](const std::string& line) {
@@ -84,7 +84,7 @@ std::vector<std::string> legend_of(const Table& table) {
     return lines;
 }
 
-/// A place on a logarithmic axis of seconds.
+/// Maps seconds to places on a logarithmic axis.
 class Axis {
 public:
     void take(double seconds) {
@@ -127,7 +127,7 @@ const Cell* find_cell(const Table& table, const study::Row& row, std::string_vie
     return &row.cells[static_cast<std::size_t>(at - table.columns.begin())];
 }
 
-/// What is drawn of a row.
+/// The values drawn for a row.
 struct Marks {
     std::optional<double> collide, overlap, paper_collide, paper_overlap;
 };
@@ -155,8 +155,8 @@ std::string cross(double x, double y, const std::string& hint) {
            "l8 8m0 -8l-8 8\"><title>" + text_of(hint) + "</title></path>";
 }
 
-/// Collide and overlap of each strategy over the deep poses, and the paper's; empty for other
-/// tables.
+/// Returns a chart of collide and overlap of each strategy over the deep poses, with the
+/// comparative study's figures. Empty for other tables.
 std::string chart_of(const Table& table) {
     constexpr double kStep = 22;
     Axis axis;
@@ -217,7 +217,7 @@ std::string id_of(const Table& table) {
     return id;
 }
 
-/// Columns of words begin at the left, as their cells do.
+/// Returns true for a column of words: it is aligned left, like its cells.
 bool holds_words(const Table& table, std::size_t column) {
     return table.columns[column].unit == Unit::none &&
            std::ranges::none_of(table.rows, [&](const study::Row& row) {
@@ -225,7 +225,7 @@ bool holds_words(const Table& table, std::size_t column) {
            });
 }
 
-/// How it was measured: what all outputs begin with, the particulars folded away.
+/// Returns the settings that all outputs begin with; the details are folded.
 std::string provenance_html(const study::Comparison& comparison) {
     constexpr std::ptrdiff_t kShown = 3;
     const std::vector<std::string> lines = provenance_lines(comparison);

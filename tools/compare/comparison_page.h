@@ -7,10 +7,11 @@
 
 namespace cdprep::report {
 
-/// One complete HTML page with every table, a chart of what each strategy takes for each pair,
-/// the checks, the papers' errata, and how everything was measured. Point at a cell for its
-/// spread and cases, or for why it is empty. No script; asks no network for anything, by its
-/// own Content-Security-Policy too, and prints on paper. Any name of a model is safe.
+/// Returns one complete HTML page with every table, the checks, the errata of both publications,
+/// and the settings of all measurements. A chart shows the time of each strategy for each pair. A
+/// cell's tooltip shows its spread and cases, or why it is empty. The page has no script. It makes
+/// no network requests; its Content-Security-Policy forbids them too. It is suitable for print. Any
+/// model name is safe.
 [[nodiscard]] std::string comparison_page(const study::Comparison& comparison);
 
 }  // namespace cdprep::report

@@ -54,14 +54,14 @@ char mark_sign(study::Mark mark) {
     }
 }
 
-/// Characters, of text in UTF-8.
+/// Returns the number of characters of a UTF-8 text.
 std::size_t width_of(std::string_view text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char letter) {
         return (static_cast<unsigned char>(letter) & 0xc0U) != 0x80U;
     }));
 }
 
-/// A column of text: a heading of one or two lines, and a text a row.
+/// A column of text: a heading of one or two lines, and one text per row.
 struct TextColumn {
     std::array<std::string, 2> heading;
     std::vector<std::string> rows;
@@ -73,7 +73,7 @@ struct TextColumn {
     }
 };
 
-/// A title broken at the blank or comma that makes the longer line shortest.
+/// Returns a title broken at the blank or comma that makes the longer line shortest.
 std::array<std::string, 2> two_lines(const std::string& title) {
     std::array<std::string, 2> best = {"", title};
     for (std::size_t at = title.find(' '); at != std::string::npos; at = title.find(' ', at + 1)) {
@@ -85,7 +85,7 @@ std::array<std::string, 2> two_lines(const std::string& title) {
     return best;
 }
 
-/// Reasons of a table, numbered: cells without a value name theirs.
+/// The numbered reasons of a table: cells without a value refer to theirs.
 class Reasons {
 public:
     std::string sign_of(const std::string& reason) {
@@ -139,7 +139,7 @@ void add_line(std::string& text, std::string line) {
     text += line + '\n';
 }
 
-/// The columns from `first` to before `last`, beside the labels.
+/// Returns the columns [first, last), beside the labels.
 std::string block_of(const Table& table, const std::vector<TextColumn>& columns, std::size_t first,
                      std::size_t last, std::size_t label_width) {
     std::string text;
@@ -160,7 +160,7 @@ std::string block_of(const Table& table, const std::vector<TextColumn>& columns,
     return text;
 }
 
-/// Signs that stand behind published figures, and what they mean in this table.
+/// Returns the signs behind published figures, with their meaning in this table.
 std::string marks_of(const Table& table) {
     std::vector<std::string> lines;
     for (const study::Row& row : table.rows) {
@@ -177,7 +177,7 @@ std::string marks_of(const Table& table) {
     return text;
 }
 
-/// How far rounds lie apart, as shares of the medians; empty of tables without timings.
+/// Returns the spread between rounds as shares of the medians. Empty for tables without timings.
 std::string spread_line(const Table& table) {
     std::vector<double> shares;
     double rounds = 0;
@@ -226,7 +226,7 @@ std::string table_text(const Table& table) {
     return text;
 }
 
-/// What a reader of the last lines wants to know.
+/// Returns the summary in the last lines.
 std::string summary_text(const Comparison& comparison) {
     const auto count = [&](study::Verdict verdict, bool is_promise) {
         return std::to_string(std::ranges::count_if(comparison.checks, [&](const auto& check) {

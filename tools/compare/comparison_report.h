@@ -8,7 +8,7 @@
 
 namespace cdprep::report {
 
-/// How a comparison went, or why nothing came of it.
+/// The result of a comparison, or why it failed.
 struct ComparisonReport {
     std::string input;  ///< the model that failed, if one did
     int exit = 0;
@@ -16,25 +16,27 @@ struct ComparisonReport {
     study::Comparison comparison;
 };
 
-/// Aligned tables for people, at most 118 columns wide: tables that are wider go on below.
+/// Returns aligned tables for people, at most 118 columns wide. Wider tables continue below.
 [[nodiscard]] std::string comparison_text(const study::Comparison& comparison);
 
-/// As comparison.schema.json says: every cell has a "value" or a "text", or else a "reason".
-/// Numbers are in seconds, MiB, shares.
+/// Returns JSON that follows comparison.schema.json: every cell has a "value" or a "text", or else
+/// a "reason". Numbers are in seconds, MiB or shares.
 [[nodiscard]] std::string comparison_json(const ComparisonReport& report);
 
-/// A line a cell: table,row,column,unit,value,text,reason,published,mark,remark, then the
-/// details that cells of timings have. Lines that begin with # say how it was measured, and at
-/// the end what holds.
+/// Returns one line per cell: table,row,column,unit,value,text,reason,published,mark,remark, then
+/// the details of timings. Lines that begin with # state the settings; at the end they list the
+/// checks.
 [[nodiscard]] std::string comparison_csv(const study::Comparison& comparison);
 
-/// A cell's value with its unit, as people read it; its reason in brackets where it has none.
+/// Returns a cell's value with its unit, for people. A cell without a value gives its reason in
+/// brackets.
 [[nodiscard]] std::string cell_text(const study::Cell& cell, study::Unit unit);
-/// What was published in its place, with * for other counts, ~ for a stand-in, ! for an erratum
-/// and # for a figure that cannot be compared; empty when nothing was.
+/// Returns the published content of a cell with a sign. The sign is * for other counts, ~ for a
+/// substitute mesh, ! for an erratum, # for a figure that cannot be compared. Returns "" if nothing
+/// was published.
 [[nodiscard]] std::string published_text(const study::Cell& cell, study::Unit unit);
 
-/// Everything about how it was measured, a sentence each.
+/// Returns all settings of the measurements, a sentence each.
 [[nodiscard]] std::vector<std::string> provenance_lines(const study::Comparison& comparison);
 
 [[nodiscard]] const char* verdict_name(study::Verdict verdict) noexcept;

@@ -17,7 +17,7 @@ namespace {
 
 using format::Double3;
 
-/// From 0 to 1 along each axis, closed, wound outwards.
+/// Returns a closed box from 0 to 1 along each axis, wound outwards.
 StudyMesh unit_box() {
     StudyMesh box;
     box.name = "box";
@@ -48,18 +48,18 @@ StudyMesh of_corners(const char* name, std::vector<Double3> corners) {
     return made;
 }
 
-/// Two level triangles, one a unit above the other.
+/// Returns two level triangles, one a unit above the other.
 StudyMesh two_floors() {
     return of_corners("two floors",
                       {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 1}, {4, 0, 1}, {0, 4, 1}});
 }
 
-/// An upright triangle, from its tip at 1, 1, 0 up to 0.5.
+/// Returns an upright triangle, from its tip at 1, 1, 0 up to 0.5.
 StudyMesh wedge() {
     return of_corners("wedge", {{1, 1, 0}, {1.5, 1, 0.5}, {0.5, 1, 0.5}});
 }
 
-/// What the probes ask about.
+/// The models that the probes query.
 struct Probed {
     ModelForms box;
     ModelForms floors;
@@ -83,7 +83,7 @@ Placement moved_by(double x, double y, double z) {
     return Placement::b_moves(pose);
 }
 
-/// A box beside a box: apart, face on face, corner on corner, and one into the other.
+/// Probes a box against a box: apart, face on face, corner on corner, and overlapping.
 std::string probe_collide(const Strategy& strategy, const Probed& probed) {
     StrategyPair pair(strategy, probed.box, probed.box);
     if (pair.collides(moved_by(1.5, 0.25, 0))) return "boxes half a unit apart collide";
@@ -93,7 +93,7 @@ std::string probe_collide(const Strategy& strategy, const Probed& probed) {
     return "";
 }
 
-/// The wedge meets no floor, the lower one with its tip, either floor, or both.
+/// Probes the wedge with no floor, the lower floor at its tip, either floor, or both.
 std::string probe_overlap(const Strategy& strategy, const Probed& probed) {
     StrategyPair pair(strategy, probed.floors, probed.wedge);
     const auto finds = [&](double z, const std::vector<TrianglePair>& expected) {
@@ -107,7 +107,7 @@ std::string probe_overlap(const Strategy& strategy, const Probed& probed) {
     return "";
 }
 
-/// Distances that floats hold: an interval has to hold them too.
+/// Probes distances that are exact in float: an interval must contain them too.
 std::string probe_distance(const Strategy& strategy, const Probed& probed) {
     StrategyPair pair(strategy, probed.box, probed.box);
     struct Case {
@@ -120,7 +120,7 @@ std::string probe_distance(const Strategy& strategy, const Probed& probed) {
                                         {moved_by(1, 0.25, 0.5), 0, "touching"}}};
     for (const auto& [placement, distance, what] : cases) {
         const Gap gap = pair.gap(placement);
-        constexpr double kSlack = 1e-12;  // of lower and upper, which may be a few units apart
+        constexpr double kSlack = 1e-12;  // lower and upper may differ by a few ulps
         if (gap.lower <= distance && distance <= gap.upper && gap.upper - gap.lower <= kSlack) {
             continue;
         }
@@ -130,7 +130,7 @@ std::string probe_distance(const Strategy& strategy, const Probed& probed) {
     return "";
 }
 
-/// The limit is inclusive.
+/// Probes that the limit is inclusive.
 std::string probe_within(const Strategy& strategy, const Probed& probed) {
     StrategyPair pair(strategy, probed.box, probed.box);
     const Placement apart = moved_by(1.5, 0.25, 0);
@@ -140,7 +140,7 @@ std::string probe_within(const Strategy& strategy, const Probed& probed) {
     return "";
 }
 
-/// Face to face a sixteenth apart: the normal is along x, and the distance known.
+/// Probes boxes face to face, a sixteenth apart: the normal is along x, and the distance is known.
 std::string probe_contacts(const Strategy& strategy, const Probed& probed) {
     StrategyPair pair(strategy, probed.box, probed.box);
     constexpr double kGap = 0.0625;
@@ -160,7 +160,7 @@ struct Feature {
     const char* name;
     Asked asked;
     std::string (*probe)(const Strategy&, const Probed&);
-    /// What the paper's Table 1 has for Feito, GJK, PQP and SWIFT++.
+    /// The cells of Table 1 of the comparative study for Feito, GJK, PQP and SWIFT++.
     std::array<bool, 4> published;
 };
 constexpr std::array<Feature, 5> kFeatures = {{
@@ -171,12 +171,12 @@ constexpr std::array<Feature, 5> kFeatures = {{
     {"Contact features", Asked::contacts, probe_contacts, {false, false, false, true}},
 }};
 
-/// A column of ours, and which of the paper's stands beside it.
+/// A column of ours, and the published column beside it.
 struct Probing {
     const char* key;
     const char* title;
     const char* name;     ///< of the strategy
-    const char* setting;  ///< likewise
+    const char* setting;  ///< of the strategy
     int published;        ///< in Feature::published; -1: none
 };
 constexpr std::array<Probing, 7> kProbings = {{
@@ -189,8 +189,8 @@ constexpr std::array<Probing, 7> kProbings = {{
     {"bvh", "exact BVH", "exact BVH", "", -1},
 }};
 
-/// The strategy of a column; the paper's cells hold its triangles against each other by Feito
-/// and Torres.
+/// Returns the strategy of a column. In the comparative study, triangles in cells are compared by
+/// the test of Feito and Torres (1997).
 Strategy strategy_of(const Probing& probing) {
     const auto all = strategies();
     Strategy found = *std::ranges::find_if(all, [&](const Strategy& strategy) {

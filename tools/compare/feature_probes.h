@@ -8,12 +8,12 @@
 
 namespace cdprep::study {
 
-/// Table 1: what each strategy can answer. A cell is X when a probe passed: the strategy was
-/// asked about boxes and triangles whose answers are known by hand, apart, touching and
-/// overlapping, and was right every time. Fails as make_model_forms().
+/// Returns Table 1: the queries that each strategy can answer. A cell is X if its probe passed. A
+/// probe queries boxes and triangles with answers known by hand: apart, touching and overlapping.
+/// Every answer must be right. Fails like make_model_forms().
 [[nodiscard]] Result<Table> feature_table();
 
-/// Nothing that the paper's Table 1 ticks is missing.
+/// Checks that no feature in Table 1 of the comparative study is missing.
 [[nodiscard]] Check feature_check(const Table& table);
 
 }  // namespace cdprep::study

@@ -13,7 +13,7 @@ bool is_stopped(const TimingOptions& options) {
     return options.stop && options.stop();
 }
 
-/// Strategies about one pair of models, and the poses at which they are asked.
+/// The strategies for one pair of models, and the poses at which they are queried.
 struct Asking {
     std::vector<StrategyPair> pairs;
     const PoseSet& poses;
@@ -39,7 +39,7 @@ struct Asking {
     }
 };
 
-/// Holds every strategy's answers against those of the last one, which is exact.
+/// Compares every strategy's answers with those of the last one, which is exact.
 void compare_answers(Asking& asking, const TimingOptions& timing, PairStudy& study) {
     const std::size_t count = study.poses.poses.size();
     study.exact.hits.resize(count);
@@ -67,7 +67,7 @@ void compare_answers(Asking& asking, const TimingOptions& timing, PairStudy& stu
     }
 }
 
-/// What a question does in the mean.
+/// Returns the mean work of a query.
 QueryCounts counts_of(Asking& asking, std::size_t who, Asked asked,
                       std::span<const std::size_t> cases) {
     QueryCounts sum;
@@ -82,8 +82,8 @@ QueryCounts counts_of(Asking& asking, std::size_t who, Asked asked,
     return sum;
 }
 
-/// Times all who can be asked that, over those poses; one Timings a strategy, without cases
-/// where it cannot.
+/// Times all strategies that answer this query, over those poses. Returns one Timings per strategy,
+/// without cases if it cannot answer.
 std::vector<Timings> time_asked(Asked asked, std::span<const std::size_t> cases, Asking& asking,
                                 TimingOptions timing, const PairStudy& study,
                                 const std::function<void(std::size_t)>& before) {
@@ -103,7 +103,7 @@ std::vector<Timings> time_asked(Asked asked, std::span<const std::size_t> cases,
     return taken;
 }
 
-/// Fewer would be all on one side of 1 by chance too often.
+/// With fewer rounds, all would too often be on one side of 1 by chance.
 constexpr std::size_t kRoundsAgainstItself = 9;
 
 constexpr std::array<Stratum, 4> kOfCollide = {Stratum::deep, Stratum::shallow, Stratum::touching,

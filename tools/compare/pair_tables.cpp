@@ -18,7 +18,7 @@ const char* name_of(Stratum stratum) {
     return kStratumNames[static_cast<std::size_t>(stratum)];
 }
 
-/// What a question takes in one stratum; nothing when it was not asked there.
+/// Returns the time of a query in one stratum; nothing if it was not measured there.
 std::optional<Timing> timing_in(const PairStudy& study, const Contender& contender, Asked asked,
                                 Stratum stratum) {
     const Timings& timings = contender.timings[static_cast<std::size_t>(asked)];
@@ -41,7 +41,7 @@ Cell time_cell(const PairStudy& study, const Contender& contender, Asked asked, 
     return seconds_cell(*timing);
 }
 
-/// The same with cold caches, over the deep poses.
+/// Returns the same with cold caches, over the deep poses.
 Cell cold_cell(const Contender& contender, Asked asked) {
     const std::string& reason = contender.reasons[static_cast<std::size_t>(asked)];
     if (!reason.empty()) return without(reason);
@@ -56,10 +56,10 @@ const Contender* find_contender(const PairStudy& study, const std::string& title
     return at == study.contenders.end() ? nullptr : &*at;
 }
 
-/// The row of Table 4 that a pair is, and how surely.
+/// The row of Table 4 that matches a pair, and how closely.
 struct PublishedRow {
     const PublishedPair* pair = nullptr;
-    Likeness likeness;  ///< of the one that is less like it
+    Likeness likeness;  ///< of the model that matches less
 };
 
 PublishedRow published_row(const std::vector<StudyMesh>& meshes, const PairStudy& study) {
@@ -70,7 +70,7 @@ PublishedRow published_row(const std::vector<StudyMesh>& meshes, const PairStudy
     return {find_published_pair(*a.version_of, *b.version_of), is_a_less ? a : b};
 }
 
-/// What was published of a strategy.
+/// The published times of a strategy.
 struct PublishedTimes {
     std::optional<Published> collide;
     std::optional<Published> overlap;
@@ -101,7 +101,7 @@ PublishedTimes published_times(const PublishedRow& row, const std::string& title
     return {};
 }
 
-/// Why no published figures stand beside a pair; empty when they do.
+/// Returns why a pair has no published figures; empty if it has some.
 std::string no_figures(const std::vector<StudyMesh>& meshes, const PairStudy& study) {
     if (published_row(meshes, study).pair != nullptr) return "";
     for (const std::size_t i : {study.a, study.b}) {
@@ -116,7 +116,7 @@ void add_column(Table& table, const char* key, std::string title, Unit unit) {
     table.columns.push_back({key, std::move(title), unit});
 }
 
-/// The mean number of overlapping pairs of the poses of a stratum.
+/// Returns the mean number of overlapping pairs over the poses of a stratum.
 double mean_pairs(const PairStudy& study, Stratum stratum) {
     double sum = 0;
     const std::vector<std::size_t> cases = study.poses.of(stratum);
@@ -154,8 +154,8 @@ std::string kind_of_counts(const QueryCounts& counts) {
            std::to_string(counts.triangle_pairs) + " of triangles";
 }
 
-/// What both did where the published order does not hold, and what that tells. `ratio` is the
-/// slower one's time by the quicker's.
+/// Returns the work of both strategies where the published order does not hold, and an explanation.
+/// `ratio` is the slower one's time divided by the faster one's.
 std::string why_slower(const Contender& quick, const Contender& late, Asked asked, Stratum stratum,
                        double ratio) {
     const auto a = static_cast<std::size_t>(asked);
@@ -187,7 +187,7 @@ std::string why_slower(const Contender& quick, const Contender& late, Asked aske
     return text;
 }
 
-/// `fast` answers in less time than `slow`, by at least `times`.
+/// Checks that `fast` takes less time than `slow`, by at least the factor `times`.
 Check order_of(const std::vector<StudyMesh>& meshes, const PairStudy& study, Asked asked,
                Stratum stratum, const char* fast, const char* slow, double times) {
     Check check;
@@ -222,7 +222,7 @@ Check order_of(const std::vector<StudyMesh>& meshes, const PairStudy& study, Ask
     return check;
 }
 
-/// Collide is a prefix of overlap.
+/// Checks that overlap takes at least as long as collide, whose work is a prefix of its work.
 Check overlap_takes_longer(const std::vector<StudyMesh>& meshes, const PairStudy& study) {
     Check check;
     check.claim = name_of(meshes, study) + ": overlap takes at least as long as collide";
@@ -264,7 +264,7 @@ Check exact_agree(const std::vector<StudyMesh>& meshes, const PairStudy& study) 
     return check;
 }
 
-/// Whether the machine was quiet enough for the rest to mean anything.
+/// Checks that the machine was quiet enough for the other results to be meaningful.
 Check one_by_itself(const std::vector<StudyMesh>& meshes, const PairStudy& study) {
     const TimeRatio& itself = study.itself;
     return {

@@ -8,15 +8,16 @@
 
 namespace cdprep::study {
 
-/// Table 4 as it was printed: a row a pair, collide and overlap of the paper's strategies at
-/// its setting, over the deep poses.
+/// Returns Table 4 as printed: a row per pair with collide and overlap of the comparative study's
+/// strategies, at its settings, over the deep poses.
 [[nodiscard]] Table pair_table(const std::vector<StudyMesh>& meshes,
                                const std::vector<PairStudy>& studies);
-/// Everything measured of one pair: a row a strategy.
+/// Returns everything measured for one pair: a row per strategy.
 [[nodiscard]] Table pair_details(const std::vector<StudyMesh>& meshes, const PairStudy& study);
-/// What a strategy takes over the deep poses, or why nothing stands there.
+/// Returns the time of a strategy over the deep poses, or why there is none.
 [[nodiscard]] Cell deep_cell(const PairStudy& study, const Contender& contender, Asked asked);
-/// What Table 4 says of the order of strategies, and what must hold of any, pair by pair.
+/// Returns the checks of each pair: the order of strategies in Table 4, and what holds for any
+/// strategy.
 [[nodiscard]] std::vector<Check> pair_checks(const std::vector<StudyMesh>& meshes,
                                              const std::vector<PairStudy>& studies);
 

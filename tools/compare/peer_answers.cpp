@@ -8,7 +8,7 @@
 namespace cdprep::study {
 namespace {
 
-/// Those that peers are asked, by the letters of their program.
+/// The queries to peers, by the letters of their program.
 constexpr std::array<std::pair<Asked, char>, 4> kLetters = {
     {{Asked::collide, 'c'}, {Asked::overlap, 'o'}, {Asked::distance, 'd'}, {Asked::within, 'w'}}};
 

@@ -24,7 +24,7 @@ extern "C" char** environ;  // NOLINT(readability-redundant-declaration)
 namespace cdprep::cli {
 namespace {
 
-/// Bytes in memory that a program may open as a file.
+/// Bytes in memory that a program can open as a file.
 class MemoryFile {
 public:
     MemoryFile() : descriptor_(::memfd_create("cdprep-peers", MFD_CLOEXEC)) {}
@@ -66,7 +66,7 @@ Error failure(const std::filesystem::path& program, const std::string& what) {
     return {ErrorCode::unreadable, program.string() + ", which asks peers, " + what};
 }
 
-/// The process's status; ends it when the person stops us.
+/// Returns the process's status; ends the process if the user stops us.
 int wait_for(pid_t process) {
     constexpr std::chrono::milliseconds kPause(10);
     int status = 0;
@@ -82,7 +82,7 @@ int wait_for(pid_t process) {
 
 Result<std::string> run_peers(const std::filesystem::path& program,
                               const PeerQuestions& questions) {
-    // By way of high numbers, so that none is overwritten before it is copied.
+    // Descriptors are moved to high numbers first, so that none is overwritten before its copy.
     constexpr int kAside = 200;
     constexpr int kFirst = 3;
     const MemoryFile answer;

@@ -41,7 +41,7 @@ constexpr std::array<Structure, 9> kStructures = {{{"qhull", "qhull", "qhull, hu
                                                    {"pqp", "pqp", "PQP"},
                                                    {"swift", "swift", "SWIFT++"}}};
 
-/// What a library answers about two meshes.
+/// The queries about two meshes that a library answers.
 struct Answering {
     const char* library;
     bool has_overlap;

@@ -12,19 +12,19 @@
 
 namespace cdprep::study {
 
-/// Why libraries were not asked, by their key: a reason for each of peers that a table has.
+/// The reasons why libraries were not measured, by key: one for each peer in a table.
 using PeerReasons = std::map<std::string, std::string>;
 
-/// Of every library that tables have, that reason.
+/// Returns this reason for every library in the tables.
 [[nodiscard]] PeerReasons all_absent(const std::string& reason);
 
-/// What other libraries take to build their structures: a row a mesh. `runs` are one a mesh, or
-/// none when nobody was asked.
+/// Returns the build times of other libraries: a row per mesh. `runs` has one entry per mesh, or
+/// none if no library was measured.
 [[nodiscard]] Table peer_build_table(const std::vector<StudyMesh>& meshes,
                                      const std::vector<PeerRun>& runs, const PeerReasons& reasons);
 
-/// What other libraries take to answer about each pair, over the deep poses, beside the exact
-/// hierarchy: a row a pair. Of peers that add_peer() has not set there it says why.
+/// Returns the times of other libraries for each pair, over the deep poses, beside the exact
+/// BVH: a row per pair. Peers that add_peer() did not add get their reason.
 [[nodiscard]] Table peer_pair_table(const std::vector<StudyMesh>& meshes,
                                     const std::vector<PairStudy>& studies,
                                     const PeerReasons& reasons);

@@ -13,25 +13,25 @@
 
 namespace cdprep::report {
 
-/// Reads what the program of peers printed. Fails with `unreadable`, in a sentence, when it is
-/// not what tests/bench/peers.cpp says, whatever it is.
+/// Reads the output of the peer program. Any input is safe. Fails with `unreadable`, in a sentence,
+/// if the output does not have the form defined in tests/bench/peers.cpp.
 [[nodiscard]] Result<study::PeerRun> read_peers(std::string_view json);
 
 }  // namespace cdprep::report
 
 namespace cdprep::cli {
 
-/// What a program of peers is asked: its words are the first one, then files that hold the
-/// bytes, then the others. tests/bench/peers.cpp says what they mean.
+/// The arguments of a peer program: first `what`, then files that hold the bytes, then `words`.
+/// tests/bench/peers.cpp defines their meaning.
 struct PeerQuestions {
     std::string what;                               ///< "pair" or "build"
-    std::vector<std::span<const std::byte>> files;  ///< models as baked, questions
+    std::vector<std::span<const std::byte>> files;  ///< baked models, questions
     std::vector<std::string> words;
 };
 
-/// Runs the program and returns what it prints. It reads everything from memory: nothing is
-/// written to disk. Fails with `unreadable` when it cannot be started or does not end with 0,
-/// and with `interrupted` when the person stops us, which ends it too.
+/// Runs the program and returns its output. It reads everything from memory; nothing is written to
+/// disk. Fails with `unreadable` if the program does not start or does not end with 0. Fails with
+/// `interrupted` if the user stops us; the program then ends too.
 [[nodiscard]] Result<std::string> run_peers(const std::filesystem::path& program,
                                             const PeerQuestions& questions);
 

@@ -22,7 +22,8 @@ namespace {
 using format::SectionId;
 
 constexpr std::uint32_t kEnclosingVertices = 64;
-/// The paper's sizes are printed to four decimals, those of PQP follow from the triangles.
+/// The rounding of published sizes: four decimals are printed. The sizes of PQP follow from the
+/// number of triangles.
 constexpr double kPrinted = 5.1e-5;
 
 HullFigures measure_hull(const mesh::Mesh& mesh, const TimingOptions& timing) {
@@ -96,7 +97,7 @@ PieceFigures measure_pieces(const ModelForms& forms, const PreparationOptions& o
     figures.inconsistent_edges = of(convex::EdgeKind::inconsistent);
     figures.flat_edges = of(convex::EdgeKind::fold) + of(convex::EdgeKind::no_area);
     if (!options.pieces_alone || mesh::is_stopped(options.stop)) return figures;
-    // Once: it is the longest of all.
+    // Once only: it takes the longest time of all.
     const double begun = thread_seconds();
     const auto pieces = convex::make_piece_arrays(
         form.ordered, convex::find_surface_pieces(form.ordered, {.stop = options.stop}),

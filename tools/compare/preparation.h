@@ -13,7 +13,7 @@
 
 namespace cdprep::study {
 
-/// What the exact hull of a mesh came to, and the one of few vertices around it.
+/// The exact hull of a mesh, and a hull of few vertices around it.
 struct HullFigures {
     Timing one;  ///< on one thread
     int dimension = -1;
@@ -21,25 +21,25 @@ struct HullFigures {
     std::size_t facets = 0;
     std::size_t groups = 0;              ///< maximal coplanar faces
     std::size_t enclosing_vertices = 0;  ///< 0: there is none
-    double enclosing_distance = 0;       ///< from the exact hull at most, of a diagonal of 1
+    double enclosing_distance = 0;       ///< upper bound from the exact hull, for a diagonal of 1
 };
 
-/// What the hierarchy of boxes came to.
+/// The BVH.
 struct HierarchyFigures {
     Timing one;    ///< as bake builds it, on one thread
-    Timing all;    ///< on all; by the wall
+    Timing all;    ///< on all threads; wall time
     Timing swept;  ///< with PQP's volumes, on one thread
     std::uint64_t bytes = 0;
     std::uint64_t swept_bytes = 0;
 };
 
-/// What the convex pieces came to.
+/// The convex pieces.
 struct PieceFigures {
-    double seconds_all = 0;               ///< pieces and hierarchy, on all threads, by the wall
-    std::optional<double> seconds_one{};  ///< on one thread; nothing where that was left out
+    double seconds_all = 0;               ///< pieces and hierarchy, on all threads; wall time
+    std::optional<double> seconds_one{};  ///< on one thread; empty if that was left out
     std::size_t pieces = 0;
-    std::size_t contained = 0;      ///< of them, whose hull does not leave the solid
-    std::size_t virtual_faces = 0;  ///< facets of hulls that are no triangles of the mesh
+    std::size_t contained = 0;      ///< pieces whose hull does not leave the solid
+    std::size_t virtual_faces = 0;  ///< facets of hulls that are not triangles of the mesh
     std::uint64_t bytes = 0;
     std::size_t border_edges = 0;
     std::size_t non_manifold_edges = 0;
@@ -55,22 +55,22 @@ struct Preparation {
 
 struct PreparationOptions {
     std::size_t rounds = 5;
-    bool pieces_alone = true;  ///< find the pieces on one thread once more
+    bool pieces_alone = true;  ///< finds the pieces once more on one thread
     ParallelFor parallel_for = serial_for;
     std::function<bool()> stop{};
 };
 
-/// Builds hull and hierarchy anew, and describes the pieces that `forms` has.
+/// Builds the hull and the BVH again, and describes the pieces in `forms`.
 [[nodiscard]] Preparation measure_preparation(const StudyMesh& mesh, const ModelForms& forms,
                                               const PreparationOptions& options);
 
-/// Table 3 as it was printed.
+/// Returns Table 3 as printed.
 [[nodiscard]] Table preparation_table(const std::vector<StudyMesh>& meshes,
                                       const std::vector<Preparation>& prepared);
-/// What else is known of each.
+/// Returns the other figures of each mesh.
 [[nodiscard]] Table preparation_details(const std::vector<StudyMesh>& meshes,
                                         const std::vector<Preparation>& prepared);
-/// What Table 3 says of the order of structures.
+/// Returns the checks of the order of structures in Table 3.
 [[nodiscard]] std::vector<Check> preparation_checks(const std::vector<StudyMesh>& meshes,
                                                     const std::vector<Preparation>& prepared);
 

@@ -37,7 +37,7 @@ double distinct(const std::vector<TrianglePair>& pairs, std::uint32_t TrianglePa
     return static_cast<double>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
 }
 
-/// One placement of two models, and what it takes to ask about it.
+/// One placement of two models, with the data to query it.
 class Placed {
 public:
     Placed(const Model& a, const Model& b, const Placement& placement, CellSearch search,
@@ -50,7 +50,7 @@ public:
         found.resize(overlaps(pair, workspace_, found));
         return found;
     }
-    /// The counts of the search as this library has it.
+    /// Returns the counts of this library's form of the search.
     [[nodiscard]] QueryCounts repaired_counts() {
         QueryCounts counts;
         workspace_.count_into(&counts);
@@ -60,7 +60,7 @@ public:
         workspace_.count_into(nullptr);
         return counts;
     }
-    /// What the talk's search finds, sorted, and its counts.
+    /// Returns the pairs that the literal search finds, sorted, and its counts.
     [[nodiscard]] std::vector<TrianglePair> literal_pairs(QueryCounts& counts) {
         std::vector<TrianglePair> found;
         const auto keep = [&](const TrianglePair& pair) {
@@ -71,7 +71,7 @@ public:
         std::ranges::sort(found);
         return found;
     }
-    /// Triangles of B in leaves that A's oriented box does not clip.
+    /// Returns the number of triangles of B in leaves that A's oriented box does not clip.
     [[nodiscard]] double leaves_left() {
         return as_double(PotentialSet(a_, b_, placement_).triangles_in_leaves());
     }
@@ -84,7 +84,7 @@ private:
     Workspace& workspace_;
 };
 
-/// A column of the table, and the number in it.
+/// A column of the table, and its number.
 struct PruningColumn {
     const char* key;
     const char* title;

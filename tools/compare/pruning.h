@@ -16,41 +16,42 @@
 
 namespace cdprep::study {
 
-/// What each step of the talk's algorithm leaves of two models, and what it finds when it is
-/// taken to the letter. Numbers of triangles, in the mean where poses were added up.
+/// The triangles that each step of the search in Ponce Atencio's talk leaves of two models, and the
+/// pairs that its literal form finds. Numbers of triangles; means where several poses were added
+/// up.
 struct Pruning {
-    double pairs = 0;         ///< that overlap
+    double pairs = 0;         ///< overlapping pairs
     double found = 0;         ///< of them, by the literal form
     double cs_a = 0;          ///< triangles of A in those pairs
-    double cs_b = 0;          ///< of B
-    double literal_cs_a = 0;  ///< the same of the pairs found
+    double cs_b = 0;          ///< triangles of B
+    double literal_cs_a = 0;  ///< the same for the pairs found
     double literal_cs_b = 0;
     double all_b = 0;   ///< triangles of B
-    double box_b = 0;   ///< of them, that touch A's axis-aligned box
-    double leaf_b = 0;  ///< in leaves of the hierarchy that A's oriented box does not clip
+    double box_b = 0;   ///< of them, those that touch A's axis-aligned box
+    double leaf_b = 0;  ///< in leaves of the BVH that A's oriented box does not clip
     double pcs_b = 0;   ///< that it does not clip: the potentially colliding set
     double held_b = 0;  ///< of the model with fewer triangles, in leaves with boxes that meet
-                        ///< cells of the other: what the repaired form keeps
+                        /// cells of the other: the repaired form keeps these
     double listed_literal = 0;   ///< triangles of A that the cells found list, each time
-    double listed_repaired = 0;  ///< likewise
+    double listed_repaired = 0;  ///< the same for the repaired form
 
     Pruning& operator+=(const Pruning& other) noexcept;
-    /// Every number by that.
+    /// Divides every number by `count`.
     Pruning& operator/=(double count) noexcept;
 };
 
-/// Asks the talk's algorithm about one placement; both models have hashed octrees. `missed`
-/// gets the pairs that the literal form does not find.
+/// Runs that search for one placement; both models have hashed octrees. Adds the pairs that the
+/// literal form misses to `missed`.
 [[nodiscard]] Pruning prune(const Model& a, const Model& b, const Pose& a_from_b, CellSearch search,
                             Workspace& workspace, std::vector<TrianglePair>& missed);
 
-/// The talk's figures of some pairs of models: a row a pair and stratum. `forms` are those of
-/// the meshes by number.
+/// Returns the figures of some pairs of models: a row per pair and stratum. `forms` are those of
+/// the meshes, by index.
 [[nodiscard]] Table pruning_table(const std::vector<StudyMesh>& meshes,
                                   const std::vector<PairStudy>& studies,
                                   std::span<const ModelForms* const> forms);
 
-/// What the talk claims of its algorithm, and what is true of any.
+/// Returns the checks of the claims in Ponce Atencio's talk, and of what holds for any search.
 [[nodiscard]] std::vector<Check> pruning_checks(const Table& table);
 
 }  // namespace cdprep::study

@@ -30,12 +30,11 @@ constexpr std::size_t kPoses = 20;
 constexpr std::size_t kQuickPoses = 3;
 constexpr std::size_t kRounds = 5;
 constexpr std::size_t kQuickRounds = 1;
-/// Seconds for each question to a pair: rounds after the first that would begin later are
-/// left out.
+/// Seconds for each query to a pair. Rounds after the first that would start later are left out.
 constexpr double kBudget = 10;
 constexpr double kQuickBudget = 0.2;
 
-/// Two numbers of models, and the poses that a file has for them.
+/// The indices of two models, and the poses that a file has for them.
 struct Pair {
     std::size_t a;
     std::size_t b;
@@ -113,7 +112,7 @@ private:
         return std::nullopt;
     }
 
-    /// The poses of each pair, where a folder has them.
+    /// Reads the poses of each pair that the folder has.
     std::optional<Error> read_poses() {
         if (options_.poses.empty()) return std::nullopt;
         for (Pair& pair : pairs_) {
@@ -236,7 +235,7 @@ private:
         return options_.quick ? kQuickBudget : kBudget;
     }
 
-    /// Asks the program of peers, and keeps who answered how and who did not.
+    /// Runs the peer program, and keeps the answers and the libraries that did not answer.
     Result<study::PeerRun> ask(const PeerQuestions& questions) {
         const Result<std::string> printed = run_peers(options_.peers, questions);
         if (!printed) return printed.error();
@@ -249,7 +248,7 @@ private:
         return run;
     }
 
-    /// Sets the peers beside our strategies, if there is a program that asks them.
+    /// Adds the peers to our strategies, if a peer program was given.
     std::optional<Error> ask_peers(const Pair& pair, study::PairStudy& study) {
         if (options_.peers.empty() || !options_.tables.pairs) return std::nullopt;
         const std::string questions = study::peer_questions(study.poses);
@@ -270,7 +269,8 @@ private:
         return std::nullopt;
     }
 
-    /// What peers build over each model; nothing without a program that asks them.
+    /// Measures the structures that peers build over each model; does nothing without a peer
+    /// program.
     std::optional<Error> ask_builds(std::vector<study::PeerRun>& runs) {
         if (options_.peers.empty()) return std::nullopt;
         for (std::size_t i = 0; i < meshes_.size(); ++i) {
@@ -336,7 +336,8 @@ private:
         return std::nullopt;
     }
 
-    /// The paper's pairs in the paper's order, with every mesh that stands for one of its models.
+    /// Returns the comparative study's pairs in its order, with every mesh that represents one of
+    /// its models.
     [[nodiscard]] std::vector<Pair> paper_pairs() const {
         std::vector<Pair> found;
         for (const study::PublishedPair& pair : study::kPublishedPairs) {
@@ -368,8 +369,8 @@ private:
         return all;
     }
 
-    /// Keeps so many pairs that each model is in one: first those of two models that no other
-    /// pair has, then those of one.
+    /// Keeps enough pairs to include each model. Pairs of two models that are in no other pair come
+    /// first, then those with one.
     void leave_out_pairs() {
         std::vector<bool> is_asked(meshes_.size());
         std::vector<bool> is_kept(pairs_.size());
@@ -395,7 +396,7 @@ private:
         progress_->show(done_++, what);
     }
 
-    /// How often step() is called once the models are read.
+    /// Returns the number of calls of step() once the models are read.
     [[nodiscard]] std::size_t count_steps() const {
         const TableChoice& tables = options_.tables;
         const std::size_t models = meshes_.size();

@@ -15,19 +15,19 @@
 
 namespace cdprep::cli {
 
-/// Which pairs Table 4 asks.
+/// The pairs in Table 4.
 enum class PairChoice : std::uint8_t {
-    fitting,  ///< those of the paper when every model is one of its own, else all
-    paper,    ///< those of the paper
-    all,      ///< every two of the models; of a single one, itself
+    fitting,  ///< as `paper` if every model is one of the comparative study's, else as `all`
+    paper,    ///< those of the comparative study
+    all,      ///< every two of the models; a single model with itself
 };
 
-/// The tables that can be made.
+/// The tables to make.
 struct TableChoice {
-    bool features = true;     ///< 1
-    bool spatial = true;      ///< 2
-    bool preparation = true;  ///< 3
-    bool pairs = true;        ///< 4
+    bool features = true;     ///< Table 1
+    bool spatial = true;      ///< Table 2
+    bool preparation = true;  ///< Table 3
+    bool pairs = true;        ///< Table 4
     bool talk = true;
 };
 
@@ -36,22 +36,22 @@ struct ComparisonOptions {
     PairChoice pairs = PairChoice::fitting;
     bool quick = false;
     std::uint64_t seed = 1;
-    std::size_t per_stratum = 0;  ///< poses; 0: as many as suit
-    std::filesystem::path poses;  ///< a folder that holds them, as pair_poses.h says, or empty
-    std::size_t rounds = 0;       ///< 0: as many as suit
+    std::size_t per_stratum = 0;  ///< poses; 0: the default number
+    std::filesystem::path poses;  ///< a folder with pose files (pair_poses.h), or empty
+    std::size_t rounds = 0;       ///< 0: the default number
     std::filesystem::path peers;  ///< a program, or empty
     std::size_t threads = 0;
     import::ImportOptions import;
 };
 
-/// Reads the models and measures all that the tables say. Fails with the first model that
-/// cannot be compared, or the first pair whose poses cannot be read, before anything is measured;
-/// with `interrupted` when the person stops it.
+/// Reads the models and measures everything in the chosen tables. Fails with the first model that
+/// cannot be compared, or the first pair whose poses cannot be read, before any measurement. Fails
+/// with `interrupted` if the user stops it.
 [[nodiscard]] Result<study::Comparison> compare_models(
     const std::vector<std::filesystem::path>& files, const ComparisonOptions& options,
     const Threads& threads, ProgressStyle style);
 
-/// How many poses and rounds are measured when none are asked for.
+/// Sets the default numbers of poses and rounds where none are given.
 [[nodiscard]] ComparisonOptions settled(ComparisonOptions options);
 
 }  // namespace cdprep::cli

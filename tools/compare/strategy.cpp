@@ -12,7 +12,7 @@
 namespace cdprep::study {
 
 std::span<const Strategy> strategies() {
-    // The talk's table of cells is chained, by the last bits of the key.
+    // The table of cells in Ponce Atencio's talk is chained, by the last bits of the key.
     static const std::vector<Strategy> kStrategies = {
         {"tetra-tree", "paper", &ModelForms::paper, {.structure = Structure::tetra_tree}},
         {"octree", "paper", &ModelForms::paper, {.structure = Structure::octree}},

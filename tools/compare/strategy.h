@@ -20,57 +20,58 @@
 
 namespace cdprep::study {
 
-/// What two models are asked.
+/// The queries to two models.
 enum class Asked : std::uint8_t { collide, overlap, distance, within, contacts };
 inline constexpr std::size_t kAsked = 5;
 inline constexpr std::array<const char*, kAsked> kAskedNames = {"collide", "overlap", "distance",
                                                                 "within", "contacts"};
 
-/// A way in which this library answers.
+/// A way in which this library answers queries.
 struct Strategy {
-    const char* name;     ///< "octree"
+    const char* name;     ///< such as "octree"
     const char* setting;  ///< "paper", "tuned", or empty
     MemoryModel ModelForms::*form;
     StructureOptions through;
-    bool of_hulls = false;    ///< asks the models' hulls instead of them
-    bool is_literal = false;  ///< the talk's search, which misses pairs (literal_octree.h)
+    bool of_hulls = false;    ///< queries the models' hulls instead
+    bool is_literal = false;  ///< the literal search (literal_octree.h), which misses pairs
 
-    /// Whether answers about the models may be wrong.
+    /// Returns true if answers for the models may be wrong.
     [[nodiscard]] bool is_approximate() const noexcept {
         return of_hulls || is_literal;
     }
 };
 
-/// All of them; the last one is the hierarchy of boxes as it is baked.
+/// Returns all strategies; the last one is the BVH as baked.
 [[nodiscard]] std::span<const Strategy> strategies();
 
-/// The distance is in [lower, upper].
+/// The bounds of a distance: it is in [lower, upper].
 struct Gap {
     double lower = 0;
     double upper = 0;
 };
 
-/// Two models as one strategy asks them. Not for several threads at once.
+/// Two models as one strategy queries them. Use from one thread at a time.
 class StrategyPair {
 public:
-    /// The models outlive it.
+    /// The models must outlive this.
     StrategyPair(const Strategy& strategy, const ModelForms& a, const ModelForms& b);
 
-    /// Why it cannot be asked that; empty when it can.
+    /// Returns why it cannot answer that query; empty if it can.
     [[nodiscard]] std::string find_reason(Asked asked) const;
 
     [[nodiscard]] bool collides(const Placement& placement);
-    /// How many triangles overlap; up to 65,536 pairs are written, or as many as pairs() had.
+    /// Returns the number of overlapping triangle pairs. Writes up to 65,536 pairs, or as many as
+    /// pairs() returned.
     [[nodiscard]] std::size_t count_pairs(const Placement& placement);
-    /// All overlapping pairs; valid until the next call.
+    /// Returns all overlapping pairs; valid until the next call.
     [[nodiscard]] std::span<const TrianglePair> pairs(const Placement& placement);
     [[nodiscard]] Gap gap(const Placement& placement);
     [[nodiscard]] bool is_within(const Placement& placement, double tolerance);
-    /// How many contacts there are; those that have room are written.
+    /// Returns the number of contacts. Writes as many as fit.
     [[nodiscard]] std::size_t contacts(const Placement& placement, double tolerance,
                                        std::span<Contact> room = {});
 
-    /// From now on counts what questions do; null ends that.
+    /// Counts the work of queries from now on; null ends counting.
     void count_into(QueryCounts* counts) noexcept {
         counts_ = counts;
         workspace_.count_into(counts);
@@ -80,7 +81,7 @@ private:
     Strategy strategy_;
     const Model& a_;
     const Model& b_;
-    /// Calls `keep` with the pairs that the talk's search finds, until it returns false.
+    /// Calls `keep` with the pairs that the literal search finds, until it returns false.
     void visit_literally(const Placement& placement, PairVisitor keep);
 
     std::optional<ConvexPoints> hull_a_;

@@ -51,7 +51,7 @@ struct Arguments {
     EncloseOptions enclose;
 };
 
-/// Fails before anything is read when the output could not be written.
+/// Fails before any input is read if the output cannot be written.
 std::optional<Error> find_bad_output(const Arguments& arguments) {
     if (arguments.output.empty()) return std::nullopt;
     if (auto error = find_replaced_input(arguments.input, arguments.output)) return error;
@@ -102,7 +102,7 @@ Result<report::SurfacePiecesReport> decompose(const Arguments& arguments, Progre
     return report;
 }
 
-/// Pieces that enclose the mesh, within an error or as many as asked.
+/// Encloses the mesh in pieces, within an error or up to a number of pieces.
 Exit run_enclose(const Arguments& arguments, Progress& progress) {
     const Threads threads(arguments.threads);
     EncloseOptions options = arguments.enclose;
@@ -138,7 +138,7 @@ bool is_enclosing(const Arguments& arguments) {
     return enclosed.max_error || enclosed.parts || enclosed.max_parts;
 }
 
-/// An option that would change nothing was meant for something.
+/// Returns an error for an option without effect: the user expected one.
 std::optional<Error> find_idle_option(const Command& command, const Arguments& arguments) {
     constexpr std::array<const char*, 2> kOfSurface = {"--tolerance", "--order"};
     constexpr std::array<const char*, 7> kOfEnclosing = {

@@ -37,7 +37,7 @@ std::vector<format::SectionEntry> table_of(std::span<const std::byte> file,
     return entries;
 }
 
-/// Returns a sentence about what is safe to query but not right, or nothing.
+/// Returns a message about content that is safe to query but not right, or nothing.
 std::string find_false_content(const std::string& file, const Model& model) {
     const std::span<const std::byte> bytes = model.bytes();
     auto damage = format::find_deep_damage(bytes);

@@ -56,13 +56,13 @@ Found differ(const std::string& field, Value found, Value expected) {
     return FalseFact{field, text_of(found), text_of(expected)};
 }
 
-/// Numbers of which both are rounded. An error that is no number allows everything.
+/// Compares two rounded numbers. An error that is NaN allows every difference.
 Found differ_by(const std::string& field, double found, double expected, double error) {
     if (!(std::fabs(found - expected) > error)) return std::nullopt;
     return FalseFact{field, text_of(found), text_of(expected)};
 }
 
-/// The first of several that finds something; those behind it are not asked.
+/// Returns the first fact that a check finds. The checks after it do not run.
 template <class... Checks>
 Found first_of(const Checks&... checks) {
     Found found;
@@ -76,7 +76,7 @@ double coordinate(const Double3& p, std::size_t axis) {
 
 constexpr std::array<const char*, 3> kAxisName = {"x", "y", "z"};
 
-/// The words of a set of bits, and the bits that have none.
+/// Returns the words of a set of bits, followed by the bits without a word.
 std::string words_text(const std::vector<std::string>& words, std::uint32_t unknown) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
@@ -97,7 +97,7 @@ std::string promises_text(const format::Verdict& verdict) {
     return words_text(report::promise_words(verdict), verdict.promises & ~kKnown);
 }
 
-/// The soup that the mesh would be imported from.
+/// Returns the soup from which an import would give this mesh.
 mesh::TriangleSoup soup_of(const mesh::Mesh& mesh) {
     mesh::TriangleSoup soup;
     soup.positions = mesh.positions;
@@ -127,7 +127,8 @@ public:
     }
 
 private:
-    /// The other flags say how sections are to be read, and are checked with those.
+    /// Checks the flags `balanced` and `normalized`. The other flags tell how to read sections, and
+    /// the checks of these sections include them.
     [[nodiscard]] Found find_false_flag() const {
         const std::uint32_t flags = model_.header().flags;
         if (Found found = differ(flag_field("balanced"), (flags & format::model_balanced) != 0,
@@ -138,7 +139,8 @@ private:
         return normalized ? find_not_normalized() : find_false_normalization();
     }
 
-    /// Half of the diagonal, which is 1, and one rounding to float.
+    /// The bounding box of a normalized model has diagonal 1. So no coordinate exceeds half of it,
+    /// up to one rounding to float.
     [[nodiscard]] Found find_not_normalized() const {
         constexpr double kMost = 0.5 * (1 + 0x1p-22);
         for (const Double3& p : mesh_.positions) {
@@ -161,7 +163,7 @@ private:
             [&] { return differ("the user block, field normalize_offset", offset, 0.0); });
     }
 
-    /// Vertices are in the order of their first use.
+    /// The vertices must be in the order of their first use.
     [[nodiscard]] Found find_vertex_out_of_order() const {
         std::uint32_t next = 0;
         const auto triangles = model_.mesh().triangles;
@@ -175,7 +177,7 @@ private:
         return differ("the user block, field vertex_count", model_.vertex_count(), next);
     }
 
-    /// Absent when there is none, so absent words are zeros.
+    /// The section is absent if no triangle is degenerate, so absent words count as zeros.
     [[nodiscard]] Found find_false_degenerate() const {
         mesh::Mesh ordered;
         ordered.positions = mesh_.positions;
@@ -213,7 +215,7 @@ private:
                         [&] { return find_large_box(found); });
     }
 
-    /// Axes of unit length at right angles, right-handed.
+    /// The axes must have unit length, be perpendicular and form a right-handed system.
     static Found find_crooked_axes(const format::Bounds& bounds) {
         constexpr double kTolerance = 0x1p-44;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -232,8 +234,8 @@ private:
                          "a right-handed one"};
     }
 
-    /// A coordinate along an axis is off by a few units in the last place of the vertex's
-    /// distance from the centre.
+    /// The rounding error of a coordinate along an axis is a few units in the last place of the
+    /// vertex's distance from the centre.
     [[nodiscard]] Found find_vertex_outside(const format::Bounds& bounds) const {
         constexpr double kRounding = 0x1p-46;
         for (const Double3& p : mesh_.positions) {
@@ -250,8 +252,8 @@ private:
         return std::nullopt;
     }
 
-    /// An oriented box that is no smaller than the one along the axes is replaced by that.
-    /// What both are widened by is left out.
+    /// A bake stores the box along the axes as the oriented box if it finds no smaller one. The
+    /// comparison allows for the widening of the oriented box.
     static Found find_large_box(const format::Bounds& bounds) {
         const Double3 size = mesh::minus(bounds.upper, bounds.lower);
         const double scale = largest_of(size);
@@ -311,7 +313,7 @@ private:
             });
     }
 
-    /// A sum in the order of the source triangles is the same every time.
+    /// A sum in the order of the source triangles is the same in every run.
     [[nodiscard]] double volume_error() const {
         return has_source_ ? 0 : error_.volume_about_any;
     }
@@ -376,8 +378,8 @@ private:
         return std::nullopt;
     }
 
-    /// With the limit of a bake, which may have ended the search for crossings at the same
-    /// place. Without one when more was examined for the file.
+    /// Returns the verdicts on the mesh, with the limits of a bake: its search for crossings may
+    /// have ended at the same pair. Searches without limits if the file's verdicts examine more.
     [[nodiscard]] std::vector<format::Verdict> find_verdicts(
         const std::vector<format::Verdict>& found) const {
         mesh::DefectOptions options;
@@ -403,14 +405,14 @@ private:
         return is_examined(verdict) && (verdict.facts & format::verdict_self_crossing) == 0;
     }
 
-    /// A verdict that leaves crossings open says nothing of them that could be false, but for
-    /// the promise that it then must not make. Where components have no known order, one that
-    /// is open leaves all open.
+    /// Removes the facts about crossings from verdicts that leave crossings open. Such a verdict
+    /// claims nothing about crossings that could be false, and must not promise a simple solid. If
+    /// the order of components is unknown, one open component leaves all components open.
     void leave_open(std::vector<format::Verdict>& found,
                     std::vector<format::Verdict>& expected) const {
         constexpr std::uint32_t kCrossing =
             format::verdict_crossings_examined | format::verdict_self_crossing;
-        // One that is free of crossings shows that all pairs were examined.
+        // A verdict without crossings shows that all pairs were examined.
         if (std::any_of(found.begin(), found.end(), is_free)) return;
         const bool all_known = std::all_of(found.begin() + 1, found.end(), is_examined);
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -423,8 +425,8 @@ private:
         }
     }
 
-    /// Components without a known order: each field that is not rounded sorted with the others,
-    /// each sum by itself. Sorted lists are near each other where unsorted ones are.
+    /// Sorts the verdicts of components whose order is unknown: by all exact fields together, and
+    /// each sum by itself. If two lists agree within an error, so do their sorted lists.
     static void sort_components(std::vector<format::Verdict>& verdicts) {
         std::vector<double> areas;
         std::vector<double> volumes;
@@ -485,7 +487,7 @@ private:
 
     const Model& model_;
     ParallelFor parallel_for_;
-    mesh::Mesh mesh_;  ///< in source order, where that is known; else in tree order
+    mesh::Mesh mesh_;  ///< in source order if it is known; else in tree order
     bool has_source_;
     mesh::Topology topology_;
     convex::MassError error_;

@@ -17,11 +17,11 @@
 #include "cdprep/exact/triangles.h"
 #include "mesh/point_tree.h"
 
-// A triangle is cut in its own coordinates: a point of it is a sum of its corners with weights,
-// up to a common factor. How far a point is beyond a plane is linear in them, so that a plane
-// is a line, the three heights of the corners; and two lines meet where their cross product
-// says. Corners of what is left are always of two such lines, however often it was cut, so
-// that numbers do not grow.
+// A triangle is cut in its own coordinates: a point is a weighted sum of the corners, up to a
+// common factor. The height of a point above a plane is linear in the weights. So a plane becomes a
+// line, given by the heights of the three corners. Two lines meet at their cross product. Each
+// corner of the remaining polygon is where two such lines meet, however often it was cut. So
+// numbers do not grow.
 
 namespace cdprep::convex {
 namespace {
@@ -35,7 +35,7 @@ Row exact(const Double3& p) {
     return {Number(p.x), Number(p.y), Number(p.z)};
 }
 
-// The analyser does not see that Lazy_exact_nt counts its references.
+// The analyser does not understand the reference counts of Lazy_exact_nt.
 // NOLINTBEGIN(clang-analyzer-cplusplus.NewDeleteLeaks)
 Row minus(const Row& a, const Row& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
@@ -50,12 +50,12 @@ Number dot(const Row& a, const Row& b) {
 }
 // NOLINTEND(clang-analyzer-cplusplus.NewDeleteLeaks)
 
-/// What is above 0 on a line is beyond it.
+/// Returns the side of a line on which a point lies: 1 is beyond it.
 int side(const Row& line, const Row& point) {
     return static_cast<int>(CGAL::sign(dot(line, point)));
 }
 
-/// Weights add up to more than 0.
+/// Returns the point where two lines meet, scaled so that the sum of its weights is positive.
 Row meet(const Row& a, const Row& b) {
     Row point = cross(a, b);
     if (CGAL::sign(point[0] + point[1] + point[2]) < 0) {
@@ -64,14 +64,15 @@ Row meet(const Row& a, const Row& b) {
     return point;
 }
 
-/// A corner of a convex polygon in the triangle, and the line along which the next one is.
+/// A corner of a convex polygon in the triangle, and the line from it to the next corner.
 struct PolygonCorner {
     Row point;
     Row line;
 };
 using Polygon = std::vector<PolygonCorner>;
 
-/// The part of a polygon beyond a line, or before it, where some of its inside is.
+/// Returns the part of a polygon beyond a line (`wanted` 1) or before it (-1). `sides` are those
+/// of the corners. Some of the polygon's interior must lie on the wanted side.
 Polygon cut(const Polygon& polygon, const Row& line, const std::vector<int>& sides, int wanted) {
     Polygon part;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -86,7 +87,7 @@ Polygon cut(const Polygon& polygon, const Row& line, const std::vector<int>& sid
     return part;
 }
 
-/// A part as this looks at it.
+/// A part in the form that the check uses.
 struct Part {
     ConvexPoints points;
     std::span<const format::HullFacet> facets;
@@ -94,7 +95,7 @@ struct Part {
     mesh::Box box;
 };
 
-/// The lines along which a part's borders cut a triangle; none where it holds all of it.
+/// The lines along which a part's boundary planes cut a triangle; empty if it contains all of it.
 using Lines = std::vector<Row>;
 
 class CoverCheck {
@@ -118,7 +119,7 @@ public:
         Corners corners;
         for (std::size_t k = 0; k < 3; ++k) corners[k] = position(triangle.vertex[k]);
         if (exact::is_degenerate(corners)) return true;
-        // The next triangle is often in the same part.
+        // Consecutive triangles often lie in the same part.
         if (last_ < parts_.size()) {
             const auto lines = lines_of(parts_[last_], corners);
             if (lines && lines->empty()) return true;
@@ -150,7 +151,7 @@ private:
         return {p.x, p.y, p.z};
     }
 
-    /// Nothing where a part holds no more than a part of the triangle's border.
+    /// Returns nothing if the part contains at most some of the triangle's border.
     [[nodiscard]] static std::optional<Lines> lines_of(const Part& part, const Corners& corners) {
         return part.dimension == 3 ? lines_of_body(part, corners) : lines_of_sheet(part, corners);
     }
@@ -176,7 +177,8 @@ private:
         return lines;
     }
 
-    /// Of a polygon, by its edges, seen along an axis from which it has an area.
+    /// Returns the lines for a part that is a polygon, from its edges. Projects along an axis such
+    /// that the polygon keeps an area.
     static std::optional<Lines> lines_of_sheet(const Part& part, const Corners& corners) {
         const Corners plane = plane_of(part, part.facets.front());
         for (const int sign : exact::plane_signs(plane, corners)) {
@@ -223,8 +225,8 @@ private:
                 part.points.point(facet.point[2])};
     }
 
-    /// Gives the first of the parts what it holds of the polygon; the others have to hold what
-    /// is beyond one of its lines, and before those that came sooner.
+    /// Returns whether the parts together contain the polygon. Each line of the first part cuts off
+    /// the portion beyond it. The other parts must contain these portions.
     static bool is_covered(const Polygon& polygon, std::span<const Lines> parts) {
         if (parts.empty()) return false;
         Polygon rest = polygon;
@@ -245,7 +247,7 @@ private:
 
     const Model& model_;
     std::vector<Part> parts_;
-    std::size_t last_ = 0;  ///< that held a triangle whole
+    std::size_t last_ = 0;  ///< the last part that contained a whole triangle
 };
 
 }  // namespace

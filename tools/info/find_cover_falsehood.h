@@ -10,14 +10,17 @@
 
 namespace cdprep::convex {
 
-/// Proves, of a file in which find_hull_falsehood() finds nothing, that every point of every
-/// triangle is in a part, where there are parts: exactly, on the numbers as stored. Of
-/// triangles without area only corners are looked at, and parts that are points or segments
-/// hold no others. Returns nothing when all is well, also without parts; else `found` is the
-/// number of a triangle, in tree order, some point of which no part holds. `model` is this
-/// file, opened with all its sections. Mostly O(triangles * facets of the parts around), some
-/// nanoseconds each; microseconds for each facet that cuts a triangle that no part holds
-/// whole. Allocates.
+/// Proves that every point of every triangle lies in an enclosing part: exactly, for the stored
+/// numbers. Returns nothing if this is true, or if the file has no parts. Otherwise, `found` is the
+/// number, in tree order, of a triangle with a point outside all parts.
+///
+/// Triangles without area are skipped: find_hull_falsehood() checks their corners. Parts that are
+/// points or segments are skipped too: they cannot contain a triangle with area. `file` must be one
+/// in which find_hull_falsehood() finds nothing; `model` is this file, opened with all its
+/// sections.
+///
+/// Mostly takes O(triangles * facets of the parts around) time, some nanoseconds each. If no part
+/// contains a whole triangle, each facet that cuts it takes microseconds. Allocates.
 [[nodiscard]] std::optional<format::Damage> find_cover_falsehood(std::span<const std::byte> file,
                                                                  const Model& model);
 

@@ -29,21 +29,21 @@ bool is_normalized(const Model& model) {
     return (model.header().flags & format::model_normalized) != 0;
 }
 
-/// The provenance as JSON, or as text where it is not.
+/// Returns the provenance as JSON, or as text if it is not valid JSON.
 nlohmann::ordered_json provenance(const Model& model) {
     auto parsed = nlohmann::ordered_json::parse(model.record().provenance, nullptr, false);
     if (parsed.is_discarded()) return std::string(model.record().provenance);
     return parsed;
 }
 
-/// What was found, with the numbers of each rule; nothing where the file has none, or
-/// no JSON.
+/// Returns the stored findings, with the counts of each rule. Returns null if the file has none, or
+/// if they are not a JSON object.
 nlohmann::ordered_json findings(const Model& model) {
     auto parsed = nlohmann::ordered_json::parse(model.record().findings, nullptr, false);
     return parsed.is_object() ? parsed : nlohmann::ordered_json();
 }
 
-/// One line a rule: "  CDP0501 crossing-triangles: 12".
+/// Returns one line per rule: "  CDP0501 crossing-triangles: 12".
 std::string findings_text(const Model& model) {
     const nlohmann::ordered_json found = findings(model);
     if (!found.contains("findings") || !found["findings"].is_array()) return {};
@@ -55,7 +55,7 @@ std::string findings_text(const Model& model) {
     return text.empty() ? "findings: none\n" : "findings:\n" + text;
 }
 
-/// The names of what the model can be asked for.
+/// Returns the names of the queries and structures that the model serves.
 std::vector<std::string> served_names(const Model& model) {
     std::vector<std::string> names;
     for (const Needs& row : needs()) {

@@ -7,8 +7,8 @@
 
 namespace cdprep::report {
 
-/// What `cdprep info` says of a file that opened: sections with name, offset
-/// and bytes, counts, guarantees, provenance. `file` stands in the text.
+/// Returns the report of `cdprep info` on an open file: sections with name, offset and bytes,
+/// counts, guarantees, provenance. The report names `file`.
 [[nodiscard]] std::string info_text(const std::string& file, const Model& model,
                                     std::span<const format::SectionEntry> sections);
 [[nodiscard]] std::string info_json(const std::string& file, const Model& model,

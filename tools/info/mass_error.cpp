@@ -20,7 +20,7 @@ constexpr double kUnit = 0x1p-53;  ///< the relative error of one operation
 /// Sums over all triangles, about the centre of the box.
 struct Sums {
     double count = 0;
-    double reach = 0;          ///< the largest coordinate
+    double reach = 0;          ///< no sum: the largest absolute coordinate
     double volume_6 = 0;       ///< of determinants, signed
     double determinants = 0;   ///< of their absolute values
     double permanents = 0;     ///< of the absolute values of their six products
@@ -39,7 +39,7 @@ Double3 box_centre(const mesh::Mesh& mesh) {
             0.5 * lower.z + 0.5 * upper.z};
 }
 
-/// The absolute values of the products of a cross product, component by component.
+/// Returns the sum of the absolute values of both products in each component of a cross product.
 Double3 products_of(const Double3& u, const Double3& v) {
     return {std::fabs(u.y * v.z) + std::fabs(u.z * v.y),
             std::fabs(u.z * v.x) + std::fabs(u.x * v.z),
@@ -80,31 +80,31 @@ Sums sums_of(const mesh::Mesh& mesh) {
 MassError find_mass_error(const mesh::Mesh& mesh) {
     if (mesh.triangles.empty()) return {};
     const Sums s = sums_of(mesh);
-    // Corners about the origin are the same numbers in both results. A determinant takes at
-    // most 5 operations after that, each of which is off by u times a part of its permanent;
-    // a sum of n terms adds n u times what has been added up. Constants are rounded up.
-    const double least = (s.count + 16) * 0x1p-1060;  // of operations that underflow
+    // Corners relative to the origin are the same numbers in both results. A determinant then takes
+    // at most 5 operations. The error of each is u times a part of the permanent. A sum of n terms
+    // adds an error of n u times the sum of absolute values. Constants are rounded up.
+    const double least = (s.count + 16) * 0x1p-1060;  // the error of operations that underflow
     const double terms = s.determinants + 16 * kUnit * s.permanents;
     const double volume_6 = kUnit * (10 * s.permanents + (s.count + 4) * terms) + least;
-    // A corner sum is at most 3 reaches, an entry of the second moments 12 squares of one.
+    // The sum of three corners is at most 3 reach, an entry of the second moments 12 reach^2.
     const double r = s.reach;
     const double first = 3 * r * (kUnit * (16 * s.permanents + (s.count + 8) * terms) + least);
     const double second =
         12 * r * r * (kUnit * (20 * s.permanents + (s.count + 12) * terms) + least);
     const double volume = std::fabs(s.volume_6 / 6);
 
-    constexpr double kBoth = 4;  // two results, and as much again for what is not of first order
+    constexpr double kBoth = 4;  // 2 for two results, times 2 for terms of higher order
     MassError error;
     error.volume = kBoth * (volume_6 / 6 + 2 * kUnit * volume);
-    // About another point of the box corners are at most 2 reaches, a permanent 48 cubes of
-    // one, and determinants differ by that way times twice the area.
+    // Relative to another point of the box, corners are at most 2 reach and a permanent 48 reach^3.
+    // Determinants change by at most the shift times twice the area.
     const double any_terms = terms + 4 * r * s.areas_2;
     const double any_6 = kUnit * (480 * s.count * r * r * r + (s.count + 4) * any_terms) + least;
     error.volume_about_any = kBoth * (any_6 / 6 + kUnit * any_terms);
     error.area = kBoth * (kUnit * (10 * s.area_products + (s.count + 8) * s.areas_2) + least);
     error.centre = error.inertia = std::numeric_limits<double>::infinity();
     if (!(volume > 2 * error.volume)) return error;
-    const double far = (3 * r * terms / 24) / volume;  // the centre, at most
+    const double far = (3 * r * terms / 24) / volume;  // the largest coordinate of the centre
     const double centre = (first / 24 + far * error.volume) / (volume - error.volume);
     const double place = largest_of(box_centre(mesh)) + far;
     error.centre = kBoth * (centre + 4 * kUnit * far + 2 * kUnit * place);

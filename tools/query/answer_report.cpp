@@ -5,8 +5,8 @@
 #include <charconv>
 #include <ostream>
 
-// JSON is put together by hand here: pairs come by the million, and a blank after
-// each comma and colon is part of what scripts may rely on.
+// This file writes JSON by hand. There may be millions of pairs, and scripts may rely on the blank
+// after each comma and colon.
 
 namespace cdprep::report {
 namespace {
@@ -44,7 +44,8 @@ std::string place(const Double3& p, const char* between) {
     return number(p.x) + between + number(p.y) + between + number(p.z);
 }
 
-/// `row_begin` 17 `between` 4 `row_end` for each pair, with `comma` between two.
+/// The separators around pairs: `row_begin` 17 `between` 4 `row_end`, with `comma` between two
+/// pairs.
 struct PairStyle {
     const char* row_begin;
     const char* between;
@@ -110,7 +111,7 @@ std::string crossings_text(std::span<const Crossing> crossings) {
     return text;
 }
 
-/// Of an answer that may have them.
+/// Returns the members "count" and "pairs", each only if the answer has it.
 template <class Answer>
 std::string count_and_pairs_json(const Answer& answer) {
     std::string text;
@@ -121,7 +122,7 @@ std::string count_and_pairs_json(const Answer& answer) {
     return text;
 }
 
-/// Lines of their own.
+/// Returns the pairs, each on its own line, or "" if there is no list.
 std::string pair_lines(const std::optional<std::span<const TrianglePair>>& pairs) {
     return pairs ? pairs_text(*pairs, {"\n  ", " ", "", ""}) : "";
 }

@@ -17,41 +17,41 @@ namespace cdprep::report {
 
 enum class AnswerFormat : std::uint8_t { text, json, ndjson };
 
-/// The answer about two models in one pose.
+/// The answer to a collide or overlap query in one pose.
 struct PairAnswer {
     std::size_t pose = 0;
     bool hit = false;
     std::optional<std::size_t> count;                    ///< overlap only
     std::optional<std::span<const TrianglePair>> pairs;  ///< overlap without --count
-    std::optional<std::span<const Crossing>> crossings;  ///< instead, with --segments
+    std::optional<std::span<const Crossing>> crossings;  ///< instead of pairs, with --segments
     std::optional<Containment> containment;              ///< solid only
     bool is_approximate = false;                         ///< pairs may be missing
 };
 
-/// What one level of detail says about two solids in one pose.
+/// The answer of one level of detail about two solids in one pose.
 struct CoarseAnswer {
     std::size_t pose = 0;
     CoarseCollision collision;
 };
 
-/// How far two models are apart in one pose; nothing when farther than asked for.
+/// The distance between two models in one pose; empty if it is beyond the maximum distance.
 struct DistanceAnswer {
     std::size_t pose = 0;
     std::optional<Distance> distance;
 };
 
-/// What two models' hulls say in one pose: where they do not touch, nor do the models, which
-/// are at least as far apart.
+/// The answers about the convex hulls of two models in one pose. If the hulls do not touch, the
+/// models do not touch either. The models are at least as far apart as their hulls.
 struct HullCollideAnswer {
     std::size_t pose = 0;
     bool hit = false;
 };
 struct HullDistanceAnswer {
     std::size_t pose = 0;
-    std::optional<ConvexDistance> distance;  ///< nothing when farther than asked for
+    std::optional<ConvexDistance> distance;  ///< empty if beyond the maximum distance
 };
 
-/// Whether two models are within the tolerance in one pose.
+/// The answer of a within query: true if the models are within the tolerance in one pose.
 struct WithinAnswer {
     std::size_t pose = 0;
     bool within = false;
@@ -59,38 +59,37 @@ struct WithinAnswer {
     std::optional<std::span<const TrianglePair>> pairs;  ///< with --pairs
 };
 
-/// How two models touch in one pose.
+/// The contacts of two models in one pose.
 struct ContactsAnswer {
     std::size_t pose = 0;
     std::span<const Contact> contacts;
 };
 
-/// Whether point number `point` is inside.
+/// The inclusion of point number `point` in the model.
 struct InsideAnswer {
     std::size_t point = 0;
     Inclusion inclusion;
 };
 
-/// What lies nearest to point number `point`; nothing in an empty model.
+/// The point of the model closest to point number `point`; nothing in an empty model.
 struct ClosestAnswer {
     std::size_t point = 0;
     std::optional<ClosestPoint> closest;
 };
 
-/// What ray number `ray` meets first.
+/// The first triangle that ray number `ray` hits; nothing if it hits none.
 struct RayAnswer {
     std::size_t ray = 0;
     std::optional<RayHit> hit;
 };
 
-/// Writes answers one after the other: lines of text, elements of one JSON
-/// array, or lines of NDJSON such as
-/// {"pose": 0, "hit": true, "count": 2, "pairs": [[17, 4], [18, 4]]}. Segments stand in
-/// the order of the pairs, six numbers each or null for flat ones.
-/// Numbers read back as the same doubles.
+/// Writes answers one after the other: lines of text, elements of one JSON array, or lines of
+/// NDJSON such as {"pose": 0, "hit": true, "count": 2, "pairs": [[17, 4], [18, 4]]}. Segments are
+/// in the order of the pairs: six numbers each, or null if Crossing::is_flat. Numbers read back as
+/// the same doubles.
 class Answers {
 public:
-    /// `out` outlives the object.
+    /// `out` must outlive the object.
     Answers(std::ostream& out, AnswerFormat format) : out_(out), format_(format) {}
 
     void add(const PairAnswer& answer);
@@ -104,7 +103,7 @@ public:
     void add(const ClosestAnswer& answer);
     void add(const RayAnswer& answer);
 
-    /// Call once, after the last answer.
+    /// Ends the output. Call it once, after the last answer.
     void finish();
 
 private:

@@ -11,22 +11,22 @@
 namespace cdprep::mesh {
 namespace {
 
-/// Caps are rounded: off by far less than this, of one or of themselves.
+/// A bound of the rounding errors of caps, absolute and relative. The errors are far smaller.
 constexpr double kCapSlack = 0x1p-40;
 
 double length(const Double3& v) {
     return std::hypot(v.x, v.y, v.z);
 }
 
-/// Scaled to unit length; whatever the scale, no square leaves the range.
+/// Returns `v` scaled to unit length. Works at any scale, since no square overflows or underflows.
 Double3 direction(const Double3& v) {
     const double size = length(v);
     return {v.x / size, v.y / size, v.z / size};
 }
 
-/// Of the triangle's plane, which no point of it is nearer than, less what rounding may
-/// do: the edges' ends are off by 2^-52 of how far they are, and a thin triangle's normal
-/// by as much more as it is thin. 0 where that is all there is.
+/// Returns the distance of the triangle's plane, minus a bound of the rounding error. No point of
+/// the triangle is nearer. The error of an edge's ends is 2^-52 of their distance. The error of a
+/// thin triangle's normal grows with its thinness. Returns 0 if the error exceeds the distance.
 double least_distance(const Double3& a, const Double3& b, const Double3& c, double farthest) {
     const Double3 ab = minus(b, a);
     const Double3 ac = minus(c, a);
@@ -34,7 +34,7 @@ double least_distance(const Double3& a, const Double3& b, const Double3& c, doub
     const double error = (0x1p-48 + 0x1p-48 * farthest / std::min(length(ab), length(ac))) /
                          std::min(1.0, length(normal));
     const double height = std::fabs(dot(direction(normal), a)) - farthest * error;
-    return height > 0 ? height * (1 - kCapSlack) : 0;  // 0 too for what is no number
+    return height > 0 ? height * (1 - kCapSlack) : 0;  // also 0 for NaN
 }
 
 Cap cap_of(const Double3& a, const Double3& b, const Double3& c) {
@@ -50,7 +50,7 @@ Cap cap_of(const Double3& a, const Double3& b, const Double3& c) {
         cap.cosine = std::min(cap.cosine, dot(cap.middle, direction(p)));
         cap.farthest = std::max(cap.farthest, length(p));
     }
-    // Half a turn and more, or corners at the centre, or too large to tell.
+    // The cap is nearly half of all directions or more, or a corner is the centre or too far away.
     if (!(cap.cosine > 0.1) || !std::isfinite(cap.farthest)) return kEverything;
     cap.sine = std::sqrt(1 - cap.cosine * cap.cosine);
     cap.radius = std::sqrt(2 * (1 - cap.cosine) + kCapSlack);
@@ -58,14 +58,14 @@ Cap cap_of(const Double3& a, const Double3& b, const Double3& c) {
     return cap;
 }
 
-/// Whether some point of `s` may lie beyond one of `t` in a direction of both.
+/// Returns whether some point of `s` may lie beyond a point of `t` in the same direction.
 bool may_hide(const Cap& s, const Cap& t) {
     if (s.farthest * (1 + kCapSlack) < t.nearest) return false;
     if (s.cosine < -1 || t.cosine < -1) return true;
     return dot(s.middle, t.middle) >= s.cosine * t.cosine - s.sine * t.sine - kCapSlack;
 }
 
-/// Sizes in one class differ by a factor of 4 at most; kCapSlack keeps them above 2^-20.
+/// The radii in one class differ by a factor of at most 4; kCapSlack keeps them above 2^-20.
 constexpr int kClasses = 12;
 
 std::size_t class_of(const Cap& cap) {
@@ -120,7 +120,8 @@ void CapTree::find_others(std::uint32_t triangle, std::vector<std::uint32_t>& ot
     };
     std::for_each(everywhere_.begin(), everywhere_.end(), look_at);
     for (const Class& its : classes_) {
-        // Two circles of directions that meet have middles no farther apart than both radii.
+        // If two circles of directions meet, the distance of their middles is at most the sum of
+        // both radii.
         const Box reach = around(own.middle, own.radius + its.radius);
         its.middles.visit([&](const Box& box) { return box.meets(reach); },
                           [&](std::uint32_t number) { look_at(its.triangles[number]); });

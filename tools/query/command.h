@@ -8,19 +8,19 @@
 
 namespace cdprep::cli {
 
-/// Adds the questions about two models: collide, overlap, distance, within.
+/// Adds the queries about two models: collide, overlap, distance, within.
 void add_pair_questions(const Command& query, Exit& exit);
 
-/// Adds the question how two models touch: contacts.
+/// Adds the query for the contacts of two models: contacts.
 void add_contacts(const Command& query, Exit& exit);
 
-/// Adds the questions about one model: inside, closest, ray.
+/// Adds the queries about one model: inside, closest, ray.
 void add_point_questions(const Command& query, Exit& exit);
 
-/// Adds the question which triangles of a model are inaccessible.
+/// Adds the query for the inaccessible triangles of a model: inaccessible.
 void add_inaccessible(const Command& query, Exit& exit);
 
-/// Adds --format, which every question has.
+/// Adds --format, which every query has.
 void add_answer_format(const Command& command, std::string& word);
 [[nodiscard]] report::AnswerFormat parse_answer_format(const std::string& word);
 

@@ -10,22 +10,23 @@
 
 namespace cdprep::mesh {
 
-/// Which triangles nothing reaches that comes straight towards the centre.
+/// The triangles that are occluded along every ray towards the centre.
 struct Inaccessible {
-    std::vector<std::uint32_t> triangles;  ///< numbers in `triangles`, rising
-    /// Triangles that cover no direction, since their plane holds the centre or they are
-    /// degenerate: the criterion says nothing of them and they are not among `triangles`.
+    std::vector<std::uint32_t> triangles;  ///< numbers in `triangles`, ascending
+    /// The number of triangles that cover no direction: their plane contains the centre, or they
+    /// are degenerate. The criterion does not apply to them, and `triangles` does not contain them.
     std::uint64_t edge_on = 0;
 };
 
-/// Finds the triangles that others hide along every ray towards the centre, a tetra-tree's:
-/// the selection of inaccessible parts of the tetra-tree papers. A radial criterion, not true
-/// accessibility: what a straight approach to the centre cannot reach, a bent one may,
-/// and an undercut that is seen from the side counts as hidden.
+/// Finds the triangles that others occlude along every ray towards the centre of a tetra-tree. The
+/// publications on tetra-trees use this criterion to select inaccessible parts. It is radial, not
+/// true accessibility. A bent path may reach a triangle that no straight ray towards the centre
+/// reaches. An undercut that is visible from the side counts as occluded.
 ///
-/// The papers look for what hides a triangle in the cones that hold it; what the cones of a
-/// stored tree list is too much of a fine mesh, and this needs no more of it than the centre.
-/// Exact; deterministic. O(n log n), and for each triangle those that may hide it.
+/// The publications search for occluding triangles in the cones that contain a triangle. The cones
+/// of a stored tree list too many triangles of a fine mesh, so this function uses only the centre.
+/// Exact and deterministic. Takes O(n log n) time, plus, for each triangle, the number of triangles
+/// that may occlude it.
 [[nodiscard]] Inaccessible find_inaccessible(const Double3& centre,
                                              std::span<const Double3> positions,
                                              std::span<const Triangle> triangles,

@@ -31,7 +31,7 @@ std::vector<Double3> positions_of(const Model& model) {
     return positions;
 }
 
-/// The model in tree order, the inaccessible triangles in a colour of their own.
+/// Writes the model in tree order, with the inaccessible triangles in their own colour.
 Result<Done> write_coloured(const std::filesystem::path& path, const Model& model,
                             const std::vector<Double3>& positions,
                             const std::vector<std::uint32_t>& inaccessible) {

@@ -58,7 +58,7 @@ struct Arguments {
     bool skip_degenerate = false;
 };
 
-/// Asks `repeat` times and keeps what each time took.
+/// Runs a query `repeat` times and keeps the time of each run.
 class Stopwatch {
 public:
     template <class Ask>
@@ -72,7 +72,7 @@ public:
         }
     }
 
-    /// What the questions took, for people: one line.
+    /// Returns the distribution of the times as one line of text.
     [[nodiscard]] std::string line() {
         if (microseconds_.empty()) return "";
         std::sort(microseconds_.begin(), microseconds_.end());
@@ -92,19 +92,20 @@ private:
     std::vector<double> microseconds_;
 };
 
-/// The hierarchies have none.
+/// Returns whether a structure has cells; the BVH and the pieces have none.
 bool has_cells(Structure structure) {
     return structure != Structure::bvh && structure != Structure::pieces;
 }
 
 constexpr const char* kLiteral = "hashed-octree-literal";
 
-/// Whether the talk's search answers, which misses pairs.
+/// Returns whether the search of Ponce Atencio's talk ("Some techniques to speed up collision
+/// detection") answers. It misses pairs.
 bool asks_literally(const Arguments& arguments) {
     return arguments.question == Question::overlap && arguments.structure.structure == kLiteral;
 }
 
-/// Answers one placement after the other with buffers that are kept.
+/// Answers one placement after the other and reuses its buffers.
 class Asker {
 public:
     Asker(const Arguments& arguments, const StructureOptions& through, const Model& a,
@@ -122,8 +123,8 @@ public:
         if (arguments.counts) workspace_.count_into(&counts_);
     }
 
-    /// Asks one placement, `--repeat` times, and writes the answer once. Every time
-    /// starts where the placement before ended.
+    /// Runs the query for one placement `--repeat` times, and writes the answer once. Each run
+    /// starts with the cache that the previous placement left.
     void answer(std::size_t number, const Placement& placement, report::Answers& answers) {
         const PieceCache before = cache_;
         switch (arguments_.question) {
@@ -154,12 +155,12 @@ public:
         }));
     }
 
-    /// What the questions took, for people: one line.
+    /// Returns the times of the queries as one line of text.
     [[nodiscard]] std::string timings() {
         return stopwatch_.line();
     }
 
-    /// What the questions did, for people: one line.
+    /// Returns the counters of the queries as one line of text.
     [[nodiscard]] std::string counts() const {
         std::ostringstream line;
         line << counts_.box_pairs << " box pairs, ";
@@ -182,7 +183,7 @@ private:
         return stopwatch_.timed(arguments_.repeat, arguments_.timings, ask);
     }
 
-    /// The answer's pairs stay valid until the next call.
+    /// Returns an answer whose pairs are valid until the next call.
     report::PairAnswer ask(std::size_t number, const Placement& placement) {
         report::PairAnswer answer;
         answer.pose = number;
@@ -205,8 +206,8 @@ private:
         return answer;
     }
 
-    /// As collide() answers. Whether a solid is inside the other is always found through
-    /// the hierarchy of boxes.
+    /// Returns the answer of collide(). The BVH always decides whether one solid is inside the
+    /// other.
     Collision find_collision(const Placement& placement) {
         const Pair asked = pair(placement);
         if (through_.structure == Structure::bvh) return collide(asked, workspace_);
@@ -216,7 +217,7 @@ private:
         return {inside.answer, inside};
     }
 
-    /// The answer's pairs stay valid until the next call.
+    /// Returns an answer whose pairs are valid until the next call.
     report::WithinAnswer ask_within(std::size_t number, const Placement& placement) {
         const double tolerance = arguments_.tolerance;
         report::WithinAnswer answer;
@@ -258,8 +259,8 @@ private:
         return count;
     }
 
-    /// Calls `find(room)`, again with more room when the pairs did not fit; with none
-    /// when they are counted alone.
+    /// Calls `find(room)`, and again with more room if the pairs did not fit. With --count, calls
+    /// it once without room.
     template <class Find>
     std::size_t keep_pairs(Find find) {
         if (arguments_.count) return find({});
@@ -270,7 +271,7 @@ private:
         }
     }
 
-    /// In the order of the pairs.
+    /// Finds the crossings, sorted by their pairs, and returns their number.
     std::size_t find_crossings(const Placement& placement) {
         crossings_.clear();
         const auto keep = [this](const Crossing& crossing) {
@@ -303,7 +304,7 @@ bool asks_hulls(const Arguments& arguments) {
            (arguments.question == Question::collide || arguments.question == Question::distance);
 }
 
-/// Options that say what convex hulls do not know.
+/// Returns an error if an option is given that queries on convex hulls do not support.
 std::optional<Error> find_idle_for_hulls(const Arguments& arguments) {
     const std::array<std::pair<const char*, bool>, 6> options = {
         {{"--leaf-test", !arguments.structure.leaf_test.empty()},
@@ -339,7 +340,7 @@ std::string hull_counts(const QueryCounts& counts) {
     return line.str();
 }
 
-/// About the hulls of the wholes: solid, whatever the models are.
+/// Queries the convex hulls of the whole models, always as solids.
 Exit run_hulls(const Arguments& arguments) {
     if (const auto error = find_idle_for_hulls(arguments)) return fail("query", *error);
     const Result<Model> a = open_hulls(arguments.a);
@@ -383,14 +384,14 @@ Exit run_hulls(const Arguments& arguments) {
     return Exit::success;
 }
 
-/// What both models must serve.
+/// Returns the queries that both models must serve.
 Ask asks_of(const Arguments& arguments) {
     const bool is_solid = arguments.as == "solid";
     const Ask solid = is_solid ? Ask::solid : Ask::nothing;
     switch (arguments.question) {
         case Question::collide:
             return Ask::collide | solid;
-        case Question::overlap:  // whether solids overlap is what collide() answers
+        case Question::overlap:  // collide() decides whether solids overlap
             return is_solid ? Ask::overlap | Ask::collide | Ask::solid : Ask::overlap;
         case Question::distance:
             return Ask::distance | solid;
@@ -412,7 +413,7 @@ const char* name_of(Question question) {
     }
 }
 
-/// Through what a question can be asked.
+/// Returns the structures that serve a query.
 std::span<const Structure> structures_serving(Question question) {
     static constexpr std::array<Structure, 6> kAll = {
         Structure::bvh,           Structure::pieces,
@@ -423,7 +424,7 @@ std::span<const Structure> structures_serving(Question question) {
     return finds_pairs ? all : all.first(2);
 }
 
-/// Options that the talk's search does not serve.
+/// Returns an error if an option is given that the search of Ponce Atencio's talk does not support.
 std::optional<Error> find_idle_for_literal(const Arguments& arguments) {
     if (arguments.as == "solid") {
         return Error{ErrorCode::bad_argument,
@@ -436,7 +437,7 @@ std::optional<Error> find_idle_for_literal(const Arguments& arguments) {
                  "but --structure is hashed-octree-literal."};
 }
 
-/// Fails where a question's other options need what only the hierarchy of boxes does.
+/// Returns the structure and its options. Fails if another option is for a different structure.
 Result<StructureOptions> structure_of(const Arguments& arguments) {
     StructureWords words = arguments.structure;
     if (asks_literally(arguments)) {
@@ -547,7 +548,7 @@ void add_distance_options(const Command& command, Arguments& arguments) {
         .group("Query");
 }
 
-/// The structures that serve a question, for help.
+/// Returns the help text on the structures that serve a query.
 const char* structure_text(Question question) {
     switch (question) {
         case Question::collide:

@@ -7,7 +7,7 @@
 namespace cdprep::cli {
 namespace {
 
-/// A pose of the command line: whatever is wrong with it was asked wrongly.
+/// Parses a pose from the command line. Every error in it is an invalid argument.
 Result<Pose> argument_pose(const std::string& text, const char* option) {
     if (text.empty()) return Pose();
     Result<Pose> pose = parse_pose(text, option);

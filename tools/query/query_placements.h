@@ -10,7 +10,7 @@
 
 namespace cdprep::cli {
 
-/// Where B is, as the command line has it.
+/// The command-line arguments for the poses of both models.
 struct PlacementWords {
     std::filesystem::path poses;
     std::string pose;
@@ -19,11 +19,11 @@ struct PlacementWords {
     std::string placement = "relative";
 };
 
-/// Adds --pose, --poses, --pose-a, --pose-b and --placement. `words` lives as long as the command.
+/// Adds --pose, --poses, --pose-a, --pose-b and --placement. `words` must outlive the command.
 void add_placements(const Command& command, PlacementWords& words);
 
-/// All placements that are asked about: one pose of B a line, one pose, two
-/// world poses, or none for B as it stands.
+/// Returns all placements that the arguments give: a file with one pose of B per line, one pose, or
+/// two world poses. Without any, returns one placement with B in its own coordinates.
 [[nodiscard]] Result<std::vector<Placement>> placements_of(const PlacementWords& words);
 
 }  // namespace cdprep::cli

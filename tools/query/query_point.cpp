@@ -26,10 +26,10 @@ struct Arguments {
     std::filesystem::path places;  ///< file of points or rays
     std::string format = "text";
     StructureWords structure;
-    std::filesystem::path coloured;  ///< the points with what was answered; empty: none
+    std::filesystem::path coloured;  ///< file for the points, coloured by answer; empty: none
 };
 
-/// What a point is, by number; `unknown` of an open model.
+/// The answers about a point, by number. `unknown` occurs for open models.
 const std::vector<write::Shade> kShades = {{"outside", {150, 150, 150}},
                                            {"inside", {220, 50, 47}},
                                            {"on_surface", {240, 190, 40}},
@@ -41,7 +41,7 @@ std::uint8_t shade_of(const Inclusion& inclusion) {
     return inclusion.answer == Answer::yes ? 1 : 0;
 }
 
-/// One question about one model, asked at many places.
+/// One query about one model, for many points or rays.
 template <class Place>
 struct Question {
     const char* name;
@@ -50,10 +50,10 @@ struct Question {
     const char* option;  ///< --points or --rays
     const char* option_description;
     Result<std::vector<Place>> (*read)(const std::filesystem::path&);
-    std::span<const Structure> serving;  ///< through what it can be asked
+    std::span<const Structure> serving;  ///< the structures that serve it
     const char* structure_description;
     const char* example;
-    bool can_export;  ///< the places, in colours
+    bool can_export;  ///< the points can be exported, coloured by answer
     /// Returns the number of the shade in which the place is exported.
     std::uint8_t (*ask)(const Model&, const Place&, Structure, Workspace&, std::size_t number,
                         report::Answers&);
@@ -122,13 +122,13 @@ constexpr Question<Ray> kRay = {"ray",
                                 false,
                                 ask_ray};
 
-/// Rays are not exported.
+/// Does nothing: rays are not exported.
 Exit export_places(const std::filesystem::path& /*path*/, const std::vector<Ray>& /*rays*/,
                    const std::vector<std::uint8_t>& /*shades*/) {
     return Exit::success;
 }
 
-/// Of a question that was interrupted, those that were asked.
+/// Exports the answered points: the first ones if the user interrupted the query.
 Exit export_places(const std::filesystem::path& path, const std::vector<Double3>& points,
                    const std::vector<std::uint8_t>& shades) {
     if (path.empty()) return Exit::success;

@@ -11,7 +11,7 @@
 namespace cdprep::cli {
 namespace {
 
-/// Of the structures that serve the question.
+/// Returns the structure with this name, among those that serve the query.
 Result<Structure> find_structure(const std::string& name, const char* question,
                                  std::span<const Structure> serving) {
     std::string names;
@@ -24,7 +24,7 @@ Result<Structure> find_structure(const std::string& name, const char* question,
                                               "."};
 }
 
-/// An option that would change nothing was meant for something.
+/// Returns an error if an option is given that has no effect: the user expects it to have one.
 std::optional<Error> find_idle_option(const StructureWords& words, Structure structure) {
     const auto idle = [&](const char* option, const char* user) {
         return Error{ErrorCode::bad_argument, std::string(option) + " is for " + user +

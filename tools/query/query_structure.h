@@ -11,8 +11,7 @@
 
 namespace cdprep::cli {
 
-/// What the command line says of the structure through which a question is asked; empty:
-/// not given.
+/// The command-line arguments about the structure that answers a query; empty: not given.
 struct StructureWords {
     std::string structure = "bvh";
     std::string leaf_test;
@@ -20,14 +19,14 @@ struct StructureWords {
     std::string search;
 };
 
-/// Adds --structure; add_structure_steps() adds --leaf-test, --descent and --search, for
-/// questions about two models.
+/// Adds --structure. add_structure_steps() adds --leaf-test, --descent and --search, for queries
+/// about two models.
 void add_structure(const Command& command, StructureWords& words, const char* description);
 void add_structure_steps(const Command& command, StructureWords& words);
 
-/// Fails with bad_argument when the structure is none of those that serve the question,
-/// and when an option says how to do what the structure does not do. `question` stands
-/// in the sentence.
+/// Returns the structure and its options. Fails with bad_argument if the structure does not serve
+/// the query, or if an option does not apply to the structure. `question` is the query's name in
+/// messages.
 [[nodiscard]] Result<StructureOptions> parse_structure(const StructureWords& words,
                                                        const char* question,
                                                        std::span<const Structure> serving);

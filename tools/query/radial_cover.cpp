@@ -13,16 +13,16 @@
 #include "cdprep/exact/triangles.h"
 #include "mesh/vectors.h"
 
-// A region of directions is a set of convex cones, each the common part of half-spaces
-// {d : n . d >= 0} whose border planes go round it. Its corner between planes i and j
-// that follow each other is the direction n_i x n_j, so on which side of plane k it lies
-// is the sign of det(n_i, n_j, n_k). All planes are given by the mesh itself:
+// A region of directions is a set of convex cones. Each cone is the intersection of half-spaces
+// {d : n . d >= 0}, in the order of their boundary planes around it. Its corner between consecutive
+// planes i and j is the direction n_i x n_j. The sign of det(n_i, n_j, n_k) is the side of plane k
+// on which this corner lies. The mesh itself gives all planes:
 //   - through the centre and an edge (a, b) of a triangle: n = a x b;
-//   - between the directions in which s is farther out than t: with N_s, N_t normals and
-//     h_s, h_t > 0 their distances from the centre times their lengths, s is met at
-//     r = h_s / (N_s . d), so n = h_s N_t - h_t N_s.
-// So signs are of bounded degree however often a region is cut. (Corners relative to the
-// centre throughout.)
+//   - around the directions in which s is farther out than t: let N_s, N_t be normals and
+//     h_s, h_t > 0 the distances of their planes from the centre times their lengths. A ray meets
+//     s at r = h_s / (N_s . d), so n = h_s N_t - h_t N_s.
+// So signs have bounded degree, however often a region is cut. All corners are relative to the
+// centre.
 
 namespace cdprep::mesh {
 namespace {
@@ -48,7 +48,7 @@ Vector<Number> sum(const Vector<Number>& a, const Vector<Number>& b) {
     return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
-/// Where n = h N is kept as the two: a normal and the volume that goes with it.
+/// The plane of a triangle, as its normal N and its height h: N . p = h for points p in it.
 template <class Number>
 struct Supporting {
     Vector<Number> normal;
@@ -57,12 +57,12 @@ struct Supporting {
 
 constexpr std::uint32_t kNoVertex = 0xffffffffU;
 
-/// A half-space with the centre on its border.
+/// A half-space with the centre on its boundary plane.
 struct HalfSpace {
     bool is_beyond;        ///< where `first` is farther out than `second`; else of an edge
-    std::uint32_t first;   ///< vertex, or triangle
+    std::uint32_t first;   ///< a triangle if is_beyond, else a vertex
     std::uint32_t second;  ///< the same
-    std::array<std::uint32_t, 2> on;  ///< vertices that the border holds, or kNoVertex
+    std::array<std::uint32_t, 2> on;  ///< known vertices on the boundary plane, or kNoVertex
     Vector<Interval> normal;
 };
 
@@ -70,18 +70,18 @@ bool is_on(const HalfSpace& plane, std::uint32_t vertex) {
     return vertex != kNoVertex && (plane.on[0] == vertex || plane.on[1] == vertex);
 }
 
-/// Both borders are the plane of one edge.
+/// Returns whether both boundary planes are known to be the plane of one edge.
 bool are_of_one_edge(const HalfSpace& a, const HalfSpace& b) {
     return !a.is_beyond && !b.is_beyond && is_on(b, a.on[0]) && is_on(b, a.on[1]);
 }
 
-/// One of the half-spaces whose common part is a cone.
+/// One of the half-spaces whose intersection is a cone.
 struct Border {
     std::uint32_t plane;   ///< number of the half-space
     Vector<Interval> ray;  ///< the corner between this border and the next
 };
 
-/// A convex cone: its borders in the order in which they go round it.
+/// A convex cone: its borders in their order around it.
 using Cone = std::vector<Border>;
 
 bool has_inside(const std::array<int, 3>& sides) {
@@ -92,7 +92,7 @@ bool has_outside(const std::array<int, 3>& sides) {
     return sides[0] < 0 || sides[1] < 0 || sides[2] < 0;
 }
 
-/// What one triangle is to another, as seen from the centre.
+/// The directions of a triangle in which another triangle is farther out.
 enum class Over { nowhere, perhaps, everywhere };
 
 }  // namespace
@@ -110,7 +110,7 @@ struct RadialCover::Data {
                 Number(p.z) - Number(centre.z)};
     }
 
-    /// Corners so that they turn outwards as seen from the centre.
+    /// Returns the corners in the order that turns outwards as seen from the centre.
     [[nodiscard]] std::array<std::uint32_t, 3> outwards(std::uint32_t triangle) const {
         std::array<std::uint32_t, 3> v = triangles[triangle].vertex;
         if (turn[triangle] < 0) std::swap(v[1], v[2]);
@@ -172,21 +172,22 @@ struct RadialCover::Data {
         return {positions[v[0]], positions[v[1]], positions[v[2]]};
     }
 
-    /// Of each of three vertices, its side of an edge's plane; 1: inside of what has the edge
-    /// and turns outwards.
+    /// Returns the side of an edge's plane for each of three vertices. 1 is the inner side of a
+    /// triangle that has this edge and turns outwards.
     [[nodiscard]] std::array<int, 3> sides_of_edge(
         std::uint32_t from, std::uint32_t to, const std::array<std::uint32_t, 3>& vertices) const {
         return exact::plane_signs({centre, positions[to], positions[from]}, places(vertices));
     }
 
-    /// Where `s` is farther out than `t` in directions of both, neither edge-on. By signs at
-    /// corners, since both and where `s` is beyond are convex: nowhere where a border has all
-    /// corners of the other outside or on it, so too for two in one plane; everywhere where
-    /// no corner of `t` is outside of any.
+    /// Returns the directions of `t` in which `s` is farther out. Neither may be edge-on. Signs at
+    /// corners decide, since both triangles and the space below the plane of `s` are convex. The
+    /// result is `nowhere` if all corners of one triangle are outside or on a border of the other.
+    /// So two triangles in one plane give `nowhere`. The result is `everywhere` if no corner of `t`
+    /// is outside any border of `s`.
     [[nodiscard]] Over over(std::uint32_t s, std::uint32_t t) const {
         const auto v = outwards(s);
         const auto w = outwards(t);
-        // On the centre's side of the plane of `s`: nearer than it.
+        // Corners on the centre's side of the plane of `s` are nearer than `s`.
         const std::array<int, 3> below = exact::plane_signs(places(v), places(w));
         if (!has_inside(below)) return Over::nowhere;
         bool is_everywhere = !has_outside(below);
@@ -215,7 +216,7 @@ bool is_decided(const Interval& x) {
     return x.inf() > 0 || x.sup() < 0 || (x.inf() == 0 && x.sup() == 0);
 }
 
-/// What is left of one triangle's directions.
+/// The directions of one triangle that remain after subtraction.
 class Region {
 public:
     Region(const Data& data, std::uint32_t triangle) : data_(data), triangle_(triangle) {
@@ -229,7 +230,7 @@ public:
         return cones_.empty();
     }
 
-    /// Takes away the directions in which `other`, not edge-on, is farther out.
+    /// Removes the directions in which `other` is farther out. It must not be edge-on.
     void subtract(std::uint32_t other) {
         const std::size_t known = planes_.size();
         const auto edges = add_edges(other);
@@ -265,13 +266,13 @@ private:
         cone[m].ray = cross(planes_[cone[m].plane].normal, planes_[next.plane].normal);
     }
 
-    /// On which side of plane k the corner of two borders that follow each other lies.
+    /// Returns the side of plane k on which the corner of two consecutive borders lies.
     [[nodiscard]] int side(const Border& border, const Border& next, std::uint32_t k) const {
         if (border.plane == k || next.plane == k) return 0;
         const HalfSpace& a = planes_[border.plane];
         const HalfSpace& b = planes_[next.plane];
         const HalfSpace& c = planes_[k];
-        // What is zero by construction need not be found so by big numbers.
+        // Find zeros by construction without slow exact numbers.
         if (are_of_one_edge(a, c) || are_of_one_edge(b, c)) return 0;
         for (const std::uint32_t vertex : c.on) {
             if (is_on(a, vertex) && is_on(b, vertex)) return 0;
@@ -283,8 +284,7 @@ private:
         return exact > 0 ? 1 : exact < 0 ? -1 : 0;
     }
 
-    /// Finds the sides of plane k on which the corners lie; corner m is between borders m
-    /// and m + 1.
+    /// Finds the side of plane k for each corner. Corner m is between borders m and m + 1.
     void find_sides(const Cone& cone, std::uint32_t k) {
         at_.clear();
         for (std::size_t m = 0; m < cone.size(); ++m) {
@@ -296,7 +296,8 @@ private:
         return std::find(at_.begin(), at_.end(), wanted) != at_.end();
     }
 
-    /// No inside in common with the half-spaces together, as far as one of them tells.
+    /// Returns whether one of the half-spaces shares no interior with the cone. False does not
+    /// prove that the cone and the intersection of the half-spaces share interior.
     [[nodiscard]] bool is_apart(const Cone& cone, const Cutters& cutters) {
         return std::any_of(cutters.begin(), cutters.end(), [&](std::uint32_t k) {
             find_sides(cone, k);
@@ -304,8 +305,8 @@ private:
         });
     }
 
-    /// The part of the cone on one side of plane k, 1 or -1, where it has corners by
-    /// find_sides().
+    /// Returns the part of the cone on one side of plane k, 1 or -1. By find_sides(), the cone must
+    /// have corners on both sides.
     [[nodiscard]] Cone part(const Cone& cone, std::uint32_t k, int wanted) const {
         Cone result;
         result.reserve(cone.size() + 1);
@@ -326,7 +327,7 @@ private:
         return result;
     }
 
-    /// Adds to `left` what of the cone lies outside the cutters' common part.
+    /// Adds to `left` the parts of the cone outside the intersection of the cutters.
     void keep_outside(Cone cone, const Cutters& cutters, std::vector<Cone>& left) {
         for (const std::uint32_t k : cutters) {
             find_sides(cone, k);
@@ -340,7 +341,7 @@ private:
         }
     }
 
-    /// The half-space on the other side of the same border.
+    /// Adds the half-space on the other side of the same plane and returns its number.
     std::uint32_t opposite(std::uint32_t k) {
         HalfSpace plane = planes_[k];
         std::swap(plane.first, plane.second);
@@ -353,19 +354,19 @@ private:
     std::uint32_t triangle_;
     std::vector<HalfSpace> planes_;
     std::vector<Cone> cones_;
-    std::vector<int> at_;  ///< what find_sides() found
+    std::vector<int> at_;  ///< the result of find_sides()
 };
 
-/// Directions for a first look: the middle, then near the corners.
+/// Weights of the corners for sample directions: the middle, then near each corner.
 constexpr std::array<std::array<double, 3>, 4> kLooks = {
     {{1, 1, 1}, {14, 1, 1}, {1, 14, 1}, {1, 1, 14}}};
 
-/// Whether none of `others` lies farther out than the triangle in a direction inside it,
-/// for certain.
+/// Returns whether certainly none of `others` is farther out than the triangle in the direction
+/// that the weights give.
 bool is_bare_at(const Data& data, std::uint32_t triangle, std::span<const std::uint32_t> others,
                 const std::array<double, 3>& weights) {
     const auto v = data.outwards(triangle);
-    Vector<Interval> direction = {0, 0, 0};  // an interval is not zero by itself
+    Vector<Interval> direction = {0, 0, 0};  // the default value of an interval is not zero
     for (std::size_t i = 0; i < 3; ++i) {
         const auto corner = data.corner<Interval>(v[i]);
         for (std::size_t axis = 0; axis < 3; ++axis) direction[axis] += weights[i] * corner[axis];
@@ -408,7 +409,7 @@ bool RadialCover::is_edge_on(std::uint32_t triangle) const {
 
 bool RadialCover::is_hidden(std::uint32_t triangle, std::span<const std::uint32_t> others) const {
     if (is_edge_on(triangle)) return false;
-    // Before intervals round upwards: orient3d() wants to round to the nearest.
+    // This loop precedes the upward rounding for intervals: orient3d() rounds to nearest.
     std::vector<std::uint32_t> hiders;
     for (const std::uint32_t other : others) {
         if (other == triangle || is_edge_on(other)) continue;

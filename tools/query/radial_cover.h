@@ -9,28 +9,30 @@
 
 namespace cdprep::mesh {
 
-/// Which triangles hide which from a centre's far side: seen along rays towards it.
+/// Decides which triangles are occluded along rays towards a centre.
 ///
-/// A triangle hides another in a direction in which both lie and it is farther out.
-/// Exact: what is left of a triangle's directions is kept as cones between planes through
-/// the centre, whose corners are never computed, only the signs of determinants.
+/// A triangle occludes another in a direction if both lie in it and the first is farther out.
+/// Exact: the remaining directions of a triangle are cones between planes through the centre. Their
+/// corners are never computed, only signs of determinants.
 class RadialCover {
 public:
-    /// `triangles` index `positions`, in which equal points have one number; both outlive this.
+    /// `triangles` index `positions`, in which equal points have one number. Both must outlive this
+    /// object.
     RadialCover(const Double3& centre, std::span<const Double3> positions,
                 std::span<const Triangle> triangles);
     RadialCover(RadialCover&&) noexcept;
     RadialCover& operator=(RadialCover&&) noexcept;
     ~RadialCover();
 
-    /// Whether the plane of the triangle holds the centre, or there is no plane: then it
-    /// covers no direction.
+    /// Returns whether the triangle covers no direction: its plane contains the centre, or it is
+    /// degenerate.
     [[nodiscard]] bool is_edge_on(std::uint32_t triangle) const;
 
-    /// Returns whether `others` together hide the triangle in all its directions but for
-    /// single lines. No triangle hides itself, one that is edge-on, or its own plane; an
-    /// edge-on triangle is not hidden. O(others) when one direction proves it bare, more by
-    /// the pieces that the others cut it into when not. Any number of threads.
+    /// Returns whether `others` together occlude the triangle in all its directions, except single
+    /// lines. A triangle occludes neither itself, nor an edge-on triangle, nor one in its own
+    /// plane. An edge-on triangle occludes nothing and is never occluded. Takes O(others) time if
+    /// one direction proves the triangle visible. Otherwise the time grows with the number of
+    /// pieces into which the others cut it. Any number of threads may call it.
     [[nodiscard]] bool is_hidden(std::uint32_t triangle,
                                  std::span<const std::uint32_t> others) const;
 

@@ -77,7 +77,7 @@ std::string seconds_text(double seconds) {
         {{1, " s"}, {1e-3, " ms"}, {1e-6, " us"}, {1e-9, " ns"}}};
     for (const Scale& scale : kScales) {
         const double value = seconds / scale.unit;
-        // What would be printed as 1000 of the smaller unit is 1 of this one.
+        // A value that would print as 1000 of the smaller unit prints as 1 of this one.
         if (std::fabs(value) < 0.9995 && scale.unit > 1e-9) continue;
         const int digits = std::fabs(value) < 9.995 ? 2 : std::fabs(value) < 99.95 ? 1 : 0;
         std::array<char, 64> text{};

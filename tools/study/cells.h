@@ -7,26 +7,26 @@
 #include "study/table.h"
 #include "study/timing.h"
 
-/// How cells come about.
+/// Functions that make table cells and their text.
 namespace cdprep::study {
 
 [[nodiscard]] Cell number(double value);
 [[nodiscard]] Cell word(std::string text);
-/// An empty cell, and why it is.
+/// Returns an empty cell with the reason.
 [[nodiscard]] Cell without(std::string reason);
 [[nodiscard]] Cell count_cell(std::uint64_t count);
-/// Of bytes, in MiB.
+/// Returns a cell with a number of bytes in MiB.
 [[nodiscard]] Cell size_cell(double bytes);
-/// The median, with what it was found from.
+/// Returns a cell with the median time and the details of its measurement.
 [[nodiscard]] Cell seconds_cell(const Timing& timing);
-/// Seconds that were measured once.
+/// Returns a cell with a time that was measured once.
 [[nodiscard]] Cell seconds_cell(double seconds);
 
-/// The number by a printf form that has one place for a double.
+/// Returns the number by a printf format with one conversion for a double.
 [[nodiscard]] std::string formatted(const char* form, double value);
-/// A hash in 16 digits.
+/// Returns a hash in 16 hexadecimal digits.
 [[nodiscard]] std::string hash_text(std::uint64_t hash);
-/// Seconds as people read them: "480 ns", "1.25 ms".
+/// Returns seconds in a readable unit: "480 ns", "1.25 ms".
 [[nodiscard]] std::string seconds_text(double seconds);
 
 [[nodiscard]] constexpr Verdict verdict_of(bool holds) noexcept {

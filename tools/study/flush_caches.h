@@ -12,7 +12,7 @@
 
 namespace cdprep::study {
 
-/// Pieces of memory.
+/// Ranges of memory.
 using Memory = std::vector<std::span<const std::byte>>;
 
 template <class... Arrays>
@@ -25,7 +25,7 @@ inline std::size_t bytes_of(const Memory& memory) {
                            [](std::size_t sum, const auto& part) { return sum + part.size(); });
 }
 
-/// Drops the memory from all caches.
+/// Evicts the memory from all caches.
 inline void flush(const Memory& memory) {
 #if defined(__x86_64__) || defined(_M_X64)
     for (const auto& part : memory) {

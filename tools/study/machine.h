@@ -7,19 +7,19 @@
 
 namespace cdprep::study {
 
-/// What numbers were measured on: without it they mean nothing.
+/// The machine of a measurement. Measured times mean nothing without it.
 struct Machine {
-    std::string processor;         ///< as it calls itself; "unknown" where it does not say
-    std::size_t processors = 0;    ///< that the program may use
+    std::string processor;         ///< its own name; "unknown" if it gives none
+    std::size_t processors = 0;    ///< the number that the program may use
     std::uint64_t memory = 0;      ///< bytes
     std::uint64_t last_cache = 0;  ///< bytes of the largest cache; 0: not known
     std::string system;            ///< of the kernel: name and release
     std::string compiler;
     std::string build;    ///< CMake's build type
-    std::string kernels;  ///< the table of kernels that answers: "scalar", "avx2", ...
+    std::string kernels;  ///< the kernel table in use: "scalar", "avx2", ...
 };
 
-/// Asks the system; the same for the life of a process.
+/// Returns the description of this machine. It stays the same during a process.
 [[nodiscard]] Machine describe_machine();
 
 }  // namespace cdprep::study

@@ -31,7 +31,7 @@ auto timed(double& seconds, Work work) {
     return made;
 }
 
-/// The mesh as the model has it, with source numbers of its own.
+/// Returns the mesh in the model's order. Its source numbers are those of `mesh`.
 mesh::Mesh ordered_mesh(const mesh::Mesh& mesh, const build::ModelArrays& arrays) {
     mesh::Mesh ordered;
     ordered.single_precision = mesh.single_precision;
@@ -45,7 +45,7 @@ mesh::Mesh ordered_mesh(const mesh::Mesh& mesh, const build::ModelArrays& arrays
     return ordered;
 }
 
-/// What is built beside the hierarchy of boxes.
+/// The structures that are built besides the BVH.
 struct BuiltParts {
     build::Octree octree;
     build::AdaptiveOctree adaptive_octree;
@@ -98,7 +98,7 @@ SectionSet wanted_sections(const MemoryParts& parts) {
         if (parts.tetra_tree->bounding == format::TetraBounding::boxes) wanted.insert(kTetraBoxes);
     }
     if (parts.hulls) wanted.insert(kHulls);
-    // A search that was stopped has found no pieces.
+    // A stopped search has found no pieces.
     if (parts.pieces && !mesh::is_stopped(parts.stop)) wanted.insert(kPieces);
     return wanted;
 }
@@ -117,7 +117,7 @@ void build_pieces(BuiltParts& built, const mesh::Mesh& mesh, const build::Frame&
                            [&] { return convex::make_contact_arrays(mesh, built.pieces, run); });
 }
 
-/// Nothing where a hull would leave the range of double.
+/// Builds the parts. Returns nothing if a hull would leave the range of double.
 std::optional<BuiltParts> build_parts(const mesh::Mesh& mesh, const build::Frame& frame,
                                       const MemoryParts& parts, ParallelFor run,
                                       BuildSeconds& seconds) {

@@ -20,7 +20,7 @@
 
 namespace cdprep::study {
 
-/// Bytes at the start of a page, for the image of a model.
+/// Page-aligned bytes for the image of a model.
 class ImageBytes {
 public:
     explicit ImageBytes(std::size_t size);
@@ -39,19 +39,19 @@ private:
     std::size_t size_;
 };
 
-/// What a model gets beside the hierarchy of boxes. Frames and parallel_for of the options are
-/// filled in; boxes of an octree are made when its boxes_in holds any frame.
+/// The parts of a model besides the BVH. make_memory_model() sets the frames and parallel_for of
+/// the options. An octree gets boxes if its boxes_in holds any frame.
 struct MemoryParts {
     build::BvhBounds bounds = build::BvhBounds::oriented_and_swept;
     std::optional<build::OctreeOptions> octree{};
     std::optional<build::AdaptiveOctreeOptions> adaptive_octree{};
     std::optional<build::TetraTreeOptions> tetra_tree{};
-    bool hulls = false;   ///< exact, of the whole and, of several, of each component
-    bool pieces = false;  ///< convex ones, exact, the hierarchy over them, and what contacts need
-    mesh::StopCheck stop{};  ///< ends the search for pieces: the model is then of no use
+    bool hulls = false;   ///< exact hulls of the whole and, if there are several, of each component
+    bool pieces = false;  ///< exact convex pieces, the hierarchy over them, and contact data
+    mesh::StopCheck stop{};  ///< ends the search for pieces; the model is then unusable
 };
 
-/// What building took: seconds of the clock.
+/// The wall-clock seconds of each step of the build.
 struct BuildSeconds {
     double tree = 0;
     double octree = 0;
@@ -63,7 +63,7 @@ struct BuildSeconds {
     double contacts = 0;
 };
 
-/// A model that was baked into memory, as a file would hold it but for HDF5 around it.
+/// A model baked into memory: the content of a baked file without the HDF5 around it.
 struct MemoryModel {
     ImageBytes image;
     Model model;
@@ -71,18 +71,18 @@ struct MemoryModel {
     BuildSeconds seconds;
 };
 
-/// Bakes a welded mesh into memory: everything that questions about two models need, and the
-/// parts. Answers are numbered as the triangles of `mesh`. Fails with over_budget where a hull
-/// would leave the range of double. The same bytes for any parallel_for.
+/// Bakes a welded mesh into memory: the sections for all queries about two models, and `parts`.
+/// Query results use the triangle numbers of `mesh`. Fails with over_budget if a hull would leave
+/// the range of double. The bytes do not depend on parallel_for.
 [[nodiscard]] Result<MemoryModel> make_memory_model(const mesh::Mesh& mesh,
                                                     const MemoryParts& parts = {},
                                                     ParallelFor parallel_for = serial_for);
 
-/// Bytes of those of the sections that the model has.
+/// Returns the total size in bytes of those `sections` that the model has.
 [[nodiscard]] std::uint64_t bytes_of(const MemoryModel& model,
                                      format::SectionSet sections) noexcept;
 
-/// What a baked model was made of, as a mesh: triangles in source order.
+/// Returns the mesh that a model was baked from, with its triangles in source order.
 [[nodiscard]] mesh::Mesh mesh_of(const Model& model);
 
 }  // namespace cdprep::study

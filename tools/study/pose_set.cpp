@@ -18,7 +18,7 @@ using mesh::minus;
 using mesh::plus;
 using mesh::scaled;
 
-// Shares of the diagonal.
+// The following limits are shares of the diagonal.
 constexpr double kDeepest = 0.15;
 constexpr double kDeep = 1e-2;
 constexpr double kBand = 1e-3;
@@ -35,7 +35,7 @@ double length_of(const Double3& v) {
     return std::hypot(v.x, v.y, v.z);
 }
 
-/// A model's box, as the way in needs it.
+/// A model's box in the form that WayIn uses.
 struct Extent {
     Double3 middle;
     Double3 half;
@@ -55,7 +55,7 @@ Extent extent_of(const Model& model) {
              0.5 * (box.upper.z - box.lower.z)}};
 }
 
-/// The two models, and what the poses are measured by.
+/// The two models, with the length that measures the poses.
 struct Pair {
     const Model& a;
     const Model& b;
@@ -74,7 +74,7 @@ Pair pair_of(const Model& a, const Model& b) {
     return {a, b, SourceTriangles(a), SourceTriangles(b), of_a, of_b, smaller > 0 ? smaller : larger};
 }
 
-/// A straight way on which B comes to A: at `s` its middle is at target + s * direction.
+/// A straight path of B towards A: at `s` the middle of B is at target + s * direction.
 class WayIn {
 public:
     WayIn(const Pair& pair, SeededRandom& random) : pair_(pair) {
@@ -95,7 +95,7 @@ public:
         return quaternion_;
     }
 
-    /// Where B is when it first touches, coming in; nothing when it passes by.
+    /// Returns the `s` at which B first touches A on its way in, or nothing if B passes by.
     [[nodiscard]] std::optional<double> first_touch(Workspace& workspace) const {
         const double outside = pair_.of_a.diagonal() + pair_.of_b.diagonal();
         double apart = outside;
@@ -121,7 +121,8 @@ private:
         return collide({pair_.a, pair_.b, Placement::b_moves(at(s))}, workspace).hit == Answer::yes;
     }
 
-    /// The touch that is somewhere not far before `apart`, where they do not yet.
+    /// Returns the `s` of the touch shortly after `apart`, where the models do not touch yet.
+    /// Returns nothing if there is no touch within the band of touching poses.
     [[nodiscard]] std::optional<double> between(double apart, double gap,
                                                 Workspace& workspace) const {
         double step = std::max(gap, 0x1p-40 * pair_.diagonal);
@@ -130,7 +131,7 @@ private:
             apart = inside;
             step *= 2;
             inside -= step;
-            if (step > kBand * pair_.diagonal) return std::nullopt;  // it only came near
+            if (step > kBand * pair_.diagonal) return std::nullopt;  // B came near, but passes by
         }
         for (int i = 0; i < kHalvings; ++i) {
             const double middle = 0.5 * (apart + inside);
@@ -147,7 +148,7 @@ private:
     Double3 offset_{};
 };
 
-/// How far on from the first touch, as a share of the diagonal; below 0: back.
+/// Returns how far B moves on from the first touch, as a share of the diagonal; below 0: back.
 double further_in(Stratum stratum, std::size_t number, SeededRandom& random) {
     switch (stratum) {
         case Stratum::deep:
@@ -165,7 +166,7 @@ double further_in(Stratum stratum, std::size_t number, SeededRandom& random) {
     }
 }
 
-/// The answers in a pose.
+/// Returns the pose with its answers.
 StudyPose ask(const Pair& pair, const Pose& pose, double in, Workspace& workspace) {
     StudyPose asked;
     asked.a_from_b = pose;
@@ -183,7 +184,7 @@ StudyPose ask(const Pair& pair, const Pose& pose, double in, Workspace& workspac
     return asked;
 }
 
-/// Poses of one stratum touch, or do not, or half of the touching ones.
+/// Returns whether the pose is in the stratum, and touches exactly if B moved on from first touch.
 bool is_wanted(const StudyPose& pose, Stratum stratum, double in, double diagonal) {
     if (pose.hit != (in > 0)) return false;
     return stratum_of(pose.hit, pose.depth / diagonal, pose.gap_upper / diagonal) == stratum;
@@ -207,7 +208,7 @@ std::optional<StudyPose> draw(const Pair& pair, Stratum stratum, std::size_t num
     return std::nullopt;
 }
 
-/// The stratum of a given pose.
+/// Returns the stratum of a given pose.
 Stratum sorted(const StudyPose& pose, std::optional<Stratum> said, double diagonal) {
     if (!pose.hit) {
         return stratum_of(false, 0, pose.gap_upper / diagonal).value_or(Stratum::far);

@@ -67,11 +67,11 @@ constexpr const char* kPrefix = "collide is a prefix of overlap, yet takes longe
 constexpr const char* kLostZero =
     "its neighbours are 0.0104 to 0.041: probably 0.04625 with a zero lost";
 
-/// A mesh that is known by its geometry.
+/// A mesh that is known by the hash of its geometry.
 struct Known {
     std::uint64_t hash;
     std::size_t model;
-    bool has_counts;  ///< about those published
+    bool has_counts;  ///< about the published counts
     Mark mark;
     const char* sentence;
 };
@@ -95,7 +95,8 @@ constexpr std::array<Known, 9> kKnown = {{
      "a reduced copy of Buddha: 100000 triangles, published 1085634"},
 }};
 
-/// Numbers of triangles of the scans as they are distributed, and as the sizes of PQP imply.
+/// The published numbers of triangles, those that the sizes of PQP imply, and those of the
+/// distributed scans.
 struct Alternative {
     std::size_t model;
     std::uint32_t triangles;

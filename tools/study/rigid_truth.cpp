@@ -19,7 +19,7 @@ using mesh::minus;
 
 constexpr double kUnit = 0x1p-53;
 
-/// Sum of the greatest |x|, |y| and |z| of the model's box.
+/// Returns the sum of the largest |x|, |y| and |z| in the model's box.
 double reach_of(const Model& model) noexcept {
     if (model.record().bounds == nullptr) return 0;
     const format::Bounds& box = *model.record().bounds;
@@ -28,8 +28,8 @@ double reach_of(const Model& model) noexcept {
            std::max(std::fabs(box.lower.z), std::fabs(box.upper.z));
 }
 
-/// The side of the plane through a, b, c on which d lies: 0 where it is not certain for
-/// points that are each off by `shift` along an axis.
+/// Returns the side of the plane through a, b, c on which d lies. Returns 0 if it is not certain
+/// for points with errors of up to `shift` along each axis.
 int certain_side(const Double3& a, const Double3& b, const Double3& c, const Double3& d,
                  double shift) noexcept {
     const Double3 u = minus(a, d);
@@ -37,14 +37,14 @@ int certain_side(const Double3& a, const Double3& b, const Double3& c, const Dou
     const Double3 w = minus(c, d);
     const double volume = dot(u, cross(v, w));
     const double most = std::max({largest_of(u), largest_of(v), largest_of(w)}) + 2 * shift;
-    // Entries are off by 2 shift: three rows of six products each. Rounding of the entries
-    // and the sum is below 32 units of the last place of most^3.
+    // The error of each entry is 2 shift, in three rows of six products each. The rounding error of
+    // the entries and the sum is below 32 units in the last place of most^3.
     const double doubt = 40 * shift * most * most + 64 * kUnit * most * most * most;
     if (std::fabs(volume) <= doubt) return 0;
     return volume > 0 ? 1 : -1;
 }
 
-/// Whether the segment goes through the inside of the triangle for certain.
+/// Returns whether the segment certainly passes through the interior of the triangle.
 bool pierces(const Double3& p, const Double3& q, const Corners& t, double shift) noexcept {
     const int from = certain_side(t[0], t[1], t[2], p, shift);
     const int to = certain_side(t[0], t[1], t[2], q, shift);
@@ -62,13 +62,14 @@ bool pierces_any(const Corners& edges, const Corners& t, double shift) noexcept 
 }  // namespace
 
 double rounding_of_pose(const Model& b, const Pose& a_from_b) noexcept {
-    // The entries of R are off by 8 units, transform_point() adds 5 more of |R||v| + |t|, whose
-    // entries are at most 1 in size: 13, and room for the second order.
+    // The error of the entries of R is 8 units; their absolute values are at most 1.
+    // transform_point() adds an error of 5 units of |R||v| + |t|. The sum is 13; 16 also covers
+    // terms of second order.
     return 16 * kUnit * (reach_of(b) + largest_of(a_from_b.translation()));
 }
 
 bool is_apart_when_rigid(const Model& b, const Pose& a_from_b, double gap) noexcept {
-    return gap > 2 * rounding_of_pose(b, a_from_b);  // the square root of three axes
+    return gap > 2 * rounding_of_pose(b, a_from_b);  // 2 > sqrt(3), for three axes
 }
 
 bool crosses_when_rigid(const SourceTriangles& a, const SourceTriangles& b, const Pose& a_from_b,

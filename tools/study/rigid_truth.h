@@ -8,17 +8,17 @@
 
 namespace cdprep::study {
 
-/// Returns how far transform_point() puts a vertex of `b` at most from where the exact rotation by
-/// the quaternion that `a_from_b` was made of puts it, along an axis, model units.
+/// Returns a bound of the error of transform_point() for the vertices of `b`, along an axis, in
+/// model units. The exact result is the rotation by the quaternion that `a_from_b` was made from.
 [[nodiscard]] double rounding_of_pose(const Model& b, const Pose& a_from_b) noexcept;
 
-/// Whether it is proved that surfaces which are at least `gap` apart as transform_point() (level
-/// E1) are apart after the exact rotation (level E3) too.
+/// Returns whether surfaces at least `gap` apart at level E1 (transform_point()) are proved to be
+/// apart at level E3 (the exact rotation) too.
 [[nodiscard]] bool is_apart_when_rigid(const Model& b, const Pose& a_from_b, double gap) noexcept;
 
-/// Whether some edge of one surface goes through some triangle of the other by so much that
-/// it does after the exact rotation too. False proves nothing. Costs as an overlap, much less
-/// where the first pairs settle it.
+/// Returns whether some edge of one surface pierces some triangle of the other by so much that it
+/// does after the exact rotation too. False proves nothing. Costs as much as an overlap query, or
+/// much less if the first pairs decide.
 [[nodiscard]] bool crosses_when_rigid(const SourceTriangles& a, const SourceTriangles& b,
                                       const Pose& a_from_b, Workspace& workspace);
 

@@ -9,8 +9,8 @@
 
 namespace cdprep::study {
 
-/// Numbers from a seed: the same on every machine and with every standard library, which the
-/// distributions of <random> do not promise. SplitMix64 (Steele, Lea, Flood 2014).
+/// Random numbers from a seed: SplitMix64 (Steele, Lea, Flood 2014). They are the same on every
+/// machine and with every standard library; the distributions of <random> do not promise this.
 class SeededRandom {
 public:
     explicit SeededRandom(std::uint64_t seed) noexcept : state_(seed) {}
@@ -22,23 +22,24 @@ public:
         return x ^ (x >> 31);
     }
 
-    /// In [0, 1), in steps of 2^-53.
+    /// Returns a uniform number in [0, 1), in steps of 2^-53.
     [[nodiscard]] double share() noexcept {
         return static_cast<double>(bits() >> 11) * 0x1p-53;
     }
     [[nodiscard]] double between(double low, double high) noexcept {
         return low + (high - low) * share();
     }
-    /// Every factor of 10 is as likely; both above 0.
+    /// Returns a log-uniform number between two limits: every factor of 10 is equally likely. Both
+    /// limits must be above 0.
     [[nodiscard]] double between_by_factors(double low, double high) noexcept {
         return low * std::pow(high / low, share());
     }
-    /// Below `count`, which is at most 2^53 and above 0.
+    /// Returns a whole number below `count`, which must be above 0 and at most 2^53.
     [[nodiscard]] std::size_t below(std::size_t count) noexcept {
         return static_cast<std::size_t>(share() * static_cast<double>(count));
     }
 
-    /// Of length 1 up to rounding, evenly in all directions.
+    /// Returns a vector of length 1, up to rounding, uniform in all directions.
     [[nodiscard]] format::Double3 direction() noexcept {
         while (true) {
             const format::Double3 v = {between(-1, 1), between(-1, 1), between(-1, 1)};
@@ -49,7 +50,7 @@ public:
         }
     }
 
-    /// Not 0, of any length up to 1; as a rotation, drawn evenly.
+    /// Returns a quaternion of a length above 0 and at most 1. Its rotation is uniform.
     [[nodiscard]] std::array<double, 4> quaternion() noexcept {
         while (true) {
             const std::array<double, 4> q = {between(-1, 1), between(-1, 1), between(-1, 1),

@@ -6,7 +6,7 @@
 namespace cdprep::study {
 namespace {
 
-/// The probability that `count` or more of `of` cases are met, each with this share.
+/// Returns the probability of `count` or more successes in `of` cases with this share.
 double at_least(std::size_t count, std::size_t of, double share) {
     const auto n = static_cast<double>(of);
     double sum = 0;
@@ -18,7 +18,8 @@ double at_least(std::size_t count, std::size_t of, double share) {
     return sum;
 }
 
-/// The share at which `count` or more are met with this probability; it rises with the share.
+/// Returns the share at which `count` or more successes have this probability. The probability
+/// increases with the share.
 double share_for(std::size_t count, std::size_t of, double probability) {
     double low = 0;
     double high = 1;
@@ -35,7 +36,7 @@ ShareInterval clopper_pearson(std::size_t count, std::size_t of, double confiden
     const double tail = 0.5 * (1 - confidence);
     ShareInterval interval{count, of, 0, 1};
     if (count > 0) interval.low = share_for(count, of, tail);
-    // So many or fewer are met as seldom as one more is met otherwise.
+    // P(at most count) = 1 - P(at least count + 1).
     if (count < of) interval.high = share_for(count + 1, of, 1 - tail);
     return interval;
 }

@@ -5,7 +5,7 @@
 
 namespace cdprep::study {
 
-/// So many of so many, and between which shares the true share lies.
+/// A count of cases, and a confidence interval for the true share.
 struct ShareInterval {
     std::size_t count = 0;
     std::size_t of = 0;
@@ -17,11 +17,11 @@ struct ShareInterval {
     }
 };
 
-/// The interval of Clopper and Pearson (1934): with at least this confidence the share, of
-/// which `count` of `of` independent cases are a sample, lies between `low` and `high`, ends
-/// included. From the binomial distribution itself, so right for few cases and for none at
-/// all of them; somewhat wide. Of no cases: 0 to 1. `count` is at most `of`, and the
-/// confidence in (0, 1). Within 1e-9 of the exact ends.
+/// Returns the interval of Clopper and Pearson (1934) for `count` of `of` independent cases. With
+/// at least this confidence, the true share lies in [low, high]. The interval comes from the exact
+/// binomial distribution. So it is valid for few cases and for counts of 0 or `of`, but somewhat
+/// wide. No cases give 0 to 1. `count` must be at most `of`, and the confidence must be in (0, 1).
+/// The ends are within 1e-9 of the exact ones.
 [[nodiscard]] ShareInterval clopper_pearson(std::size_t count, std::size_t of,
                                             double confidence = 0.95);
 

@@ -10,7 +10,7 @@
 
 namespace cdprep::study {
 
-/// The triangles of a model by their numbers in the imported file. The model outlives it.
+/// The triangles of a model by their source numbers. The model must outlive this object.
 class SourceTriangles {
 public:
     explicit SourceTriangles(const Model& model) : model_(&model) {
@@ -26,7 +26,7 @@ public:
         const auto& vertex = model_->mesh().triangles[place_[number]].vertex;
         return {position(vertex[0]), position(vertex[1]), position(vertex[2])};
     }
-    /// As a question sees them in a pose.
+    /// Returns the corners in a pose, with the same rounding as in queries.
     [[nodiscard]] Corners corners(std::uint32_t number, const Pose& pose) const {
         const Corners stored = corners(number);
         return {transform_point(pose, stored[0]), transform_point(pose, stored[1]),

@@ -8,30 +8,30 @@
 
 namespace cdprep::study {
 
-/// How a published figure relates to the one beside which it stands.
+/// The relation of a published figure to ours beside it.
 enum class Mark : std::uint8_t {
     none,
-    other_counts,    ///< of a mesh with about as many triangles, not the same number
-    stand_in,        ///< ours is of a mesh made to the published counts
+    other_counts,    ///< the meshes have about the same number of triangles, not equal ones
+    stand_in,        ///< ours is from a substitute mesh with the published counts
     erratum,         ///< the published figure cannot be right
-    not_comparable,  ///< ours is of a mesh of the same name with counts of its own: no figure
+    not_comparable,  ///< ours is from a mesh of the same name with other counts: no figure
 };
 
-/// What was published in a cell's place.
+/// The published content of a cell.
 struct Published {
     std::optional<double> value{};  ///< in the column's unit
-    std::string text{};             ///< a word in its place, such as "Not 2-manifold"
+    std::string text{};             ///< a word instead of a number, such as "Not 2-manifold"
     Mark mark = Mark::none;
-    std::string remark{};  ///< what the mark means here
+    std::string remark{};  ///< the meaning of the mark here
 };
 
-/// A further number of a cell, such as its spread.
+/// An additional number of a cell, such as its spread.
 struct Detail {
     std::string name;
     double value;
 };
 
-/// One thing that was found out: a number, a word, or the reason why there is neither.
+/// One result: a number, a word, or the reason why there is neither.
 struct Cell {
     std::optional<double> value{};  ///< in the column's unit
     std::string text{};
@@ -47,39 +47,39 @@ struct Cell {
 enum class Unit : std::uint8_t {
     none,
     count,      ///< whole numbers
-    seconds,    ///< people read them in ns, us, ms or s
-    mebibytes,  ///< the papers' "MB"
+    seconds,    ///< text shows them in ns, us, ms or s
+    mebibytes,  ///< "MB" in the comparative study (study/published.h)
     share,      ///< 0 to 1
 };
 
 struct Column {
     std::string key;    ///< in JSON and CSV
-    std::string title;  ///< for people
+    std::string title;  ///< in text
     Unit unit = Unit::none;
 };
 
 struct Row {
     std::string label;
-    std::vector<Cell> cells;  ///< one a column
+    std::vector<Cell> cells;  ///< one per column
 };
 
 struct Table {
     std::string key;  ///< "1", "2", "2.bunny"
     std::string title;
-    std::string label_title;  ///< what the rows' labels are
+    std::string label_title;  ///< the title of the rows' labels
     std::vector<Column> columns;
     std::vector<Row> rows;
     std::vector<std::string> notes{};  ///< sentences
 };
 
-/// Whether what was published holds here too.
+/// The result of checking whether a published claim holds here too.
 enum class Verdict : std::uint8_t { holds, fails, not_asked };
 
 struct Check {
     std::string claim;     ///< a sentence
-    std::string evidence;  ///< what was found, with its numbers; why it fails
+    std::string evidence;  ///< the result, with its numbers; the reason if it fails
     Verdict verdict = Verdict::not_asked;
-    bool is_promise = false;  ///< of this library: one that fails is a fault
+    bool is_promise = false;  ///< a promise of this library; its failure is a bug
 };
 
 }  // namespace cdprep::study

@@ -34,11 +34,11 @@ double seconds_for(const Question& question, std::size_t number, std::size_t tim
     return now_by(by) - begun;
 }
 
-/// A first answer, which finds nothing in the caches, may take this many times as long as others.
+/// The largest assumed ratio of a first run, which finds nothing in the caches, to later runs.
 constexpr double kOfFirst = 8;
 
-/// How often to ask so that it takes long enough. Where the first answer took so long that any
-/// will, nothing else is asked.
+/// Returns the number of runs that take long enough. If the first run is so long that every later
+/// one will be too, no other run is made.
 std::size_t times_for(const Question& question, std::size_t number, const TimingOptions& options) {
     if (seconds_for(question, number, 1, options.by) >= kOfFirst * options.least_sample_s) return 1;
     std::size_t times = 1;
@@ -60,7 +60,7 @@ std::vector<double> case_seconds(const Timings& timings, std::span<const std::si
     return seconds;
 }
 
-/// Between which the median lies, by drawing the values again and again.
+/// Returns the bootstrap confidence interval of the median.
 std::pair<double, double> bootstrap(const std::vector<double>& values) {
     SeededRandom random(kBootstrapSeed);
     std::vector<double> medians;

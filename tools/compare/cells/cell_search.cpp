@@ -16,7 +16,7 @@ constexpr double kClaim = 0.8;
 constexpr double kNanosecond = 1e-9;
 constexpr std::array<const char*, 9> kKeys = {"H0", "H1", "H2", "H3", "K0", "K1", "K2", "L1", "L2"};
 
-/// What the set takes each contender, in seconds a search.
+/// Returns the time of each contender for the set, in seconds per search.
 Row timed_row(const std::string& label, const std::vector<search::Contender>& contenders,
               const search::QuerySet& set, search::State state, std::size_t rounds) {
     Row row{label, {}};
@@ -37,7 +37,7 @@ Row timed_row(const std::string& label, const std::vector<search::Contender>& co
     return row;
 }
 
-/// The most that a hashed search saves of a baseline's time, and where.
+/// The largest share of a baseline's time that a hashed search saves, and where.
 struct Saving {
     double most = -1;
     std::string where;

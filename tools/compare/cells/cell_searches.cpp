@@ -6,7 +6,7 @@ namespace cdprep::study::search {
 
 namespace {
 
-/// The deepest level whose cell is stored is where the leaf is, if any.
+/// Returns the leaf, if any: it is at the deepest level whose cell is stored.
 std::uint32_t find_by_levels(const OctreeIndex& index, std::uint64_t code) {
     std::uint32_t found = 0;
     std::uint32_t least = 0;

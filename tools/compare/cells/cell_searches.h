@@ -20,19 +20,20 @@ struct Forms {
     PointerOctree<PlainNode> plain = plain_octree(octree.nodes);
 };
 
-/// Every way to find the leaf of a point, from its coordinates on:
+/// Returns every way to find the leaf of a point from its coordinates:
 ///
-///   H0  descends recursively, testing the children's boxes      pointers
-///   H1  descends, comparing the point with each node's centre   pointers
-///   H2  descends by the bits of the point's code                pointers
-///   H3  the same in the product's nodes                         numbers and masks
-///   K0  looks its key up, from the deepest level up: the talk's chained table by modulus
+///   H0  descends recursively and tests the children's boxes      pointers
+///   H1  descends and compares the point with each node's centre  pointers
+///   H2  descends by the bits of the point's code                 pointers
+///   H3  the same in the product's nodes                          numbers and masks
+///   K0  looks its key up, from the deepest level up, in a chained table by modulus
+///       (Ponce Atencio's talk)
 ///   K1  the same with mixed keys
-///   K2  bisects the levels, by K1's table: all ancestors of a leaf are in it
-///   L1  bisects the sorted leaves, without branches
-///   L2  the same from a top table on: the product's default
+///   K2  bisects the levels in K1's table, which holds all ancestors of a leaf
+///   L1  bisects the sorted leaves without branches
+///   L2  the same, starting from a top table: the product's default
 ///
-/// The forms outlive them.
+/// The forms must outlive the contenders.
 [[nodiscard]] std::vector<Contender> search_contenders(const Forms& forms);
 
 }  // namespace cdprep::study::search

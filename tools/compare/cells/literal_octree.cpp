@@ -17,7 +17,7 @@ using mesh::dot;
 using mesh::largest_of;
 using mesh::minus;
 
-/// The box that a model's triangles lie in.
+/// The box that contains a model's triangles.
 struct OrientedBox {
     std::array<Double3, 3> axis;
     Double3 centre;
@@ -34,7 +34,7 @@ OrientedBox box_of(const Model& model) {
     return {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, header.frame_origin, {half, half, half}};
 }
 
-/// The largest |coordinate| of a model, or more.
+/// Returns an upper bound of the |coordinates| of a model.
 double reach_of(const Model& model) {
     return largest_of(model.header().frame_origin) +
            std::ldexp(1.0, -model.header().frame_exponent);
@@ -84,7 +84,7 @@ bool overlap_as(const Corners& s, const Corners& t, Overlap overlap) {
     return contact == TriangleContact::cross || contact == TriangleContact::coplanar_overlap;
 }
 
-/// What the cells of A list where the corners of B's triangles lie.
+/// The triangles of A that its cells list at the corners of B's triangles.
 class CornerCells {
 public:
     CornerCells(const Model& a, CellSearch search)
@@ -93,7 +93,7 @@ public:
           grid_(*a.octree().grid),
           references_(a.octree().references) {}
 
-    /// Returns the triangles of A, rising, in the leaf cells of three points of its frame.
+    /// Returns the triangles of A, ascending, in the leaf cells of three points of its frame.
     [[nodiscard]] const std::vector<std::uint32_t>& listed(const Corners& points,
                                                            QueryCounts& counts) {
         listed_.clear();
@@ -114,7 +114,7 @@ public:
     }
 
 private:
-    /// Whether the half-open cube of the octree holds it.
+    /// Returns true if the half-open cube of the octree contains p.
     [[nodiscard]] bool is_inside(const Double3& p) const {
         constexpr double kSteps = 1U << format::kOctreeBits;
         const auto is_between = [&](double origin, double x) {
@@ -136,7 +136,7 @@ private:
 PotentialSet::PotentialSet(const Model& a, const Model& b, const Placement& placement) : b_(b) {
     const Pose a_from_b = a_from_b_of(placement);
     const std::array<double, 9>& r = a_from_b.rotation();
-    // Rounding moves a vertex by less than 2^-47 of the numbers that are added; planes and products
+    // Rounding moves a vertex by less than 2^-47 of the numbers that are added. Planes and products
     // add as much again.
     const double slack =
         0x1p-43 * (reach_of(a) + reach_of(b) + largest_of(a_from_b.translation())) + 0x1p-1060;

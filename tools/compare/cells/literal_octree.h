@@ -12,22 +12,23 @@
 
 namespace cdprep::study {
 
-/// The oriented box of one model among the triangles of another: what lies beyond one of its six
-/// planes touches no triangle in the box. The rest is the potentially colliding set of the talk.
+/// The oriented box of one model among the triangles of another. A triangle beyond one of its six
+/// planes touches no triangle in the box. The rest is the potentially colliding set (PCS) of Y.
+/// Ponce Atencio, "Some techniques to speed up collision detection".
 class PotentialSet {
 public:
-    /// The box is A's, the triangles are B's. A model without the section `bounds` has the root
-    /// box of its hierarchy.
+    /// The box is A's, the triangles are B's. A model without the section `bounds` gets the root
+    /// box of its BVH.
     PotentialSet(const Model& a, const Model& b, const Placement& placement);
 
-    /// Whether no plane clips a triangle of B, corners as stored.
+    /// Returns true if no plane clips a triangle of B, given by its stored corners.
     [[nodiscard]] bool holds(const Corners& t) const;
 
-    /// Returns the number of triangles of B in leaves of its hierarchy that no plane clips.
+    /// Returns the number of triangles of B in leaves of its BVH that no plane clips.
     [[nodiscard]] std::size_t triangles_in_leaves() const;
 
 private:
-    /// Points p of B with |normal * p + offset| <= limit.
+    /// The points p of B with |normal * p + offset| <= limit.
     struct Slab {
         Double3 normal;
         double offset;
@@ -44,14 +45,14 @@ struct LiteralOptions {
     CellSearch search = CellSearch::modulus;
     Overlap overlap = Overlap::closed;
     Degenerate degenerate = Degenerate::keep;
-    QueryCounts* counts = nullptr;  ///< work is added here, if anywhere
+    QueryCounts* counts = nullptr;  ///< the work is added here, unless null
 };
 
-/// Calls `visit` with pairs of triangles that overlap, each once, until it returns false; returns
-/// false when it did. This is the search through hashed octrees as the talk describes it: for each
-/// triangle of B in the potentially colliding set, the triangles of A in the leaf cells that hold
-/// its corners. Knowingly wrong: it misses a triangle that crosses cells without a corner in them.
-/// Pairs that it finds overlap, exactly. Both models serve Ask::hashed_octree. Allocates.
+/// Calls `visit` with pairs of overlapping triangles, each once, until it returns false; then
+/// returns false. This is the search through hashed octrees as Ponce Atencio's talk describes it.
+/// For each triangle of B in the PCS, it takes the triangles of A in the leaf cells that hold its
+/// corners. Known to be incomplete: it misses a triangle that crosses cells without a corner in
+/// them. Pairs that it finds overlap, exactly. Both models serve Ask::hashed_octree. Allocates.
 bool visit_literal_overlaps(const Model& a, const Model& b, const Placement& placement,
                             const LiteralOptions& options, PairVisitor visit);
 

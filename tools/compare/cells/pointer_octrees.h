@@ -11,7 +11,7 @@
 
 namespace cdprep::study::search {
 
-/// Where a node's cell begins, in finest cells, and its level.
+/// The first corner of a node's cell, in finest cells, and its level.
 struct NodeCell {
     std::array<std::uint32_t, 3> first{};
     std::uint32_t level = 0;
@@ -21,8 +21,8 @@ struct NodeCell {
     }
 };
 
-/// The corner of the finest cell that is `ahead` steps along each axis, as format::OctreeGrid
-/// defines planes.
+/// Returns the corner of the finest cell that is `ahead` steps along each axis, by the planes of
+/// format::OctreeGrid.
 inline Double3 corner_of(const format::OctreeGrid& grid, const NodeCell& cell,
                          std::uint32_t ahead) {
     const auto plane = [&](double origin, std::uint32_t i) {
@@ -43,19 +43,19 @@ inline NodeCell cell_of(std::uint64_t key) {
     return cell;
 }
 
-/// What ends a search in a tree of pointers: the product's number of the node.
+/// The end of a search in a tree of pointers: the product's number of the node.
 struct Ending {
     std::uint32_t number = 0;
     bool is_leaf = false;
 };
 
-/// An octree as textbooks draw it, made from the product's, so that leaves are the same:
-/// nodes that point to their children, null where a child is empty. In one piece of memory,
-/// depth first, which a descent likes best. Node has `children` and `ending`.
+/// A textbook octree, made from the product's so that the leaves are the same. Nodes point to their
+/// children; null marks an empty child. All nodes are in one block of memory, depth first, which is
+/// best for a descent. Node has `children` and `ending`.
 template <class Node>
 class PointerOctree {
 public:
-    /// fill(node, cell) sets what else a node has.
+    /// fill(node, cell) sets the other members of a node.
     template <class Fill>
     PointerOctree(const std::vector<format::OctreeNode>& nodes, Fill fill) : pool_(nodes.size()) {
         add(nodes, 0, fill);
@@ -86,7 +86,7 @@ private:
     std::size_t used_ = 0;
 };
 
-/// H0: a node has its box, and a search tests its children's, one after the other.
+/// H0: a node has its box, and a search tests its children's boxes one after the other.
 struct BoxNode {
     Box box{};
     std::array<BoxNode*, 8> children{};
@@ -139,7 +139,7 @@ inline std::uint32_t find_by_centres(const CentreNode& root, const Double3& p) {
     return node->ending.number;
 }
 
-/// H2: a node has nothing but its children; a search takes them by the bits of a code.
+/// H2: a node has only its children; a search selects them by the bits of a code.
 struct PlainNode {
     std::array<PlainNode*, 8> children{};
     Ending ending;
@@ -158,16 +158,16 @@ inline std::uint32_t find_by_bits(const PlainNode& root, std::uint64_t code) {
     return node->ending.number;
 }
 
-/// Bits set among eight: std::popcount is a call where processors without an instruction
-/// for it are supported.
+/// Returns the number of bits set among eight. std::popcount is a function call in builds for
+/// processors without the instruction.
 inline std::uint32_t count_of_eight(std::uint32_t bits) {
     bits -= (bits >> 1) & 0x55U;
     bits = (bits & 0x33U) + ((bits >> 2) & 0x33U);
     return (bits + (bits >> 4)) & 0xfU;
 }
 
-/// H3: the product's own nodes, which have the number of their first child and which there
-/// are: the same descent without pointers.
+/// H3: the product's own nodes, with the number of their first child and a mask of their children.
+/// The same descent without pointers.
 inline std::uint32_t find_by_masks(const std::vector<format::OctreeNode>& nodes,
                                    std::uint64_t code) {
     std::uint32_t node = 0;

@@ -19,7 +19,7 @@
 #include "mesh/vectors.h"
 #include "study/flush_caches.h"
 
-/// How octrees' cells are found, as benchmarks and comparisons time it.
+/// The searches for octree cells, as benchmarks and comparisons time them.
 namespace cdprep::study::search {
 
 using format::Double3;
@@ -29,7 +29,7 @@ using study::bytes_of;
 using study::Memory;
 using study::memory_of;
 
-/// Points at which cells are searched, in the order in which they are asked.
+/// The points to search, in the order of the queries.
 struct QuerySet {
     const char* name;
     std::vector<Double3> points;
@@ -73,7 +73,7 @@ inline double area(const std::array<Double3, 3>& t) {
     return std::sqrt(std::max(0.0, dot(u, u) * dot(v, v) - dot(u, v) * dot(u, v)));
 }
 
-/// Equally dense everywhere on the surface, each far from the one before.
+/// Returns points of equal density on the surface; consecutive points are far apart.
 inline QuerySet surface_set(const mesh::Mesh& mesh, std::size_t count, Random& random) {
     std::vector<double> sums;
     double sum = 0;
@@ -90,7 +90,7 @@ inline QuerySet surface_set(const mesh::Mesh& mesh, std::size_t count, Random& r
     return set;
 }
 
-/// For each triangle those across its edges; itself where there is none.
+/// Returns, for each triangle, those across its edges, or itself where there is none.
 inline std::vector<std::array<std::uint32_t, 3>> neighbours(const mesh::Mesh& mesh) {
     struct Side {
         std::pair<std::uint32_t, std::uint32_t> edge;
@@ -117,8 +117,8 @@ inline std::vector<std::array<std::uint32_t, 3>> neighbours(const mesh::Mesh& me
     return across;
 }
 
-/// From triangle to triangle across edges, towards a direction that changes every 64
-/// steps, one point in each.
+/// Returns points of a walk from triangle to triangle across edges, one point in each. The walk
+/// follows a direction that changes every 64 steps.
 inline QuerySet walk_set(const mesh::Mesh& mesh, std::size_t count, Random& random) {
     const auto across = neighbours(mesh);
     const auto middle = [&](std::uint32_t t) {
@@ -144,21 +144,21 @@ inline QuerySet walk_set(const mesh::Mesh& mesh, std::size_t count, Random& rand
     return set;
 }
 
-/// How many of the rising codes are at most `code`. The number of steps depends on their
-/// number alone, and each moves without a branch.
+/// Returns how many of the ascending codes are at most `code`. The number of steps depends only on
+/// the number of codes, and no step branches.
 inline std::size_t count_without_branch(std::span<const std::uint64_t> codes, std::uint64_t code) {
     const std::uint64_t* begin = codes.data();
     std::size_t count = codes.size();
     while (count > 1) {
         const std::size_t half = count / 2;
-        // Written `? half : 0`, g++ 12 makes a branch of it.
+        // Written as `? half : 0`, g++ 12 compiles this to a branch.
         begin += half & -static_cast<std::size_t>(begin[half - 1] <= code);
         count -= half;
     }
     return static_cast<std::size_t>(begin - codes.data()) + (count == 1 && *begin <= code ? 1 : 0);
 }
 
-/// The leaf that begins last among `before`, if it holds `code`.
+/// Returns the last of the first `before` leaves if it contains `code`.
 inline std::uint32_t last_leaf(const OctreeIndex& index, std::size_t before, std::uint64_t code) {
     if (before == 0) return kNoNode;
     const std::uint32_t node = index.leaf_nodes[before - 1];
@@ -170,13 +170,13 @@ inline std::uint32_t last_leaf(const OctreeIndex& index, std::size_t before, std
 struct Contender {
     std::string name;
     Memory memory;  ///< all that a search reads
-    /// The leaf of each point: searches overlap as far as the processor lets them.
+    /// Finds the leaf of each point; the processor may overlap searches.
     std::function<void(std::span<const Double3>, std::span<std::uint32_t>)> ask;
-    /// The same, but no point is known before the leaf of the one before is.
+    /// The same, but each point is known only after the leaf of the previous point.
     std::function<void(std::span<const Double3>, std::span<std::uint32_t>)> ask_in_turn;
 };
 
-/// find(point) gives the leaf; compiled into the loops.
+/// Returns a contender; find(point) returns the leaf and is compiled into the loops.
 template <class Find>
 Contender contender(std::string name, Memory memory, Find find) {
     return {std::move(name), std::move(memory),
@@ -189,23 +189,23 @@ Contender contender(std::string name, Memory memory, Find find) {
                     const std::uint32_t leaf = find(points[i + zero]);
                     leaves[i] = leaf;
                     zero = leaf;
-                    asm volatile("" : "+r"(zero));  // the compiler may not know it is short
+                    asm volatile("" : "+r"(zero));  // hides the known range from the compiler
                     zero >>= 32;
                 }
             }};
 }
 
-/// How the searches follow each other.
+/// The relation between successive searches.
 enum State : std::size_t { warm, in_turn, cold };
 constexpr std::array<const char*, 3> kStates = {"warm", "in_turn", "cold"};
 constexpr std::size_t kBurst = 64;          ///< searches after the caches were flushed
-constexpr std::size_t kBurstsARound = 5;    ///< of the cold state
+constexpr std::size_t kBurstsARound = 5;    ///< in the cold state
 constexpr std::size_t kQueries = 1U << 17;  ///< points of a set
-/// Searches timed together: a fraction of a millisecond, so that what else the machine does
-/// falls into few timings, which the median leaves out.
+/// The number of searches timed together: a fraction of a millisecond. Other work of the machine
+/// then falls into few timings, which the median ignores.
 constexpr std::size_t kRun = 1U << 11;
 
-/// ns a search, one value for each timing.
+/// Returns ns per search, one value for each timing.
 inline std::vector<double> time_round(const Contender& contender, std::span<const Double3> points,
                                       State state, Random random) {
     static std::vector<std::uint32_t> leaves(kQueries);
@@ -234,7 +234,7 @@ inline std::vector<double> time_round(const Contender& contender, std::span<cons
     return ns;
 }
 
-/// [contender][timing]: contenders take turns, round by round, each asked the same.
+/// Returns [contender][timing]. Contenders alternate, round by round, with the same queries.
 inline std::vector<std::vector<double>> time_all(const std::vector<Contender>& contenders,
                                                  std::span<const Double3> points, State state,
                                                  std::size_t rounds) {
@@ -248,13 +248,13 @@ inline std::vector<std::vector<double>> time_all(const std::vector<Contender>& c
     return ns;
 }
 
-/// What a search of all points comes to.
+/// The result of a search of all points.
 struct Found {
     double share = 0;   ///< of points that lie in a leaf
-    std::string other;  ///< a contender that finds other leaves than the first; empty: none
+    std::string other;  ///< a contender whose leaves differ from the first's; empty: none
 };
 
-/// Holds the contenders' answers against each other.
+/// Compares the contenders' answers.
 [[nodiscard]] inline Found compare_leaves(const std::vector<Contender>& contenders,
                                           std::span<const Double3> points) {
     std::vector<std::uint32_t> expected(points.size());

@@ -26,7 +26,7 @@ constexpr std::array<SpatialKind, 5> kKinds = {
     SpatialKind::tetra_tree, SpatialKind::octree, SpatialKind::hashed_octree,
     SpatialKind::adaptive_median, SpatialKind::adaptive_area};
 
-/// A mesh as builders get it.
+/// A mesh in the form for builders.
 struct Input {
     mesh::Mesh mesh;
     build::Frame frame;
@@ -95,7 +95,7 @@ build::AdaptiveOctree adaptive_octree(const Input& input, const SpatialBuild& ho
          .boxes_in = how.boxes ? std::optional(input.frame) : std::nullopt});
 }
 
-/// Hands what was built to `with`, which must not keep it.
+/// Passes the built structure to `with`, which must not keep it.
 template <class With>
 auto build_once(const Input& input, const SpatialBuild& how, ParallelFor run, With with) {
     switch (how.kind) {
@@ -109,7 +109,7 @@ auto build_once(const Input& input, const SpatialBuild& how, ParallelFor run, Wi
     }
 }
 
-/// Describes what a build gives.
+/// Returns the figures of a build.
 struct Describe {
     const Input& input;
 
@@ -130,9 +130,9 @@ TreeLimits limits_of(const build::StructurePreset& preset, SpatialKind kind) {
     return kind == SpatialKind::octree ? preset.octree : preset.adaptive_octree;
 }
 
-/// The settings at which a structure comes nearest to the published size: the first level at
-/// which it is as large, not less than that of `paper`, and there the nearest threshold of
-/// powers of two.
+/// Returns the settings at which a structure is nearest to the published size. The level is the
+/// first, from that of `paper`, at which it is at least as large. The threshold is the nearest
+/// power-of-two multiple at that level.
 TreeLimits nearest_limits(const Input& input, SpatialKind kind, double mebibytes,
                           const SpatialOptions& options) {
     TreeLimits limits = limits_of(build::kPaperPreset, kind);
@@ -150,7 +150,7 @@ TreeLimits nearest_limits(const Input& input, SpatialKind kind, double mebibytes
     }
     TreeLimits best = limits;
     double least = std::fabs(at_limits);
-    // Sizes fall with the threshold.
+    // Sizes fall as the threshold rises.
     while (at_limits > 0 && limits.threshold < input.mesh.triangles.size()) {
         limits.threshold *= 2;
         at_limits = excess(limits);
@@ -171,7 +171,7 @@ std::vector<SpatialBuild> planned(const StudyMesh& mesh, const Input& input,
     }
     for (const SpatialKind kind : {SpatialKind::tetra_tree, SpatialKind::octree}) {
         const PublishedBuild* published = find_published_build(mesh.likeness, kind);
-        // Nothing is tuned to an erratum.
+        // No setting is tuned to an erratum.
         if (!options.nearest || published == nullptr || *published->erratum != '\0') continue;
         builds.push_back(
             {"nearest", kind, nearest_limits(input, kind, published->mebibytes, options)});
@@ -183,7 +183,7 @@ std::vector<SpatialBuild> planned(const StudyMesh& mesh, const Input& input,
     return builds;
 }
 
-/// What each build takes.
+/// Returns the time of each build.
 std::vector<Timing> time_builds(const Input& input, const std::vector<SpatialBuild>& builds,
                                 ParallelFor run, const TimingOptions& options) {
     std::vector<Question> questions;

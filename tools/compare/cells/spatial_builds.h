@@ -22,41 +22,42 @@ enum class SpatialKind : std::uint8_t {
     adaptive_area
 };
 
-/// What one build came to.
+/// The figures of one build.
 struct SpatialFigures {
     std::uint64_t nodes_all = 0;  ///< with those that no triangle touches
-    std::uint64_t nodes = 0;      ///< without
+    std::uint64_t nodes = 0;      ///< without them
     std::uint64_t leaves = 0;
     std::uint64_t references = 0;
     std::uint64_t largest_leaf = 0;
     std::uint64_t formula_all = 0;  ///< bytes by the published formula, over nodes_all
-    std::uint64_t formula = 0;      ///< over nodes
+    std::uint64_t formula = 0;      ///< the same over nodes
     std::uint64_t bytes = 0;        ///< as stored
 };
 
-/// One structure at one setting.
+/// One structure with one setting.
 struct SpatialBuild {
     std::string setting;  ///< "paper", "nearest" (to the published size) or "tuned"
     SpatialKind kind{};
     build::TreeLimits limits{};
-    bool boxes = false;  ///< around what cells hold
+    bool boxes = false;  ///< around the contents of cells
     SpatialFigures figures{};
     Timing one{};  ///< on one thread
-    Timing all{};  ///< on all; by the wall
+    Timing all{};  ///< on all threads; wall time
 };
 
 struct SpatialOptions {
     std::size_t rounds = 5;
-    bool nearest = true;  ///< look for the settings nearest to the published sizes
+    bool nearest = true;  ///< searches the settings nearest to the published sizes
     ParallelFor parallel_for = serial_for;
     std::function<bool()> stop{};
 };
 
-/// Builds every structure over a mesh, each way in its turn.
+/// Builds every structure over a mesh, in every setting.
 [[nodiscard]] std::vector<SpatialBuild> measure_spatial_builds(const StudyMesh& mesh,
                                                                const SpatialOptions& options);
 
-/// What was published of that structure over the model that a mesh is; null where nothing was.
+/// Returns the published figures of that structure for the model that a mesh represents; null if
+/// there are none.
 [[nodiscard]] const PublishedBuild* find_published_build(const Likeness& likeness,
                                                          SpatialKind kind) noexcept;
 

@@ -25,7 +25,7 @@ const SpatialBuild* find_build(const SpatialMesh& mesh, const std::string& setti
     return at == mesh.builds.end() ? nullptr : &*at;
 }
 
-/// The published figures go into the cells for seconds and size.
+/// Adds the published figures to the cells for seconds and size.
 void set_beside(const Likeness& likeness, SpatialKind kind, Cell& seconds, Cell& size) {
     const PublishedBuild* published = find_published_build(likeness, kind);
     if (published == nullptr) {
@@ -37,8 +37,8 @@ void set_beside(const Likeness& likeness, SpatialKind kind, Cell& seconds, Cell&
     size.published = beside(likeness, published->mebibytes, published->erratum);
 }
 
-/// Nodes at most that a tetra-tree of the published size can have, with one reference for
-/// each of the published triangles.
+/// Returns the largest number of nodes for a tetra-tree of the published size, with one reference
+/// for each of the published triangles.
 double node_bound(const PublishedModel& model) {
     constexpr double kRoot = 340;
     constexpr double kNode = 88;
@@ -105,7 +105,7 @@ Check bound_of_nodes(const SpatialMesh& mesh, const PublishedModel& model) {
     return check;
 }
 
-/// Of the one mesh that is certainly the published one.
+/// Checks the mesh that is certainly the published one.
 std::optional<Check> bunny_sizes(const SpatialMesh& mesh) {
     const Likeness& likeness = mesh.mesh->likeness;
     const bool is_bunny = likeness.model && likeness.mark == Mark::none &&

@@ -8,17 +8,17 @@
 
 namespace cdprep::study {
 
-/// What was measured of one mesh.
+/// The measurements of one mesh.
 struct SpatialMesh {
     const StudyMesh* mesh;  ///< never null
     std::vector<SpatialBuild> builds;
 };
 
-/// Table 2 as it was printed, our figures at the paper's setting.
+/// Returns Table 2 as printed, with our figures at the comparative study's setting.
 [[nodiscard]] Table spatial_table(const std::vector<SpatialMesh>& meshes);
-/// All settings and structures of one mesh.
+/// Returns all settings and structures of one mesh.
 [[nodiscard]] Table spatial_details(const SpatialMesh& mesh);
-/// What Table 2 implies, and whether it holds.
+/// Checks the statements that Table 2 implies.
 [[nodiscard]] std::vector<Check> spatial_checks(const std::vector<SpatialMesh>& meshes);
 
 }  // namespace cdprep::study

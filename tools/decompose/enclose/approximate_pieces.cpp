@@ -26,51 +26,51 @@
 namespace cdprep::convex {
 namespace {
 
-constexpr double kCellSize = 6;       ///< of the error: the largest cells
-constexpr double kCellError = 0.5;    ///< of the error: how far a cell's hull may stick out
-constexpr double kSpacing = 0.75;     ///< of the error: of the field's nodes
-constexpr double kReach = 2.3;        ///< of the error: how far out the field is measured
-constexpr double kReuse = 1.5;        ///< by how much the error may change before all is cut anew
-constexpr double kLeastError = 1e-3;  ///< of the diagonal: smaller ones are not sought
-constexpr double kMeasured = 0.92;    ///< of the error that is asked for: what estimates leave
+constexpr double kCellSize = 6;       ///< side of the largest cells, in errors
+constexpr double kCellError = 0.5;    ///< in errors: how far a cell's hull may stick out
+constexpr double kSpacing = 0.75;     ///< of the field's nodes, in errors
+constexpr double kReach = 2.3;        ///< distance outside to which the field measures, in errors
+constexpr double kReuse = 1.5;        ///< factor by which the error may change before a new cut
+constexpr double kLeastError = 1e-3;  ///< of the diagonal: smallest error that is searched
+constexpr double kMeasured = 0.92;    ///< of the requested error: searched, as estimates are low
 constexpr double kRelative =
-    0.02;                          ///< how close bounds of errors are, unless that is too much work
-constexpr std::size_t kTries = 8;  ///< at errors, to come near the number of parts
-constexpr double kFirstError = 0.18;   ///< of the diagonal: what one piece may be expected to need
-constexpr double kPower = 0.65;        ///< of the number of pieces: by how much less more need
-constexpr double kCloseErrors = 1.05;  ///< as a ratio: none is sought between
-constexpr double kEnough = 0.95;       ///< of the pieces that are allowed: no more are sought
-constexpr double kLeastShare = 0.6;    ///< of an error that turned out to be too large: the next
-constexpr std::size_t kRounds = 16;    ///< of attempts to do with fewer pieces
-constexpr double kFewer = 0.93;        ///< of the pieces: what attempts can spare, as a rule
+    0.02;                          ///< relative gap of error bounds, unless that costs too much
+constexpr std::size_t kTries = 8;  ///< errors tried to come near the number of parts
+constexpr double kFirstError = 0.18;   ///< of the diagonal: expected error of one piece
+constexpr double kPower = 0.65;        ///< the expected error falls as (piece count)^-kPower
+constexpr double kCloseErrors = 1.05;  ///< ratio of two errors below which the search ends
+constexpr double kEnough = 0.95;       ///< of the allowed pieces: enough to end the search
+constexpr double kLeastShare = 0.6;    ///< smallest factor to the next error, if one is too large
+constexpr std::size_t kRounds = 16;    ///< of attempts with fewer pieces
+constexpr double kFewer = 0.93;        ///< of the pieces: what usually remains after attempts
 constexpr double kRounding = 1e-6;     ///< of the diagonal: bodies that stick out less are exact
-constexpr double kOneCorner = 1e-7;    ///< of the diagonal: corners as near as this are one
+constexpr double kOneCorner = 1e-7;    ///< of the diagonal: corners this near are merged
 constexpr double kFineError = 0.02;    ///< of the diagonal: below, exact pieces are good enough
-constexpr std::size_t kFewCells = 48;  ///< that are joined within an error: it takes long
-constexpr std::size_t kShareOfWork = 20;  ///< for the search for fewer than those
+constexpr std::size_t kFewCells = 48;  ///< most cells joined within an error: joining takes long
+constexpr std::size_t kShareOfWork = 20;  ///< 1 / share of the work to search for fewer than those
 
-// Work, in units of ApproximateOptions::work, roughly.
-constexpr std::size_t kWorkOfNode = 60;           ///< of a field, measured
-constexpr std::size_t kWorkOfFragment = 60;       ///< that cells are cut into
-constexpr std::size_t kWorkOfCell = 2'000;        ///< one that is cut out
-constexpr std::size_t kWorkOfErrorCell = 150;     ///< that find_hull_error() looks at
-constexpr std::size_t kEstimatesAtOnce = 32;      ///< hulls, side by side
-constexpr std::size_t kTestsOfWork = 4;           ///< of find_hull_error(), against planes
-constexpr std::size_t kWorkOfSample = 10;         ///< of a field
-constexpr std::size_t kFewestNodes = 100'000;     ///< of a field, whatever work is left
-constexpr std::size_t kFewestCells = 500;         ///< that are cut, whatever work is left
-constexpr std::size_t kFewestFragments = 4;       ///< of each triangle, on average
-constexpr std::size_t kFewestErrorCells = 2'000;  ///< for each hull, whatever work is left,
-constexpr std::size_t kFewestOfMany = 100;        ///< but with many hulls no more than this,
-constexpr std::size_t kFewestInAll = 400'000;     ///< or a part of these
-constexpr double kWorkPower = 0.5;    ///< of work that is too much: by how much errors grow
+// Approximate costs and limits, in units of ApproximateOptions::work.
+constexpr std::size_t kWorkOfNode = 60;           ///< one measured node of a field
+constexpr std::size_t kWorkOfFragment = 60;       ///< one fragment of cut cells
+constexpr std::size_t kWorkOfCell = 2'000;        ///< one cell that is cut out
+constexpr std::size_t kWorkOfErrorCell = 150;     ///< one cell examined by find_hull_error()
+constexpr std::size_t kEstimatesAtOnce = 32;      ///< hulls estimated in parallel
+constexpr std::size_t kTestsOfWork = 4;           ///< plane tests of find_hull_error() per unit
+constexpr std::size_t kWorkOfSample = 10;         ///< one sample of a field
+constexpr std::size_t kFewestNodes = 100'000;     ///< least for a field, whatever work is left
+constexpr std::size_t kFewestCells = 500;         ///< least to cut, whatever work is left
+constexpr std::size_t kFewestFragments = 4;       ///< least, per triangle on average
+constexpr std::size_t kFewestErrorCells = 2'000;  ///< largest minimum per hull, for few hulls
+constexpr std::size_t kFewestOfMany = 100;        ///< smallest minimum per hull, for many hulls
+constexpr std::size_t kFewestInAll = 400'000;     ///< minimum of all hulls, between these limits
+constexpr double kWorkPower = 0.5;    ///< exponent: error growth from the work ratio
 constexpr double kLeastGrowth = 1.5;  ///< of an error that takes too much work
 constexpr double kMostGrowth = 8;
 
-/// Cells and distances, fit for errors about as large as `error`.
+/// Cells and distances for errors near `error`.
 struct Stage {
     double error;
-    std::optional<DistanceField> field;  ///< none where cells are exact
+    std::optional<DistanceField> field;  ///< none if the cells are exact
     SolidCells cells;
     std::vector<CoverCell> cover;
 };
@@ -78,11 +78,11 @@ struct Stage {
 /// Pieces as sets of cells.
 struct Found {
     std::shared_ptr<const Stage> stage;
-    double error = 0;  ///< that was sought
+    double error = 0;  ///< the error of the search
     std::vector<std::vector<std::uint32_t>> pieces;
-    std::vector<std::uint32_t> whole;  ///< bodies that are one piece
+    std::vector<std::uint32_t> whole;  ///< labels that are one piece
     bool complete = false;
-    double share = 0;  ///< of the cells that pieces had taken in, where incomplete
+    double share = 0;  ///< of the cells that pieces took in, if incomplete
     [[nodiscard]] std::size_t count() const {
         return pieces.size() + whole.size();
     }
@@ -108,10 +108,10 @@ public:
             found = find_by_parts(options_.parts.value_or(1), 0);
         }
         ApproximatePieces result = finish(found);
-        // Estimates may be a little low: what was asked is held to be what is proved.
+        // Estimates may be a little low. The proved error must meet the request.
         for (int i = 0; i < 4 && options_.max_error && found.count() <= most; ++i) {
             if (result.outer_error <= *options_.max_error || !found.complete) break;
-            if (found.stage && !found.stage->field) break;  // no estimates: they were proved
+            if (found.stage && !found.stage->field) break;  // no estimates: errors were proved
             if (ran_out_of_work_ || found.error <= kLeastError * solid_.diagonal()) break;
             const double share = 0.95 * *options_.max_error / result.outer_error;
             found = cover_with_few(std::max(share, kLeastShare) * found.error);
@@ -126,14 +126,14 @@ public:
         result.is_as_asked = result.pieces.size() <= most &&
                              (!options_.max_error || result.outer_error <= *options_.max_error);
         result.work = work_done_;
-        // Bounds that are not close for want of work matter only then.
+        // Bounds that are loose for lack of work matter only then.
         result.ran_out_of_work =
             ran_out_of_work_ || (result.ran_out_of_work && !result.is_as_asked);
         return result;
     }
 
 private:
-    /// Bodies that may share a piece have one label.
+    /// Gives bodies that may share a piece the same label.
     void label_bodies() {
         label_.resize(solid_.body_count());
         std::map<std::uint32_t, std::uint32_t> label_of_node;
@@ -147,7 +147,7 @@ private:
             const bool one =
                 node_[body] < options_.convex_node.size() && options_.convex_node[node_[body]] != 0;
             if (one || options_.merge_components) {
-                // Numbers of nodes from 1; 0 is what is merged.
+                // Node numbers plus 1; 0 is for merged bodies.
                 const auto key = one ? node_[body] + 1 : 0;
                 const auto [at, is_new] = label_of_node.try_emplace(key, label_count_);
                 label_count_ += is_new ? 1 : 0;
@@ -159,7 +159,7 @@ private:
         }
     }
 
-    /// How far the hull of each label sticks out when it is one piece.
+    /// Measures how far the hull of each label sticks out if it is one piece.
     void measure_bodies() {
         points_of_.resize(label_count_);
         triangles_of_.resize(label_count_);
@@ -195,12 +195,13 @@ private:
     [[nodiscard]] std::size_t work_left() const {
         return options_.work > work_done_ ? options_.work - work_done_ : 0;
     }
-    /// For one search: half, so that there is enough for a looser one where that is too little;
-    /// without what is kept for the measurement of what is found.
+    /// Returns the budget of one search. It keeps a reserve to measure the result and halves the
+    /// rest. The other half is for a looser search if this one does not suffice.
     [[nodiscard]] std::size_t most_search() const {
         return (work_left() - std::min(work_left() / 2, options_.work / 8)) / 2;
     }
-    /// For each of some hulls, together half of the work that is left.
+    /// Returns the number of cells for each of some hulls. Together they take at most half of the
+    /// work that is left, above a minimum.
     [[nodiscard]] std::size_t most_error_cells(std::size_t hulls) const {
         const std::size_t fewest =
             std::clamp(kFewestInAll / hulls, kFewestOfMany, kFewestErrorCells);
@@ -208,7 +209,7 @@ private:
                           HullErrorOptions{}.most_cells);
     }
 
-    /// A vertex is of one body, and so of one label.
+    /// Gathers the vertices of each label. A vertex belongs to one body, and so to one label.
     void gather_vertices() {
         std::vector<std::uint32_t> label_of(mesh_.positions.size(), label_count_);
         for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
@@ -254,7 +255,7 @@ private:
         return stage_;
     }
 
-    /// Pieces for one error, as they are first found.
+    /// Returns the first pieces found for one error.
     Found cover(double error) {
         Found found;
         found.error = std::max(error, kLeastError * solid_.diagonal());
@@ -268,12 +269,12 @@ private:
         return found;
     }
 
-    /// Attempts to do with fewer pieces, until there are few enough.
+    /// Tries to use fewer pieces, until there are few enough.
     void improve(Found& found, std::size_t few_enough) {
         if (found.complete && found.stage) search(found, kRounds, few_enough);
     }
 
-    /// Covers what is not one piece, or goes on from the pieces that there are.
+    /// Covers the bodies that are not one piece, or continues from the given pieces.
     void search(Found& found, std::size_t rounds, std::size_t few_enough) {
         const std::vector<CoverCell>& all = found.stage->cover;
         std::vector<CoverCell> cells;
@@ -308,14 +309,14 @@ private:
         renumber(numbers);
     }
 
-    /// As few pieces for one error as are found.
+    /// Returns as few pieces for one error as the search finds.
     Found cover_with_few(double error) {
         Found found = cover(error);
         improve(found, 0);
         return found;
     }
 
-    /// What needs no search: every label is one piece.
+    /// Returns the result that needs no search: every label is one piece.
     Found all_whole() {
         Found found;
         found.error = solid_.diagonal();
@@ -323,8 +324,8 @@ private:
         return found;
     }
 
-    /// Pieces of bodies with plane faces, cut along those: within an error, or without. None
-    /// where a body that does not stay whole has too many faces.
+    /// Returns pieces of bodies with plane faces, cut along these, within an error or exactly.
+    /// Returns nothing if a body that does not stay whole has too many faces.
     std::optional<Found> cut_exactly(double error) {
         Found found;
         found.error = error;
@@ -354,8 +355,8 @@ private:
         return found;
     }
 
-    /// By how much larger an error needs as little work as is left, after one that took too
-    /// much: larger cells, fewer pieces.
+    /// Returns the factor for the next error after a search that took too much work. A larger error
+    /// gives larger cells and fewer pieces, and so takes less work.
     [[nodiscard]] double growth_after(const Found& incomplete, std::size_t work) const {
         const double needed = static_cast<double>(work) / std::max(incomplete.share, 0.01);
         const double left = static_cast<double>(std::max<std::size_t>(most_search(), 1));
@@ -365,7 +366,7 @@ private:
     Found find_by_error(double max_error) {
         auto exact = cut_exactly(max_error);
         if (!exact) return find_within(max_error);
-        // One more than one for each label is the fewest that there can be.
+        // At least one label needs several pieces, so this is the smallest possible count.
         const bool is_enough =
             exact->count() <= label_count_ + 1 || max_error < kFineError * solid_.diagonal();
         if (is_enough) return std::move(*exact);
@@ -390,7 +391,7 @@ private:
         return all_whole();
     }
 
-    /// Errors between which the one lies that is sought, and how many pieces they need:
+    /// Two errors that enclose the sought one, and the number of pieces for each. The number is
     /// about a power of the error.
     struct Bracket {
         double too_small = 0;
@@ -401,7 +402,7 @@ private:
         [[nodiscard]] bool is_closed() const {
             return too_small > 0 && good <= kCloseErrors * too_small;
         }
-        /// Where as many pieces may be expected.
+        /// Returns the error at which this number of pieces is expected.
         [[nodiscard]] double guess(double pieces) const {
             if (too_small == 0) {
                 return good * std::clamp(std::pow(fewest_pieces / pieces, kPower), 0.6, 0.9);
@@ -415,13 +416,14 @@ private:
         }
     };
 
-    /// The least error, not below `least`, at which there are no more pieces than `parts`.
+    /// Returns pieces for the least error found, not below `least`, that needs at most `parts`
+    /// pieces.
     Found find_by_parts(std::size_t parts, double least) {
         Found best = all_whole();
         if (parts <= label_count_) return best;
         auto exact = cut_exactly(least);
         if (exact && exact->count() <= parts) return std::move(*exact);
-        // Without attempts to do with fewer: what those spare is known well enough.
+        // Without attempts to use fewer pieces: their saving is known well enough.
         const double aim = static_cast<double>(parts) / kFewer;
         double error = std::max(
             least, kFirstError * solid_.diagonal() / std::pow(static_cast<double>(parts), kPower));
@@ -462,7 +464,7 @@ private:
         return best;
     }
 
-    /// No more vertices than an engine takes; as it is where that cannot be.
+    /// Returns a hull with no more vertices than an engine takes, or the hull itself if that fails.
     [[nodiscard]] ConvexHull limited(ConvexHull hull) const {
         hull.numbers.clear();
         if (options_.max_vertices == 0 || hull.points.size() <= options_.max_vertices) return hull;
@@ -470,8 +472,8 @@ private:
         return few ? std::move(few->hull) : hull;
     }
 
-    /// About how far some pieces stick out at most: known, or as the field tells it. What is
-    /// less than that of others before is not looked at closely.
+    /// Returns about the greatest distance by which some pieces stick out: measured, or from the
+    /// field. A piece below the greatest so far is not examined closely.
     double estimate_greatest(const Found& found, std::span<const ApproximatePiece> pieces,
                              std::span<const std::uint8_t> is_measured) {
         double greatest = 0;
@@ -502,7 +504,7 @@ private:
         return greatest;
     }
 
-    /// Hulls, how many corners they hold, and how far they stick out.
+    /// Builds the hulls, proves that they contain their points, and measures their errors.
     ApproximatePieces finish(const Found& found) {
         ApproximatePieces result;
         std::vector<PiecePoints> points;
@@ -548,14 +550,14 @@ private:
         return result;
     }
 
-    /// Measures how far pieces stick out, except those that are measured already.
+    /// Measures how far pieces stick out, except those already measured.
     void measure_errors(const Found& found, std::vector<std::uint8_t> is_measured,
                         ApproximatePieces& result) {
-        // Bounds closer than the largest error would not make the bound of all any closer.
+        // A bound below the largest error does not improve the bound of all pieces.
         HullErrorOptions how;
         how.relative = kRelative;
         how.enough = (1 + kRelative) * estimate_greatest(found, result.pieces, is_measured);
-        // Few hulls take more than most do: those get what work is left.
+        // A few hulls take more work than most. They get the work that is left.
         how.most_cells = 0;
         for (int round = 0; round < 2; ++round) {
             std::vector<std::size_t> open;
@@ -590,7 +592,7 @@ private:
     std::vector<std::vector<std::uint32_t>> triangles_of_;
     std::vector<ApproximatePiece> whole_;
     std::shared_ptr<const Stage> stage_;
-    std::optional<Found> exact_;   ///< what there is if a search for fewer ends too far out
+    std::optional<Found> exact_;   ///< the fallback if a search for fewer sticks out too far
     std::vector<Estimate> known_;  ///< points far out that pieces tried to take in
     std::size_t work_done_ = 0;
     bool ran_out_of_work_ = false;

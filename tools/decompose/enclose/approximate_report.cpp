@@ -36,7 +36,7 @@ Json table_json(const ApproximateReport& report) {
     return rows;
 }
 
-/// "0.034 x 0.016 x 0.016 m".
+/// Returns the size, such as "0.034 x 0.016 x 0.016 m".
 std::string size_text(const ApproximateReport& report) {
     const double scale = report.metres_per_unit > 0 ? report.metres_per_unit : 1;
     std::string text;

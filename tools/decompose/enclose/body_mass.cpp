@@ -8,7 +8,8 @@
 namespace cdprep::cli {
 namespace {
 
-/// Of a solid: simulators refuse an inertia that is not positive definite.
+/// Returns true if the mass is that of a solid. Simulators refuse an inertia that is not positive
+/// definite.
 bool is_of_solid(const write::BodyMass& body) {
     const auto& [xx, yy, zz, xy, yz, zx] = body.inertia;
     const double minor = xx * yy - xy * xy;
@@ -19,7 +20,7 @@ bool is_of_solid(const write::BodyMass& body) {
 std::optional<write::BodyMass> mass_of(const mesh::Mesh& mesh, double density, double scale) {
     const auto found = convex::find_mass_properties(mesh);
     if (!found) return std::nullopt;
-    // Inside out: all signs are turned.
+    // If the mesh is inside out, all signs change.
     const double per_volume = std::copysign(density, found->volume) * scale * scale * scale;
     write::BodyMass body;
     body.mass = per_volume * found->volume;

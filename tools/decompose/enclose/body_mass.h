@@ -11,14 +11,15 @@ namespace cdprep::cli {
 
 struct WeighedBody {
     write::BodyMass body;
-    /// What is weighed: the pieces, each on its own, so that where they overlap counts as
-    /// often; else what the mesh encloses.
+    /// True if the mass is the sum over the pieces, so that overlaps count more than once. False if
+    /// it is the mass of the volume that the mesh encloses.
     bool is_of_pieces = false;
 };
 
-/// Returns the mass of a mesh of even density: of the solid where it is closed and has a
-/// volume, whichever way it is wound, else of the pieces; nothing where those have none
-/// either. `density` is in kilograms per cubic metre; `metres_per_unit` 0 stands for 1.
+/// Returns the mass of a mesh of uniform density. It is that of the solid if the mesh is closed and
+/// has a volume, whichever way it is wound. Otherwise it is that of the pieces. Returns nothing if
+/// those have no volume either. `density` is in kilograms per cubic metre; `metres_per_unit` 0
+/// counts as 1.
 [[nodiscard]] std::optional<WeighedBody> weigh(const mesh::Mesh& mesh, bool is_closed,
                                                std::span<const convex::ApproximatePiece> pieces,
                                                double density, double metres_per_unit);

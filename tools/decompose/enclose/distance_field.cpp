@@ -15,25 +15,25 @@ namespace {
 using mesh::middle_of;
 
 constexpr double kSampling = 0.4;    ///< of a spacing: sides of the last triangles
-constexpr double kCentreWay = 0.67;  ///< of the longest side: from the centre to a corner
-constexpr double kRounded = 1e-5;    ///< of a spacing: more than what rounding to float does
-constexpr double kTooLow = 0.35;     ///< of a spacing: what a field mostly lacks at most
-constexpr std::size_t kFiner = 3;    ///< times, the field that is measured when asked for
-constexpr double kMostFine = 6.4e7;  ///< nodes of that
+constexpr double kCentreWay = 0.67;  ///< of the longest side: bound from centre to corner
+constexpr double kRounded = 1e-5;    ///< of a spacing: exceeds the rounding to float
+constexpr double kTooLow = 0.35;     ///< of a spacing: a field is rarely lower than this
+constexpr std::size_t kFiner = 3;    ///< fine nodes per coarse spacing
+constexpr double kMostFine = 6.4e7;  ///< most nodes of the fine field
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
-constexpr std::size_t kGroup = 4;  ///< nodes along each axis that are kept out together
-constexpr double kShell = 1.5;     ///< spacings: how thick a layer of nodes is
-constexpr std::size_t kBlock = 8;  ///< nodes along each axis
+constexpr std::size_t kGroup = 4;  ///< nodes along each axis of a group of kept-out nodes
+constexpr double kShell = 1.5;     ///< thickness of the layer of kept-out nodes, in spacings
+constexpr std::size_t kBlock = 8;  ///< nodes along each axis of a block
 constexpr std::size_t kFacetsAtOnce = 32;
-constexpr std::size_t kProbes = 64;    ///< nodes that tell how much one takes here
-constexpr double kFewestNodes = 4096;  ///< however much one takes
+constexpr std::size_t kProbes = 64;    ///< nodes whose mean cost is the weight of a node
+constexpr double kFewestNodes = 4096;  ///< least, whatever a node costs
 
 double apart(const Double3& a, const Double3& b) {
     const Double3 ab = mesh::minus(a, b);
     return std::sqrt(mesh::dot(ab, ab));
 }
 
-/// Where a point lies in a grid: the cube's first node, and how far in.
+/// The place of a point in a grid: the cube's first node, and the share of the way along each axis.
 struct GridPlace {
     std::array<std::size_t, 3> low;
     std::array<double, 3> share;
@@ -84,7 +84,8 @@ DistanceField::DistanceField(const Solid& solid, double spacing, double beyond,
     count_ = {static_cast<std::size_t>(nodes_along(size.x)),
               static_cast<std::size_t>(nodes_along(size.y)),
               static_cast<std::size_t>(nodes_along(size.z))};
-    // Half a spacing out, so that faces of the box do not lie on nodes.
+    // The grid exceeds the box by up to half a spacing on each side, so that no node lies on a
+    // face.
     const auto begin = [&](double lower, double length, std::size_t count) {
         return lower + (length - static_cast<double>(count - 1) * spacing_) / 2;
     };
@@ -120,7 +121,8 @@ Double3 DistanceField::node(std::size_t x, std::size_t y, std::size_t z) const {
             origin_.z + static_cast<double>(z) * spacing_};
 }
 
-/// What a node takes after the one beside it, on average over a few places, spread evenly.
+/// Returns the cost of a node measured after its neighbour, as a mean over a few evenly spread
+/// places.
 std::size_t DistanceField::find_weight() const {
     const mesh::Box& box = solid_->tree().box();
     const Double3 size = mesh::minus(box.upper, box.lower);
@@ -141,8 +143,8 @@ std::size_t DistanceField::find_weight() const {
     return weight / kProbes;
 }
 
-/// Far from the surface the middle stands for all nodes of a block. Elsewhere a node is on
-/// the side of the one before it unless the surface may pass between them.
+/// Far from the surface, the distance of the middle serves all nodes of a block. Elsewhere a node
+/// is on the side of the previous one unless the surface may pass between them.
 std::size_t DistanceField::fill(const Block& block, double beyond) {
     const auto [x0, y0, z0] = block.first;
     const std::size_t x1 = std::min(x0 + kBlock, count_[0]);
@@ -222,11 +224,11 @@ double DistanceField::fine_node(std::size_t x, std::size_t y, std::size_t z) con
     const Double3 p = {origin_.x + static_cast<double>(x) * step,
                        origin_.y + static_cast<double>(y) * step,
                        origin_.z + static_cast<double>(z) * step};
-    // The node of the grid that is nearest: at most half a spacing away along each axis.
+    // The nearest node of the grid: at most half a spacing away along each axis.
     const auto beside = [](std::size_t at) { return (at + kFiner / 2) / kFiner; };
     const std::size_t known_node = index(beside(x), beside(y), beside(z));
     const double distance = solid_->tree().nearest(p, nearest_[known_node]).distance;
-    // No surface between the two: both are on one side.
+    // If no surface lies between the two, both are on one side.
     const double to_node = apart(p, node(beside(x), beside(y), beside(z))) + kRounded * spacing_;
     const auto of_node = static_cast<double>(distance_[known_node]);
     const bool is_inside =
@@ -252,13 +254,13 @@ void DistanceField::sample(std::array<Double3, 3> corners, Detail detail, Estima
     const Double3 centre = {(corners[0].x + corners[1].x + corners[2].x) / 3,
                             (corners[0].y + corners[1].y + corners[2].y) / 3,
                             (corners[0].z + corners[1].z + corners[2].z) / 3};
-    // Distances change by no more than the way.
+    // Between two points, the distance changes by no more than the way between them.
     const double way = kCentreWay * longest;
     double here = at(centre);
     const bool is_fine = detail == Detail::fine && fine_;
     const double too_low = is_fine ? kTooLow * spacing_ : 0;
     if (here + too_low + way <= most.distance) return;
-    // Not where it can be neither too much nor little enough for all of the triangle.
+    // A fine value is only needed if it can decide this triangle.
     const bool matters = here + too_low > most.distance ||
                          here + too_low / static_cast<double>(kFiner) + way <= most.distance;
     if (is_fine && matters) {

@@ -39,7 +39,7 @@ std::optional<Error> find_bad_output(const fs::path& input, const fs::path& outp
     return std::nullopt;
 }
 
-/// Thrown by a task after a signal: the search has no other way out.
+/// Thrown by a task after a signal: a search has no other early exit.
 struct Stopped {};
 
 convex::ApproximateOptions search_options(const EncloseOptions& options) {
@@ -60,7 +60,7 @@ bool is_for_simulators(const fs::path& output) {
     return !output.empty() && write::has_mass(*write::hulls_format_of(output));
 }
 
-/// Turns what is up to +z, as simulators have it: coordinates change places and signs.
+/// Turns the up axis to +z, as simulators expect. Coordinates change places and signs only.
 void turn_z_up(std::vector<format::Double3>& points, format::UpAxis up) {
     for (format::Double3& p : points) {
         if (up == format::UpAxis::y) p = {p.x, -p.z, p.y};
@@ -68,7 +68,7 @@ void turn_z_up(std::vector<format::Double3>& points, format::UpAxis up) {
     }
 }
 
-/// Writes the pieces, and for simulators what the mesh weighs and looks like, in metres, +z up.
+/// Writes the pieces. For simulators, also writes the mass and the visual mesh, in metres, +z up.
 Result<Done> write_pieces(mesh::Mesh mesh, bool is_closed, const EncloseOptions& options,
                           report::ApproximateReport& report) {
     std::vector<convex::ApproximatePiece> pieces = report.result.pieces;

@@ -21,21 +21,21 @@ struct EncloseOptions {
     std::size_t work = convex::ApproximateOptions{}.work;
     bool to_surface = false;
     bool merge_components = false;
-    double density = 1000;   ///< kilograms per cubic metre: of water
+    double density = 1000;   ///< kilograms per cubic metre; the default is that of water
     bool has_visual = true;  ///< URDF and SDF show the mesh itself
     bool has_table = false;
     bool strict = false;  ///< refuses to take an unknown unit as the metre
     LoadOptions load;
 };
 
-/// Searches on these threads; nothing soon after a signal.
+/// Searches on these threads. Returns nothing soon after a signal.
 [[nodiscard]] std::optional<convex::ApproximatePieces> search_pieces(const mesh::Mesh& mesh,
                                                                      convex::ApproximateOptions how,
                                                                      const Threads& threads);
 
-/// Encloses a file's mesh in convex pieces and writes them. find_nodes() says what is kept
-/// apart, and what is one piece. Fails with `interrupted` soon after a signal, with nothing
-/// written.
+/// Encloses a file's mesh in convex pieces and writes them. find_nodes() decides which parts stay
+/// separate and which become one piece. Fails with `interrupted` soon after a signal, and then
+/// writes nothing.
 [[nodiscard]] Result<report::ApproximateReport> enclose(const std::filesystem::path& input,
                                                         const EncloseOptions& options,
                                                         const Threads& threads, Progress& progress);

@@ -25,10 +25,10 @@ using mesh::Box;
 using mesh::HalfEdge;
 
 constexpr double kFlat = 1e-6;       ///< of the diagonal: vertices this near a plane are on it
-constexpr double kStep = 8;          ///< times that: what is beside a plane
-constexpr double kInwards = 1e-3;    ///< of the way to a cell's middle: what is beside a corner
+constexpr double kStep = 8;          ///< in kFlat: the step to a point beside a plane
+constexpr double kInwards = 1e-3;    ///< of the way to a cell's middle: the step from a corner
 constexpr double kParallel = 1e-9;   ///< 1 - the cosine between normals of one plane
-constexpr double kAlongAxis = 1e-9;  ///< the other coordinates of a normal that is an axis
+constexpr double kAlongAxis = 1e-9;  ///< 1 - a component of a normal that counts as an axis
 
 struct Plane {
     Double3 normal;  ///< of length 1
@@ -39,15 +39,15 @@ double height(const Plane& plane, const Double3& p) {
     return mesh::dot(plane.normal, p) - plane.offset;
 }
 
-/// Triangles in one plane, connected.
+/// Connected triangles in one plane.
 struct Face {
     Plane plane;
     std::vector<std::uint32_t> vertices;
     bool has_reflex_edge = false;
 };
 
-/// A corner of a convex region, and the planes in which it lies; two with two in common are
-/// the ends of an edge, if not of more.
+/// A corner of a convex region, and the planes in which it lies. Two corners with two common planes
+/// are the ends of an edge, or lie on a common line.
 struct RegionCorner {
     std::uint32_t place;
     std::vector<std::uint32_t> planes;
@@ -122,8 +122,8 @@ private:
         return mesh_.positions[vertex];
     }
 
-    /// The largest triangle that is left, and those around it in its plane. Nothing where
-    /// the surface does not go on.
+    /// Starts each face at the largest triangle left, and adds the connected triangles in its
+    /// plane. Returns nothing if an edge of the surface is a barrier.
     [[nodiscard]] std::optional<std::vector<Face>> find_faces(std::uint32_t body) const {
         const auto& own = triangles_of_[body];
         std::vector<std::pair<double, std::uint32_t>> order;
@@ -159,7 +159,8 @@ private:
         return faces;
     }
 
-    /// Along an axis exactly where that can be meant: cuts are exact then, too.
+    /// Returns the plane of a triangle. A normal almost along an axis becomes that axis exactly,
+    /// because its cuts are exact then.
     [[nodiscard]] Plane plane_of(std::uint32_t triangle) const {
         const auto& v = mesh_.triangles[triangle].vertex;
         const Double3& a = position(v[0]);
@@ -202,7 +203,7 @@ private:
                });
     }
 
-    /// Those of faces with reflex edges, each once.
+    /// Returns the planes of faces with reflex edges, each once.
     [[nodiscard]] std::vector<Plane> choose_planes(const std::vector<Face>& faces) const {
         std::vector<Plane> chosen;
         for (const Face& face : faces) {
@@ -249,13 +250,13 @@ private:
         return plane.normal.x * x + plane.normal.y * y + plane.normal.z * z - plane.offset;
     }
 
-    /// -1 below, 0 on the plane or near it, 1 above.
+    /// Returns -1 below the plane, 0 on it or near it, 1 above.
     [[nodiscard]] int side_of(const Plane& plane, std::uint32_t place) const {
         const Interval at = exact_height(plane, cells_.places[place]);
         return at.sup() < -near_ ? -1 : at.inf() > near_ ? 1 : 0;
     }
 
-    /// Where the segment between two places on either side meets a plane.
+    /// Returns the place where the segment between two places on either side meets a plane.
     std::uint32_t cut_segment(std::uint32_t from, std::uint32_t to, const Plane& plane) {
         const auto key = std::minmax(from, to);
         const auto known = met_.find(key);
@@ -269,10 +270,10 @@ private:
             const Interval begin(a.lower.*axis, a.upper.*axis);
             const Interval end(b.lower.*axis, b.upper.*axis);
             const Interval at = begin + share * (end - begin);
-            // The segment does not leave its ends' box, whatever rounding says.
+            // The segment does not leave the box of its ends, whatever the rounding.
             cut.lower.*axis = std::max(at.inf(), std::min(begin.inf(), end.inf()));
             cut.upper.*axis = std::min(at.sup(), std::max(begin.sup(), end.sup()));
-            // Across the plane it is known exactly.
+            // For a plane across an axis, this coordinate is exact.
             if (std::fabs(plane.normal.*axis) == 1) {
                 cut.lower.*axis = cut.upper.*axis = plane.offset * plane.normal.*axis;
             }
@@ -359,7 +360,7 @@ private:
         }
     }
 
-    /// Of a fragment in the plane.
+    /// Returns true if the body lies above a fragment in the plane.
     [[nodiscard]] bool is_body_above(const Fragment& fragment, const Plane& plane) const {
         Double3 p = {0, 0, 0};
         for (const std::uint32_t place : fragment.place) {
@@ -387,7 +388,7 @@ private:
         return sum;
     }
 
-    /// A cell of the region, if it is convex.
+    /// Makes a cell of the region. Returns true if the cell is convex.
     bool close(const Region& region) {
         SolidCell cell{{}, region.body, region.fragments, {}};
         std::vector<Double3> points;
@@ -418,7 +419,7 @@ private:
         return bound_flush(hull, solid_, kStep * near_).has_value();
     }
 
-    /// A vertex of the body stands for a corner that is the same but for rounding.
+    /// Adds a corner. A vertex of the body replaces a corner that differs from it by rounding only.
     template <class IsNear>
     void add_corner(const Place& place, std::uint32_t body, const IsNear& is_near,
                     SolidCell& cell) const {
@@ -440,8 +441,9 @@ private:
         }
     }
 
-    /// On the surface only where the body goes on within the region; where it does in part,
-    /// fragments end in the corner.
+    /// Returns true if a corner of the region belongs to the body. A corner on the surface belongs
+    /// only if the body continues from it within the region. If it does in part, fragments end in
+    /// the corner.
     [[nodiscard]] bool is_corner_of_body(const Double3& corner, const Double3& inside,
                                          std::uint32_t body) const {
         if (solid_.tree().nearest(corner).distance > near_) return is_in_body(corner, body);
@@ -458,11 +460,11 @@ private:
     const std::vector<bool>& is_wanted_;
     const FaceCellOptions& options_;
     double near_;
-    std::vector<std::vector<std::uint32_t>> triangles_of_;  ///< each wanted body
+    std::vector<std::vector<std::uint32_t>> triangles_of_;  ///< of each wanted body
     SurfaceEdges edges_;
     SolidCells cells_;
     std::uint32_t plane_number_ = 0;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> met_;  ///< by this plane
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> met_;  ///< cuts by this plane
 };
 
 }  // namespace

@@ -17,13 +17,14 @@ struct FaceCellOptions {
     std::size_t most_cells = 128;        ///< in all
 };
 
-/// Cuts bodies along the planes of their faces at reflex edges, whichever way these are
-/// turned, into cells that are convex and lie in the solid, but for rounding: prisms, blocks
-/// with slots, plates with holes of few sides. Vertices within 1e-6 of the diagonal of a
-/// plane are on it. Fragments and places as cut_into_cells() makes them; boxes bound cells.
-/// `is_wanted` is by body; others have no cells. Nothing where there is more than the
-/// options allow, where a body is not closed and oriented, and where a cell would not be
-/// convex. Limits bound the work: some milliseconds.
+/// Cuts bodies along the planes of their faces at reflex edges, in any orientation. The cells are
+/// convex and lie in the solid, up to rounding. It suits prisms, blocks with slots, and plates with
+/// holes of few sides. Vertices within 1e-6 of the diagonal of a plane count as on it.
+///
+/// Fragments and places are like those of cut_into_cells(); boxes bound cells. `is_wanted` is by
+/// body; other bodies get no cells. Returns nothing if a limit is exceeded, a wanted body is not
+/// closed and oriented, or a cell would not be convex. The limits bound the work to some
+/// milliseconds.
 [[nodiscard]] std::optional<SolidCells> cut_along_faces(const mesh::Mesh& mesh, const Solid& solid,
                                                         const std::vector<bool>& is_wanted,
                                                         const FaceCellOptions& options = {});

@@ -12,7 +12,7 @@
 namespace cdprep::convex {
 namespace {
 
-// Of points against planes: once for those of the hull, once for those of the surface.
+// The limit of tests of points against planes: once for the hull's, once for the surface's.
 constexpr std::size_t kMostTests = 4'000'000;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -38,7 +38,8 @@ public:
     FlushHull(const ConvexHull& hull, const Solid& solid) : hull_(hull), solid_(solid) {
         for (const auto& f : hull.facets) {
             Plane plane = plane_of(hull.points[f[0]], hull.points[f[1]], hull.points[f[2]]);
-            // A thin facet has any direction: the hull is behind its plane all the same.
+            // A thin facet has an arbitrary direction: the offset puts the hull behind its plane
+            // anyway.
             plane.offset = -kInfinity;
             for (const Double3& p : hull.points) {
                 plane.offset = std::max(plane.offset, mesh::dot(plane.normal, p));
@@ -47,10 +48,10 @@ public:
         }
     }
 
-    // Let no point of the surface be deeper in the hull H than d, and a point c of the solid
-    // be r deep, d < r. H shrunk by the share d / r towards c is more
-    // than d deep but for its border, so that it meets no surface and is in the solid with
-    // c; and no point of H moved by more than d / r times its distance from c.
+    // Proof. Let no point of the surface be deeper in the hull H than d. Let a point c of the solid
+    // be r deep, with d < r. Shrink H towards c by the share d / r. Except for its border, the
+    // result is more than d deep. So it meets no surface and lies in the solid with c. No point of
+    // H moved by more than d / r times its distance from c.
     [[nodiscard]] std::optional<double> bound(double deepest) {
         const Double3 middle = mean();
         double radius = kInfinity;
@@ -90,8 +91,9 @@ private:
         return sum;
     }
 
-    /// At least how deep a point of the triangle lies in the hull, or anything not above
-    /// `enough`. A ball in the hull around one reaches as far on either side of its plane.
+    /// Returns an upper bound of how deep a point of the triangle lies in the hull, or any value up
+    /// to `enough`. A ball in the hull around such a point reaches equally far to both sides of the
+    /// triangle's plane.
     [[nodiscard]] double depth_of(const Corners& corners, double enough) const {
         double depth = kInfinity;
         for (const Plane& plane : planes_) {

@@ -8,11 +8,11 @@
 
 namespace cdprep::convex {
 
-/// Bounds the distance of any point of a hull from the solid, where the solid's surface goes
-/// nowhere deeper into the hull than `deepest`: all but a skin of the hull then lies in the
-/// solid. As for parts of a solid that are convex, whose facets lie on its surface. Nothing
-/// where it goes deeper, where the hull lies outside or has no volume, and where as much
-/// cannot be told with some millions of tests. Model units; proved, rounding included.
+/// Bounds the distance of a hull's points from the solid. The solid's surface must enter the hull
+/// nowhere deeper than `deepest`. All of the hull except a skin then lies in the solid. This suits
+/// convex parts of a solid, whose facets lie on its surface. Returns nothing if the surface goes
+/// deeper, or the hull lies outside or has no volume. Also returns nothing if some millions of
+/// tests do not decide. Model units; proved, rounding included.
 [[nodiscard]] std::optional<double> bound_flush(const ConvexHull& hull, const Solid& solid,
                                                 double deepest);
 

@@ -17,17 +17,17 @@ namespace {
 using mesh::middle_of;
 
 constexpr std::size_t kMostDepthTests = 20'000'000;  ///< of triangles against planes
-constexpr std::size_t kTestsOfCell = 500;            ///< that take as long as a cell
-constexpr double kSkin = 0.02;   ///< of the error: what bounds of the inside may add
-constexpr double kFlush = 1e-6;  ///< of the diagonal: as near as this is on the surface
+constexpr std::size_t kTestsOfCell = 500;            ///< that cost as much as one cell
+constexpr double kSkin = 0.02;   ///< of the error: the most that bounds of the inside may add
+constexpr double kFlush = 1e-6;  ///< of the diagonal: points this near count as on the surface
 
 /// A simplex of 1 to 3 corners; `upper` bounds the distance of its points.
 struct Cell {
     std::array<Double3, 3> corner;
     std::size_t count;
     double upper;
-    std::uint32_t near;  ///< a triangle
-    bool outside;        ///< known to lie outside, all of it
+    std::uint32_t near;  ///< a triangle near it
+    bool outside;        ///< known to lie outside as a whole
     bool operator<(const Cell& other) const {
         return upper < other.upper;
     }
@@ -69,7 +69,7 @@ public:
         }
         if (!heap_.empty()) error_.upper = std::max(error_.upper, heap_.front().upper);
         if (hull.dimension == 3 && !options_.surface_alone) look_inside(hull);
-        // Cells meet where a middle was rounded; distances were, too.
+        // Cells meet at rounded middles, and distances are rounded: the slack covers both.
         if (error_.upper > 0) error_.upper += solid_.slack();
         return error_;
     }
@@ -77,11 +77,11 @@ public:
 private:
     [[nodiscard]] bool is_good_enough() const {
         const double upper = heap_.front().upper;
-        // Half is left for the inside: facets on the surface have a bound above 0 for ever.
+        // Half is left for the inside: facets on the surface always have a bound above 0.
         return error_.lower > options_.too_much || error_.cells >= options_.most_cells / 2 ||
                upper <= prune_below();
     }
-    /// What is at most this need not be known better.
+    /// Returns the bound below which a cell is not refined.
     [[nodiscard]] double prune_below() const {
         return std::max(options_.enough, error_.lower * (1 + options_.relative));
     }
@@ -101,14 +101,14 @@ private:
         return cells;
     }
 
-    /// Counts as more cells what takes much longer than mostly.
+    /// Finds the nearest triangle. An unusually expensive search counts as several cells.
     TriangleTree::Nearest nearest(const Double3& p, std::uint32_t hint) {
         const TriangleTree::Nearest near = solid_.tree().nearest(p, hint);
         error_.cells += near.weight() - 1;
         return near;
     }
 
-    /// Bounds a cell and keeps it unless it is well within what is known.
+    /// Bounds a cell and keeps it unless its bound is within prune_below().
     void push(Cell cell) {
         ++error_.cells;
         const std::span c = std::span(cell.corner).first(cell.count);
@@ -140,9 +140,9 @@ private:
         std::push_heap(heap_.begin(), heap_.end());
     }
 
-    /// At least the distance from the surface of any point of these corners' hull. The
-    /// distance to one triangle is convex, and so is the mean of those to two, which the
-    /// nearer one does not exceed: in the middle between two walls it bounds well.
+    /// Returns an upper bound of the distance from the surface of any point in the corners' hull.
+    /// The distance to one triangle is convex. So is the mean of the distances to two, and the
+    /// nearer one does not exceed it. Midway between two walls this bound is good.
     [[nodiscard]] double bound_by_corners(std::span<const Double3> corners,
                                           std::uint32_t triangle) {
         const Corners& t = solid_.tree().corners(triangle);
@@ -184,11 +184,11 @@ private:
         }
     }
 
-    /// A cube that may hold points of the hull that are deep in it.
+    /// A cube that may contain points deep in the hull.
     struct Cube {
         Double3 centre;
         double half;
-        std::vector<std::uint32_t> planes;  ///< that it does not lie well behind
+        std::vector<std::uint32_t> planes;  ///< except those that it lies well behind
         std::uint32_t near;
         bool outside;
         double bound;
@@ -201,7 +201,7 @@ private:
         double offset;
     };
 
-    /// The planes of the facets; a facet too thin to have a direction keeps nothing out.
+    /// Returns the planes of the facets. A facet too thin to have a direction has none.
     static std::vector<Plane> planes_of(const ConvexHull& hull) {
         std::vector<Plane> planes;
         for (const auto& f : hull.facets) {
@@ -216,9 +216,9 @@ private:
         return planes;
     }
 
-    /// Points within the hull at most `skin` from its surface are not farther from the solid
-    /// than that surface by more; the others lie in cubes, which are cut until their bound
-    /// is no higher. It is only there that a cavity or a pocket is told.
+    /// Bounds the distance inside the hull. Points at most `skin` deep are farther from the solid
+    /// than the surface by at most `skin`. The others lie in cubes, which are cut until their bound
+    /// is no higher. Only this step detects cavities and pockets.
     void look_inside(const ConvexHull& hull) {
         const double skin = kSkin * std::max(error_.upper, options_.enough);
         const double most = error_.upper + skin;
@@ -233,7 +233,7 @@ private:
             error_.upper = std::max(most, shallow);
             return;
         }
-        // The cube with the greatest bound first: what is found there spares most others.
+        // The cube with the greatest bound comes first: what it yields saves most others.
         std::vector<Cube> heap;
         double highest = most;
         const auto push = [&](Cube cube) {
@@ -269,10 +269,10 @@ private:
         error_.upper = std::min(highest, shallow);
     }
 
-    /// At least the distance of any point of the hull from the solid, where the surface goes
-    /// into the hull nowhere deeply: what lies deeper than that is all inside then if one
-    /// point is, and what does not is near the hull's own surface. That much holds of a solid
-    /// that is all but convex, however many cubes it would take to fill. Infinite otherwise.
+    /// Returns an upper bound of the distance of the hull's points from the solid. It works if the
+    /// surface does not enter the hull deeply. All points deeper than the surface are then inside
+    /// the solid if one is. The other points are near the hull's own surface. This bounds nearly
+    /// convex solids without the many cubes needed to fill them. Infinite otherwise.
     [[nodiscard]] double bound_above_surface(const ConvexHull& hull, std::span<const Plane> planes,
                                              const mesh::Box& box) {
         constexpr double kNothing = std::numeric_limits<double>::infinity();
@@ -296,9 +296,9 @@ private:
         return error_.upper + depth;
     }
 
-    /// At least how deep any point of these corners' hull lies behind all planes; anything
-    /// not above `enough` where it is no deeper than that. The plane under which it is least
-    /// deep is looked at first for the next ones, which are near, and mostly the last one.
+    /// Returns an upper bound of how deep any point of the corners' hull lies behind all planes.
+    /// The bound may be any value up to `enough` if no point is deeper than that. `shallowest`, the
+    /// last plane with the least depth, is tested first: nearby corners usually share it.
     static double depth_of(std::span<const Double3> corners, std::span<const Plane> planes,
                            double enough, std::size_t& shallowest) {
         const auto below = [&](const Plane& plane) {
@@ -319,8 +319,8 @@ private:
         return depth;
     }
 
-    /// At least the distance of any point of the cube that is deep in the hull; 0 when there
-    /// is none. Drops planes that the cube lies well behind.
+    /// Returns an upper bound of the distance of the cube's points that are deep in the hull; 0 if
+    /// it has none. Drops planes that the cube lies well behind.
     double bound_of(Cube& cube, std::span<const Plane> planes, double skin) {
         ++error_.cells;
         const Double3& c = cube.centre;

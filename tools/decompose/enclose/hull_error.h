@@ -9,33 +9,33 @@
 
 namespace cdprep::convex {
 
-/// How far a hull sticks out of a solid.
+/// The distance by which a hull sticks out of a solid.
 struct HullError {
-    double lower = 0;  ///< `worst` is that far from the solid, up to rounding
+    double lower = 0;  ///< `worst` is this far from the solid, up to rounding
     double upper = 0;  ///< proved: no point of the hull is farther from it
     Double3 worst = {0, 0, 0};
-    std::size_t cells = 0;  ///< looked at; those about as near to very many triangles several times
-    std::size_t tests = 0;  ///< of triangles against the hull's planes, besides
+    std::size_t cells = 0;  ///< examined; some near very many triangles count as several
+    std::size_t tests = 0;  ///< additional tests, of triangles against the hull's planes
 };
 
 struct HullErrorOptions {
-    double relative = 0.02;  ///< upper - lower is at most that of upper
+    double relative = 0.02;  ///< upper - lower is at most this share of upper
     double enough = 0;       ///< or upper is at most this, model units; or 1e-6 of the diagonal
-    /// Ends as soon as lower is more than this.
+    /// Ends as soon as lower exceeds this.
     double too_much = std::numeric_limits<double>::infinity();
-    /// Looks at the hull's surface alone: `upper` is then proved of that alone.
+    /// Examines the hull's surface alone; `upper` is then proved for the surface only.
     bool surface_alone = false;
-    std::size_t most_cells = 200'000;  ///< ends there with the bounds that it has
+    std::size_t most_cells = 200'000;  ///< ends at this number, with the bounds found so far
 };
 
-/// Bounds the greatest distance of a point of the hull from the solid: 0 inside. The
-/// whole hull counts, not its surface alone: a hull that closes a cavity off is told.
+/// Bounds the greatest distance of a point of the hull from the solid; points inside count as 0.
+/// The whole hull counts, not its surface alone: a hull that closes off a cavity is detected.
 ///
-/// Facets are halved, the one with the greatest bound first. The distance to one triangle
-/// is convex, so that the corners of a part bound it; and no point of a part is farther
-/// away than its middle by more than the part's radius. Then cubes within the hull are cut,
-/// for what lies deeper than 2 % of the error under the surface. Hulls that lie on the
-/// surface and in the solid, but for rounding, are told at once.
+/// Facets are halved, the one with the greatest bound first. The distance to one triangle is
+/// convex, so the corners of a part bound it. Also, no point of a part is farther away than its
+/// middle by more than the part's radius. Then cubes within the hull are cut, for points deeper
+/// than 2 % of the error under the surface. Hulls that lie on the surface and in the solid, up to
+/// rounding, are recognised at once.
 [[nodiscard]] HullError find_hull_error(const ConvexHull& hull, const Solid& solid,
                                         const HullErrorOptions& options = {});
 

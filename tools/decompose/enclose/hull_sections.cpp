@@ -42,7 +42,7 @@ std::vector<format::HullFacet> facets_of(const ConvexHull& hull) {
     return facets;
 }
 
-/// Begins of each point's neighbours, then those, rising for each point.
+/// Returns the start of each point's neighbours, then the neighbours, ascending for each point.
 std::vector<std::uint32_t> neighbour_words(const ConvexHull& hull) {
     std::vector<std::array<std::uint32_t, 2>> edges;
     for (const auto& point : hull.facets) {
@@ -59,7 +59,7 @@ std::vector<std::uint32_t> neighbour_words(const ConvexHull& hull) {
     return words;
 }
 
-/// The middle of a direction_cell().
+/// Returns the direction through the middle of a direction_cell().
 Double3 cell_direction(std::uint32_t cell) {
     const std::uint32_t column = cell % kDirectionCells, row = cell / kDirectionCells;
     const std::uint32_t face = row / kDirectionCells;

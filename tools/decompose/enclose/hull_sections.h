@@ -19,25 +19,25 @@ struct HullSections {
     std::vector<std::uint32_t> neighbours;
     std::vector<std::uint32_t> starts;
 
-    /// Adds a hull behind the others, which have lesser scopes and numbers. `source_vertex`
-    /// names the vertices that its numbers are of. Neighbours and starts are stored from
-    /// kClimbFrom points on.
+    /// Adds a hull after the others, which have smaller scopes and numbers. `source_vertex` maps
+    /// the hull's numbers to vertices. Neighbours and starts are stored for hulls of kClimbFrom
+    /// points or more.
     void add(format::HullScope scope, std::uint32_t number, const MeshHull& hull,
              std::span<const std::uint32_t> source_vertex);
 };
 
-/// Components of a mesh with more of them have no hulls of their own in a file.
+/// The largest number of components for which a file stores component hulls.
 inline constexpr std::size_t kMostComponentHulls = 1 << 16;
 
-/// The hulls of a mesh: of the whole, of its components where there are several, but no
-/// more than kMostComponentHulls, and of its instances where there are several. They are
-/// exact, or have at most `max_vertices` points unless that is 0; nothing when one would
-/// leave the range of double. `instances` are runs of `mesh`'s triangles.
+/// Returns the hulls of a mesh: of the whole, of its components and of its instances. Components
+/// and instances get hulls only if there are several, components only up to kMostComponentHulls.
+/// Hulls are exact, or have at most `max_vertices` points unless that is 0. Returns nothing if a
+/// hull would exceed the range of double. `instances` are runs of `mesh`'s triangles.
 [[nodiscard]] std::optional<HullSections> make_hull_sections(
     const mesh::Mesh& mesh, std::span<const format::Instance> instances, std::uint32_t max_vertices,
     ParallelFor run);
 
-/// Adds pieces as parts, behind all other hulls, with their errors as distances.
+/// Adds pieces as parts after all other hulls, with their errors as distances.
 void add_parts(HullSections& sections, std::span<const ApproximatePiece> pieces);
 
 }  // namespace cdprep::convex

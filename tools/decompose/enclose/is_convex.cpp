@@ -15,7 +15,7 @@ bool is_convex(const mesh::Mesh& mesh, std::span<const std::uint32_t> triangles,
     std::vector<mesh::Triangle> list;
     for (const std::uint32_t i : triangles) list.push_back(mesh.triangles[i]);
     const mesh::EdgeUses edges = mesh::find_edge_uses(list, mesh.positions.size());
-    int turn = 0;  // 1 where apexes are behind, -1 inside out
+    int turn = 0;  // 1: apexes are behind, -1: inside out
     const auto at = [&](std::uint32_t vertex) -> const Double3& { return mesh.positions[vertex]; };
     for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
         const auto uses = edges.of(edge);
@@ -30,7 +30,7 @@ bool is_convex(const mesh::Mesh& mesh, std::span<const std::uint32_t> triangles,
     for (const mesh::Triangle& t : list) {
         difference.add(at(t.vertex[0]), at(t.vertex[1]), at(t.vertex[2]));
     }
-    // Turned against them: subtracted.
+    // The facets of the hull are wound the other way, and so subtracted.
     const std::size_t second = turn < 0 ? 1 : 2;
     for (const auto& f : hull.facets) {
         difference.add(hull.points[f[0]], hull.points[f[second]], hull.points[f[3 - second]]);

@@ -9,10 +9,9 @@
 
 namespace cdprep::convex {
 
-/// Whether these triangles of a mesh are the surface of their hull: exact. They are when
-/// none has a point of the hull in front of it along an edge (no edge is reflex), the
-/// oriented uses of every edge cancel, and both enclose exactly the same volume; or all
-/// that turned inside out.
+/// Returns true if these triangles of a mesh are the surface of their hull. Exact. Three conditions
+/// decide. No edge is reflex. The oriented uses of every edge cancel. Triangles and hull enclose
+/// exactly the same volume. A surface turned inside out counts too.
 [[nodiscard]] bool is_convex(const mesh::Mesh& mesh, std::span<const std::uint32_t> triangles,
                              const ConvexHull& hull);
 

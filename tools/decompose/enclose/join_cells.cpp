@@ -18,8 +18,8 @@ using mesh::middle_of;
 
 using Cells = std::vector<std::uint32_t>;
 
-constexpr double kRounding = 1e-5;         ///< of the diagonal: what counts as exact
-constexpr std::size_t kMostLooks = 2'000;  ///< of one trial within an error: then it is refused
+constexpr double kRounding = 1e-5;         ///< of the diagonal: counts as exact
+constexpr std::size_t kMostLooks = 2'000;  ///< cells of one trial; beyond that, the trial fails
 
 double squared(const Double3& a, const Double3& b) {
     const Double3 ab = mesh::minus(a, b);
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    // What does not go in does not go in later: hulls only grow.
+    // A cell that does not fit will not fit later: hulls only grow.
     [[nodiscard]] Cells grow(std::size_t seed) const {
         Cells piece = {static_cast<std::uint32_t>(seed)};
         std::vector<Double3> hull = points_[seed];
@@ -109,7 +109,7 @@ private:
         return find_hull_error(hull, solid_, how).upper <= error_;
     }
 
-    /// Between two corners lies a point too far out. A quick look.
+    /// Returns true if the middle of two corners is too far out. A quick test.
     [[nodiscard]] bool bridges_gap(const ConvexHull& hull) const {
         for (std::size_t i = 0; i < hull.points.size(); ++i) {
             for (std::size_t k = i + 1; k < hull.points.size(); ++k) {
@@ -120,7 +120,7 @@ private:
         return false;
     }
 
-    /// The one that takes in most of what is left, again and again.
+    /// Chooses, again and again, the piece that takes in most of the cells left.
     [[nodiscard]] std::vector<Cells> choose(const std::vector<Cells>& grown) const {
         std::vector<Cells> chosen;
         std::vector<bool> is_left(wanted_.size(), true);
@@ -144,7 +144,7 @@ private:
     const Solid& solid_;
     double error_;
     std::vector<std::vector<Double3>> points_;  ///< of each wanted cell's hull
-    std::vector<mesh::Box> box_;                ///< a little larger
+    std::vector<mesh::Box> box_;                ///< a little enlarged
     std::vector<Double3> centre_;
 };
 

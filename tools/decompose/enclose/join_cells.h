@@ -10,12 +10,14 @@
 
 namespace cdprep::convex {
 
-/// Covers convex cells of a solid with few unions of neighbouring ones of one body, whose
-/// hulls stick out by no more than an error: proved, for each. With an error of 0, only by
-/// what rounding does. Unions grow from every cell to the nearest neighbours; those that
-/// take in most of what is left are chosen. For some hundred cells, of simple solids: every
-/// trial looks at all triangles around. `wanted`: which cells; the others are in none.
-/// Numbers of cells, ascending. The same for any parallel_for.
+/// Covers convex cells of a solid with few unions of neighbouring cells of one body. The hull of
+/// each union sticks out by at most `error`, proved; with an error of 0, by rounding only. Unions
+/// grow from every cell to the nearest neighbours; the ones that take in most of the rest are
+/// chosen.
+///
+/// Suits some hundred cells of simple solids, because every trial examines all triangles nearby.
+/// `wanted` lists the cells to cover; the others are in no union. Returns cell numbers, ascending.
+/// The same for any parallel_for.
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> join_cells(
     const SolidCells& cells, std::span<const std::uint32_t> wanted, const Solid& solid,
     double error, ParallelFor parallel_for);

@@ -13,10 +13,10 @@
 namespace cdprep::convex {
 namespace {
 
-constexpr double kFirstPush = 2;  ///< extents of a group: enough where the hull is pointed
-constexpr double kMorePush = 8;   ///< times as much where it is not
+constexpr double kFirstPush = 2;  ///< extents of a group: enough if the hull is pointed there
+constexpr double kMorePush = 8;   ///< factor to the next push, if that was not enough
 constexpr int kTries = 6;
-constexpr double kWide = 4;  ///< distances: a group that is wider is left alone
+constexpr double kWide = 4;  ///< in distances: a wider group is left alone
 
 double length(const Double3& v) {
     return std::sqrt(mesh::dot(v, v));
@@ -31,13 +31,13 @@ Double3 mean(const std::vector<Double3>& points) {
     return sum;
 }
 
-/// Corners that are near each other.
+/// Corners near each other.
 struct Group {
     Double3 middle;
-    double extent = 0;  ///< from the middle
+    double extent = 0;  ///< greatest distance from the middle
 };
 
-/// The groups, and the corners that are in none.
+/// The groups, and the corners outside all groups.
 struct Sorted {
     std::vector<Group> groups;
     std::vector<Double3> single;

@@ -5,11 +5,11 @@
 
 namespace cdprep::convex {
 
-/// Returns a hull that holds this one, exactly, without corners nearer to each other than
-/// `distance`, model units: each such group becomes one corner, pushed out by little more
-/// than the group's own extent. Cuts are rounded, so that corners come in groups that differ
-/// in the last digits; readers with fewer digits make facets without area of those. The hull
-/// as it is where there are no groups, or none can be had. `numbers` is empty then.
+/// Returns a hull that contains this one, exactly, and has no corners nearer to each other than
+/// `distance` (model units). Each group of near corners becomes one corner, pushed out by little
+/// more than the group's extent. Cuts are rounded, so corners come in groups that differ in the
+/// last digits. Readers with fewer digits turn those into facets without area. Returns the hull
+/// unchanged if it has no groups or no such hull is found. Otherwise `numbers` is empty.
 [[nodiscard]] ConvexHull merge_corners(ConvexHull hull, double distance);
 
 }  // namespace cdprep::convex

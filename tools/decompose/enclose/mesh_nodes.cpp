@@ -11,7 +11,7 @@
 namespace cdprep::cli {
 namespace {
 
-/// As exporters for engines name what is convex.
+/// Returns true if the name marks a convex node, by the conventions of exporters for engines.
 bool is_tagged_convex(const std::string& path) {
     const std::string name = path.substr(path.find_last_of('/') + 1);
     constexpr std::array<const char*, 4> kEndings = {"-convcol", "-convcolonly", "-convex",
@@ -26,7 +26,7 @@ void fill_run(std::vector<std::uint32_t>& node_of, const Run& run, std::uint32_t
     std::fill_n(node_of.begin() + run.first_triangle, run.triangle_count, node);
 }
 
-/// Per group, whether it is a body without the others.
+/// Returns, for each group, true if it is a closed body without the others.
 std::vector<bool> find_closed(const mesh::Mesh& mesh, const std::vector<std::uint32_t>& group_of,
                               std::size_t count) {
     const mesh::Mesh parted = convex::part_nodes(mesh, group_of);

@@ -9,17 +9,17 @@
 
 namespace cdprep::cli {
 
-/// What pieces keep apart.
+/// The nodes that pieces do not cross.
 struct MeshNodes {
     std::vector<std::uint32_t> node_of;   ///< per triangle; empty: one node
-    std::vector<std::string> names;       ///< per node; "" for what is under no name
-    std::vector<std::uint8_t> is_convex;  ///< per node: its name says so
+    std::vector<std::string> names;       ///< per node; "" for triangles without a name
+    std::vector<std::uint8_t> is_convex;  ///< per node: its name marks it as convex
 };
 
-/// The nodes of the imported file; without them its groups, if they are closed by
-/// themselves or their names say that they are convex: others are parts of one surface and
-/// stay together. Convex is what a name that starts with UCX_ or ends in -convcol,
-/// -convcolonly, -convex or _convex says. `mesh` is the welded soup.
+/// Returns the nodes of the imported file. Without nodes, returns its groups that are closed by
+/// themselves or have names that mark them as convex. Other groups are parts of one surface and
+/// stay together. A name marks a node as convex if it starts with UCX_ or ends in -convcol,
+/// -convcolonly, -convex or _convex. `mesh` is the welded soup.
 [[nodiscard]] MeshNodes find_nodes(const mesh::TriangleSoup& soup, const mesh::Mesh& mesh);
 
 }  // namespace cdprep::cli

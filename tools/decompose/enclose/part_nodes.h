@@ -8,8 +8,8 @@
 
 namespace cdprep::convex {
 
-/// Returns the mesh with no vertex in two nodes, so that components are of one node: new
-/// vertices stand behind the others. `node_of` is per triangle; empty: one node.
+/// Returns the mesh with no vertex in two nodes, so that each component belongs to one node. New
+/// vertices follow the others. `node_of` is per triangle; empty: one node.
 [[nodiscard]] mesh::Mesh part_nodes(const mesh::Mesh& mesh, std::span<const std::uint32_t> node_of);
 
 }  // namespace cdprep::convex

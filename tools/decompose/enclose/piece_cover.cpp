@@ -19,23 +19,23 @@ namespace {
 using Cells = std::vector<std::uint32_t>;
 
 constexpr std::size_t kSeeds = 4;   ///< growths tried for each piece
-constexpr std::size_t kInVain = 8;  ///< cells looked at that are not wanted, one after the other
-constexpr std::size_t kWorkOfTry = 100;  ///< besides looking at what is kept out
-constexpr std::size_t kLooksOfWork = 4;  ///< at planes and points
+constexpr std::size_t kInVain = 8;  ///< consecutive unwanted cells tried before growth ends
+constexpr std::size_t kWorkOfTry = 100;  ///< one cell tried, without tests of kept-out points
+constexpr std::size_t kLooksOfWork = 4;  ///< planes and points tested per unit of work
 constexpr std::size_t kWorkOfSample = 10;
-constexpr std::size_t kRegrowths = 2;  ///< of one that sticks out too far
-constexpr std::size_t kGivenUp = 4;    ///< pieces that are given up together, at most
-constexpr std::size_t kIdle = 3;       ///< rounds of such attempts without success: the last
-constexpr std::size_t kAtOnce = 8;     ///< such attempts, side by side
-constexpr std::size_t kTrial = 8;      ///< parts of the work, the first of which tells much
-constexpr double kHopeless = 2;        ///< times the work: when that much seems to be needed
+constexpr std::size_t kRegrowths = 2;  ///< attempts to regrow a piece that sticks out too far
+constexpr std::size_t kGivenUp = 4;    ///< most pieces given up in one attempt
+constexpr std::size_t kIdle = 3;       ///< rounds without success after which attempts end
+constexpr std::size_t kAtOnce = 8;     ///< attempts in parallel per round
+constexpr std::size_t kTrial = 8;      ///< 1 / share of the work after which is_hopeless() may stop
+constexpr double kHopeless = 2;        ///< predicted work, in limits, at which the search stops
 
 double squared(const Double3& a, const Double3& b) {
     const Double3 ab = mesh::minus(a, b);
     return mesh::dot(ab, ab);
 }
 
-/// A well mixed number: choices that are varied without chance.
+/// Returns a well mixed number, for choices that vary without randomness.
 std::uint64_t mixed(std::uint64_t x) {
     x += 0x9E3779B97F4A7C15ULL;
     x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9ULL;
@@ -43,7 +43,7 @@ std::uint64_t mixed(std::uint64_t x) {
     return x ^ (x >> 31U);
 }
 
-/// Points that lie farthest along a few directions: what spans a hull, for quick looks.
+/// The points that lie farthest along a few directions: a rough hull for quick tests.
 class Reach {
 public:
     void add(std::span<const Double3> points) {
@@ -57,8 +57,8 @@ public:
         }
     }
 
-    /// The segments between what two hulls reach are in their common hull: it holds a point
-    /// farther from the solid than `error` when one of these does.
+    /// Returns true if the common hull of both contains a point farther from the solid than
+    /// `error`. It tests the middles of the segments between their points.
     [[nodiscard]] bool bridges_gap(const Reach& other, const DistanceField& field,
                                    double error) const {
         for (const Double3& p : other.point_) {
@@ -84,10 +84,10 @@ private:
     std::array<double, 8> height_ = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
 };
 
-/// A piece as it grew.
+/// A grown piece.
 struct Grown {
-    Cells cells;                  ///< in the order in which they were taken in
-    std::vector<Estimate> found;  ///< points too far out that it had taken in on the way
+    Cells cells;                  ///< in the order in which they were added
+    std::vector<Estimate> found;  ///< points too far out that it contained earlier
     std::size_t work = 0;
 };
 
@@ -145,7 +145,7 @@ private:
         }
     }
 
-    /// Cells of one body whose boxes touch.
+    /// Finds the neighbours of each cell: cells of the same body whose boxes touch.
     void find_neighbours() {
         neighbours_.resize(cells_.size());
         Cells order(cells_.size());
@@ -168,8 +168,9 @@ private:
         for (Cells& list : neighbours_) std::sort(list.begin(), list.end());
     }
 
-    /// Takes in one cell after the other, the nearest to the seed first: those that are
-    /// wanted, and when no more of them goes in, a few others: there may be more beyond.
+    /// Grows a piece by one cell after the other, the nearest to the seed first. Wanted cells come
+    /// first. When no more of them fit, a few others follow, because wanted cells may lie beyond
+    /// them.
     Grown grow(std::uint32_t seed, const std::vector<bool>& wanted,
                const PointGroups& kept_out) const {
         SeparatedPoints hull(kept_out);
@@ -223,8 +224,8 @@ private:
         return field_.estimate(convex_hull(points), options_.error, Detail::fine, run);
     }
 
-    /// A piece within the error: grown anew, with points kept out that it had taken in, where
-    /// it is not; and what it took in last is given up where that does not help.
+    /// Returns a piece within the error. A piece that exceeds the error is regrown, with the points
+    /// that are too far out kept out. If that does not help, its last cells are removed.
     Grown grow_within_error(std::uint32_t seed, const std::vector<bool>& wanted,
                             const PointGroups& far, ParallelFor run) const {
         Grown grown = grow(seed, wanted, far);
@@ -249,8 +250,8 @@ private:
         return grown;
     }
 
-    /// Halves what is in question: what follows a prefix that is too much is, too. Returns
-    /// the work that it took.
+    /// Removes the last cells by bisection: if a prefix sticks out too far, so does a longer one.
+    /// Returns the work.
     std::size_t give_up_last(Cells& cells, ParallelFor run) const {
         std::size_t good = 1;
         std::size_t bad = cells.size();
@@ -265,7 +266,7 @@ private:
         return work;
     }
 
-    /// Wanted cells far from each other, the first one by `salt`.
+    /// Returns wanted cells far from each other. `salt` selects the first.
     [[nodiscard]] Cells choose_seeds(const std::vector<bool>& wanted, std::size_t count,
                                      std::uint64_t salt) const {
         Cells list;
@@ -275,7 +276,7 @@ private:
         if (list.size() <= count) return list;
         Cells seeds = {list[mixed(salt) % list.size()]};
         std::vector<double> apart(list.size(), std::numeric_limits<double>::infinity());
-        // The first is only where to begin: what is far from it lies at an end.
+        // The first cell is only a start: the cell farthest from it lies at an end.
         while (seeds.size() <= count) {
             std::size_t farthest = 0;
             for (std::size_t i = 0; i < list.size(); ++i) {
@@ -288,7 +289,7 @@ private:
         return seeds;
     }
 
-    /// The number of the one that takes in most of what is wanted.
+    /// Returns the index of the piece that takes in most wanted cells.
     static std::size_t find_best(const std::vector<Grown>& pool, const std::vector<bool>& wanted) {
         std::size_t best = 0;
         std::ptrdiff_t most = 0;
@@ -302,24 +303,24 @@ private:
         return best;
     }
 
-    /// What a cover of some cells has come to.
+    /// The state of a cover of some cells.
     struct Progress {
         std::vector<Cells> chosen;
         std::vector<Estimate> found;
         std::size_t work = 0;
-        double share = 1;  ///< of the cells wanted, that were taken in
+        double share = 1;  ///< of the wanted cells that were taken in
     };
 
-    /// Whether so many cells of all, for that work, leave no hope that what is allowed will do:
-    /// the first pieces take in more than the last ones.
+    /// Returns true if the work for the cells taken so far predicts that the limit will not
+    /// suffice. The first pieces take in more cells than the last ones.
     [[nodiscard]] bool is_hopeless(std::size_t work, std::size_t taken, std::size_t all) const {
         if (work <= options_.most_work / kTrial) return false;
         return static_cast<double>(work) * static_cast<double>(all) >
                kHopeless * static_cast<double>(options_.most_work) * static_cast<double>(taken);
     }
 
-    /// Pieces that take in all cells that are wanted, or more than `limit` when that many are
-    /// not enough.
+    /// Returns pieces that take in all wanted cells. Returns more than `limit` pieces if `limit`
+    /// are not enough.
     Progress cover_wanted(std::vector<bool> wanted, std::size_t limit, std::uint64_t salt,
                           PointGroups& far, ParallelFor run) const {
         Progress progress;
@@ -367,7 +368,7 @@ private:
         return uses;
     }
 
-    /// The smallest first: those all of whose cells are in others.
+    /// Removes pieces whose cells are all in others, the smallest first.
     void drop_needless(std::vector<Cells>& pieces) const {
         std::sort(pieces.begin(), pieces.end(), [](const Cells& a, const Cells& b) {
             return a.size() != b.size() ? a.size() < b.size() : a < b;
@@ -386,7 +387,7 @@ private:
         pieces = std::move(kept);
     }
 
-    /// The piece and those that reach nearest to what it alone takes in.
+    /// Returns the piece `of` and the pieces whose mean cell centres are nearest to its own.
     [[nodiscard]] std::vector<std::size_t> neighbourhood(const std::vector<Cells>& pieces,
                                                          std::size_t of, std::size_t count) const {
         std::vector<std::pair<double, std::size_t>> order;
@@ -411,9 +412,9 @@ private:
         return chosen;
     }
 
-    /// Gives neighbouring pieces up and covers what they alone took in anew, again and
-    /// again; attempts of one round begin with the same pieces, the first that does with
-    /// fewer is taken.
+    /// Gives up neighbouring pieces and covers the cells that only they contain again, in rounds.
+    /// All attempts of a round start from the same pieces. The first one that ends with fewer is
+    /// used.
     void improve(std::vector<Cells>& pieces) {
         std::size_t idle = 0;
         for (std::size_t round = 0; round < options_.rounds && idle < kIdle; ++round) {
@@ -440,7 +441,7 @@ private:
         }
     }
 
-    /// All pieces, fewer than before; or none.
+    /// Returns all pieces if they are fewer than before, else none.
     Progress try_fewer(const std::vector<Cells>& pieces, std::vector<std::uint32_t> uses,
                        std::size_t number) const {
         const std::uint64_t salt = mixed(number);

@@ -14,9 +14,9 @@ namespace cdprep::convex {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kFew = 8;  ///< points that need no choice
+constexpr std::size_t kFew = 8;  ///< points: no selection needed
 
-/// Towards points of a grid on the faces of a cube.
+/// Returns the directions from a cube's centre to the points of a grid on its faces.
 std::vector<Double3> make_directions() {
     std::vector<Double3> directions;
     for (int x = -2; x <= 2; ++x) {
@@ -42,7 +42,7 @@ std::vector<std::uint32_t> places_of(const SolidCells& cells, const SolidCell& c
     return places;
 }
 
-/// The corners of the box in which the place is known to lie: one, mostly.
+/// Adds the corners of the box that contains the place: usually one.
 void add_place(const Place& place, std::vector<Double3>& points) {
     for (unsigned k = 0; k < 8; ++k) {
         const bool is_new = ((k & 1U) == 0 || place.upper.x != place.lower.x) &&
@@ -55,7 +55,7 @@ void add_place(const Place& place, std::vector<Double3>& points) {
     }
 }
 
-/// For each cell the largest piece that it is in.
+/// Returns, for each cell, the largest piece that contains it.
 std::vector<std::uint32_t> choose_owners(std::size_t cell_count,
                                          std::span<const std::vector<std::uint32_t>> pieces) {
     std::vector<std::uint32_t> order(pieces.size());
@@ -72,7 +72,7 @@ std::vector<std::uint32_t> choose_owners(std::size_t cell_count,
     return owner;
 }
 
-/// Within the plane of a polygon's facets, seen along the axis across which they are largest.
+/// Returns true if p lies in the polygon. All facets are in one plane and viewed along each axis.
 bool is_within_polygon(const ConvexHull& hull, const Double3& p) {
     for (const auto& f : hull.facets) {
         const Double3 &a = hull.points[f[0]], &b = hull.points[f[1]], &c = hull.points[f[2]];
@@ -97,8 +97,8 @@ bool is_within_polygon(const ConvexHull& hull, const Double3& p) {
     return false;
 }
 
-/// Points in boxes within boxes: what is behind a facet with all corners of its box is
-/// behind it, exactly, for coordinates of boxes are those of points.
+/// Points in boxes within boxes. If all corners of a box are behind a facet, so are its points.
+/// This is exact, because the coordinates of boxes are those of points.
 class InsideProof {
 public:
     InsideProof(const ConvexHull& hull, std::span<const Double3> points)
@@ -135,7 +135,7 @@ private:
         if (size.y >= size.z) axis = &Double3::y;
         if (size.x >= size.y && size.x >= size.z) axis = &Double3::x;
         const std::size_t half = points.size() / 2;
-        // Ties by all coordinates: the same halves with any standard library's selection.
+        // Ties are broken by all coordinates: every standard library selects the same halves.
         std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(half),
                          points.end(), [&](const Double3& a, const Double3& b) {
                              return std::tie(a.*axis, a.x, a.y, a.z) <

@@ -10,25 +10,26 @@
 
 namespace cdprep::convex {
 
-/// What the hull of a piece has to hold.
+/// The points that the hull of a piece must contain.
 struct PiecePoints {
     std::vector<Double3> points;
     std::vector<std::uint32_t> triangles;  ///< with a fragment in the piece; ascending
-    std::uint64_t fragments = 0;           ///< that are this piece's to hold
+    std::uint64_t fragments = 0;           ///< that this piece has to contain
 };
 
-/// Points of a cell that lie farthest in many directions: its hull but for little.
+/// Returns the points of a cell that lie farthest along many directions: nearly its hull.
 [[nodiscard]] std::vector<Double3> extreme_points(const SolidCells& cells, const SolidCell& cell);
 
-/// For pieces as sets of cells, points whose hulls hold the cells. A cell that is in
-/// several pieces is left to the largest; a triangle whose fragments are all in one piece is
-/// held by its corners, a fragment otherwise by the boxes in which its corners lie.
+/// Returns, for pieces given as sets of cells, points whose hulls contain the cells. A cell in
+/// several pieces belongs to the largest one. A triangle whose fragments are all in one piece is
+/// represented by its corners. Any other fragment is represented by the boxes in which its corners
+/// lie.
 [[nodiscard]] std::vector<PiecePoints> gather_points(
     const SolidCells& cells, const mesh::Mesh& mesh,
     std::span<const std::vector<std::uint32_t>> pieces);
 
-/// Counts how many points are outside of a hull, exactly. Tests of corners of boxes around
-/// points count as such of points.
+/// Counts the points outside a hull, exactly. Tests of the corners of boxes around points count as
+/// point tests.
 [[nodiscard]] EnclosureProof prove_points(const ConvexHull& hull, std::span<const Double3> points);
 
 }  // namespace cdprep::convex

@@ -17,12 +17,13 @@ using mesh::cross;
 using mesh::dot;
 using mesh::minus;
 
-constexpr int kMostSteps = 40;      ///< of a search for a plane; then the point counts as within
-constexpr double kNothing = 1e-18;  ///< of squares: as near as this is within
+constexpr int kMostSteps = 40;      ///< of a search for a plane; then the point counts as inside
+constexpr double kNothing = 1e-18;  ///< of squared distances: nearer counts as inside
 constexpr std::uint32_t kClosed = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t kManyPoints = 96;  ///< of a hull: it is pruned when there are more
+constexpr std::size_t kManyPoints = 96;  ///< pruned above this plus twice the last pruned size
 
-/// Up to four points around the origin, and the point of their hull that is nearest to it.
+/// Up to four points around the origin. The functions reduce them to the feature of their hull that
+/// is nearest to the origin, and return its nearest point.
 struct Simplex {
     std::array<Double3, 4> point;
     std::size_t count = 0;
@@ -50,7 +51,7 @@ Double3 nearest_on_segment(Simplex& s) {
     return scaled_sum(a, t / length, ab);
 }
 
-/// The better of a triangle's sides.
+/// Returns the nearest point on the sides of a triangle.
 Double3 nearest_on_sides(Simplex& s) {
     const Simplex all = s;
     Double3 best{};
@@ -79,7 +80,8 @@ Double3 nearest_on_triangle(Simplex& s) {
     return {t * n.x, t * n.y, t * n.z};
 }
 
-/// Over the sides that the origin is beyond; the origin itself when there is none.
+/// Returns the nearest point on the faces that the origin is beyond, or the origin if there are
+/// none.
 Double3 nearest_on_tetrahedron(Simplex& s) {
     constexpr std::array<std::array<std::size_t, 4>, 4> kSides = {
         {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}}};
@@ -167,7 +169,7 @@ void PointGroups::add(std::span<const Double3> points) {
     points_.insert(points_.end(), points.begin(), points.end());
 }
 
-/// None that a set lies beyond.
+/// Sets a plane that no set lies beyond.
 void SeparatedPoints::Planes::forbid(std::size_t i) {
     x[i] = y[i] = z[i] = 0;
     offset[i] = -std::numeric_limits<double>::infinity();
@@ -190,7 +192,7 @@ void SeparatedPoints::Planes::resize(std::size_t count) {
 SeparatedPoints::SeparatedPoints(const PointGroups& kept_out)
     : kept_out_(kept_out), is_near_(kept_out.size(), 0) {}
 
-/// A direction in which the point lies beyond the hull of what there is and of more.
+/// Returns a plane that separates the point from the hull of the present points and `more`.
 std::optional<SeparatedPoints::Touching> SeparatedPoints::find_plane(
     const Double3& kept_out, const Double3& first, std::span<const Double3> more) {
     Double3 normal = unit(first);
@@ -220,8 +222,8 @@ std::optional<SeparatedPoints::Touching> SeparatedPoints::find_plane(
     return std::nullopt;
 }
 
-/// Whether all of a set stay out, beyond its plane or another one: sets side by side are
-/// often beyond the same.
+/// Returns true if all points of a set stay outside, beyond their plane or another one.
+/// Neighbouring sets often share a plane.
 bool SeparatedPoints::keep_out(Planes& planes, std::size_t i, std::span<const Double3> kept_out,
                                const Double3& centre, const Added& added) {
     const Double3 old = {planes.x[i], planes.y[i], planes.z[i]};
@@ -249,7 +251,7 @@ bool SeparatedPoints::keep_out(Planes& planes, std::size_t i, std::span<const Do
     return try_plane(found_.size() - 1);
 }
 
-/// All points of a group, each beyond a plane of its own.
+/// Returns true if all points of a group stay outside, each beyond a plane of its own.
 bool SeparatedPoints::keep_out_points(const Near& near, const Added& added) {
     const std::span<const Double3> points = kept_out_.points_of(near.group);
     constexpr std::size_t kAtOnce = 64;
@@ -286,7 +288,7 @@ bool SeparatedPoints::keep_out_group(std::size_t i, const Added& added) {
     return keep_out_points(near_[i], added);
 }
 
-/// Groups that the hull's box newly reaches; none of them has a plane.
+/// Adds the groups that the hull's box now reaches; none of them has a plane yet.
 void SeparatedPoints::look_around(const mesh::Box& box) {
     work_ += kept_out_.in_box(box, [this](std::size_t i) {
         if (is_near_[i] != 0) return;
@@ -317,7 +319,8 @@ bool SeparatedPoints::keep_out_all(const Added& added) {
     return true;
 }
 
-/// What was looked at in vain. What blocked the way is looked at sooner the next time.
+/// Undoes a failed add(). The group that blocked it moves forward, so that the next add() tests it
+/// sooner.
 void SeparatedPoints::forget(std::size_t near_count, std::size_t single_count) {
     for (const std::size_t i : opened_) near_[i].single = kClosed;
     for (std::size_t i = near_count; i < near_.size(); ++i) is_near_[near_[i].group] = 0;

@@ -13,7 +13,7 @@ namespace cdprep::convex {
 
 using format::Double3;
 
-/// Points side by side, for many dot products.
+/// Points stored by coordinate, for many dot products.
 class PointRows {
 public:
     void add(const Double3& p) {
@@ -27,14 +27,14 @@ public:
     [[nodiscard]] Double3 at(std::size_t i) const {
         return {x_[i], y_[i], z_[i]};
     }
-    /// The first of those that lie farthest along a direction. Not of nothing.
+    /// Returns the first of the points that lie farthest along a direction. Must not be empty.
     [[nodiscard]] std::size_t farthest(const Double3& along) const;
 
 private:
     std::vector<double> x_, y_, z_;
 };
 
-/// Points in groups that lie together.
+/// Points in groups of neighbours.
 class PointGroups {
 public:
     struct Group {
@@ -44,12 +44,13 @@ public:
     };
 
     PointGroups() = default;
-    /// Those of another one, which outlives this and does not change meanwhile, and more.
+    /// Starts with the groups of `base`, to which more can be added. `base` must outlive this and
+    /// must not change meanwhile.
     explicit PointGroups(const PointGroups* base) : base_(base), base_size_(base->size()) {}
 
     void add(std::span<const Double3> points);
 
-    /// Of groups, those of the base first.
+    /// Returns the number of groups. Those of the base come first.
     [[nodiscard]] std::size_t size() const {
         return base_size_ + groups_.size();
     }
@@ -62,8 +63,8 @@ public:
         return std::span(points_).subspan(own.first, own.count);
     }
 
-    /// Calls visit(group) for each whose box meets this one, ascending. Returns how many boxes
-    /// it looked at.
+    /// Calls visit(group) for each group whose box meets this one, ascending. Returns the number of
+    /// boxes tested.
     template <class Visit>
     std::size_t in_box(const mesh::Box& box, const Visit& visit) const {
         std::size_t looks = base_ == nullptr ? 0 : base_->in_box(box, visit);
@@ -85,40 +86,40 @@ private:
     const PointGroups* base_ = nullptr;
     std::size_t base_size_ = 0;
     std::vector<Group> groups_;
-    std::vector<mesh::Box> bundles_;  ///< around so many groups each, one after the other
+    std::vector<mesh::Box> bundles_;  ///< around kBundle consecutive groups each
     std::vector<Double3> points_;
 };
 
-/// A growing convex hull and points that it may not take in, each with a plane between: one
-/// for all of a group while that can be, then one for each point. What is beyond the hull's
-/// box needs none.
+/// A growing convex hull that keeps certain points out, each with a separating plane. A whole group
+/// shares one plane while possible; later each point has its own. Points beyond the hull's box need
+/// no plane.
 ///
-/// Rounded: what is decided here is a choice, and the result is measured afterwards. Points
-/// nearer to the hull than about 1e-9 of their distances count as within.
+/// Values are rounded: decisions here are choices, and the result is measured afterwards. Points
+/// nearer to the hull than about 1e-9 of their distances count as inside.
 class SeparatedPoints {
 public:
-    /// `kept_out` outlives this.
+    /// `kept_out` must outlive this.
     explicit SeparatedPoints(const PointGroups& kept_out);
 
-    /// Adds points to the hull, or nothing when one that is kept out would be within.
-    /// `centre` and `radius` are of a ball around them.
+    /// Adds points to the hull. If a kept-out point would then be inside, adds nothing and returns
+    /// false. `centre` and `radius` describe a ball around the points.
     bool add(std::span<const Double3> points, const Double3& centre, double radius);
 
-    /// Of all that were added, those that are not within others' hull, and some that are.
+    /// Returns all added points that are not inside the hull of others, and some that are.
     [[nodiscard]] std::vector<Double3> outer_points() const;
 
-    /// How many planes and points were looked at.
+    /// Returns the number of planes and points tested.
     [[nodiscard]] std::size_t work() const {
         return work_;
     }
 
 private:
-    /// A plane that touches the hull: what is beyond is outside.
+    /// A plane that touches the hull: points beyond it are outside.
     struct Touching {
         Double3 normal;
         double offset;
     };
-    /// Sets of points that are kept out, with a plane each.
+    /// Sets of kept-out points, with one plane each.
     struct Planes {
         std::vector<double> x, y, z;  ///< normals, away from the hull
         std::vector<double> offset;   ///< of the nearest point of the set
@@ -132,7 +133,7 @@ private:
     /// A group that the hull's box reaches.
     struct Near {
         std::uint32_t group;
-        std::uint32_t single;  ///< the first of its points' planes; kClosed: none
+        std::uint32_t single;  ///< index of its first point's plane; kClosed: none
     };
     /// Points that are being added.
     struct Added {
@@ -165,10 +166,10 @@ private:
     Planes planes_;  ///< of near groups
     Planes single_;
     std::vector<std::uint8_t> is_near_;  ///< of each group
-    std::vector<std::size_t> opened_;    ///< while points are added
+    std::vector<std::size_t> opened_;    ///< groups opened while points are added
     std::vector<Touching> found_;
     std::vector<Change> changes_;
-    std::size_t blocking_ = 0;  ///< the near group that could not be kept out last
+    std::size_t blocking_ = 0;  ///< the near group that blocked the last add()
     std::size_t work_ = 0;
 };
 

@@ -15,8 +15,8 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kSlack = 1e-12;  ///< of the largest coordinate: some thousand roundings
 
-/// For each component the one whose cavity it is, or itself: an inverted one belongs to
-/// the least of those upright ones around it.
+/// Returns the host of each component: the component whose cavity it is, or itself. An inverted
+/// component belongs to the upright one of least volume around it.
 std::vector<std::uint32_t> find_hosts(const mesh::Mesh& mesh,
                                       const mesh::ComponentNumbers& components,
                                       const std::vector<format::Component>& facts) {

@@ -10,46 +10,47 @@
 
 namespace cdprep::convex {
 
-/// Against what it is measured how far a hull sticks out.
+/// The reference from which errors are measured.
 enum class Reference : std::uint8_t {
-    solid,   ///< what closed components enclose, and the surface of the others
+    solid,   ///< the volume of closed components, and the surface of the others
     surface  ///< the surface alone, as for sheets without volume
 };
 
-/// What a mesh encloses, and its surface: how far points are from it.
+/// The solid that a mesh encloses, and its surface: it measures the distance of points from it.
 ///
-/// A closed component encloses the points around which its winding number, together with
-/// that of the inverted components within it (its cavities), is not 0. Others enclose
-/// nothing. Keeps a reference to nothing.
+/// The cavities of a closed component are the inverted components within it. It encloses the points
+/// where the sum of its winding number and theirs is not 0. Other components enclose nothing. Keeps
+/// no reference to the mesh.
 class Solid {
 public:
     /// `mesh` has triangles. The same for any parallel_for.
     Solid(const mesh::Mesh& mesh, Reference reference, ParallelFor parallel_for);
 
-    /// Bodies: closed components with their cavities, and open components one by one.
+    /// Returns the number of bodies. A body is a closed component with its cavities, or one open
+    /// component.
     [[nodiscard]] std::uint32_t body_count() const {
         return body_count_;
     }
     [[nodiscard]] std::uint32_t body_of(std::uint32_t triangle) const {
         return body_of_[triangle];
     }
-    /// Whether some body encloses anything.
+    /// Returns true if some body encloses a volume.
     [[nodiscard]] bool encloses() const {
         return encloses_;
     }
-    /// Exact: whether p is enclosed; on the surface it may be either.
+    /// Returns true if p is enclosed. Exact; on the surface the result may be either.
     [[nodiscard]] bool includes(const Double3& p) const;
-    /// Exact: the bodies that enclose p, or have it on their closed surface; ascending.
+    /// Returns the bodies that enclose p, or have it on their closed surface; ascending. Exact.
     [[nodiscard]] std::vector<std::uint32_t> bodies_around(const Double3& p) const;
 
     [[nodiscard]] const TriangleTree& tree() const {
         return tree_;
     }
-    /// Of the surface, and more than any error of rounding in coordinates.
+    /// Returns the diagonal of the surface's box. It exceeds any rounding error of a coordinate.
     [[nodiscard]] double diagonal() const {
         return tree_.box().diagonal();
     }
-    /// Larger than what rounding does to a distance that TriangleTree finds.
+    /// Returns a bound on the rounding error of the distances that TriangleTree finds.
     [[nodiscard]] double slack() const {
         return slack_;
     }

@@ -18,14 +18,14 @@ using Axis = double Double3::*;
 using Interval = CGAL::Interval_nt<true>;
 
 constexpr std::array<Axis, 3> kAxes = {&Double3::x, &Double3::y, &Double3::z};
-constexpr double kSmallest = 0.125;        ///< of the size: cells are not cut beyond
-constexpr double kUncut = 0.125;           ///< triangles this small against a cell are not cut
+constexpr double kSmallest = 0.125;        ///< of the size: smaller cells are not cut
+constexpr double kUncut = 0.125;           ///< of a cell: triangles this small are not cut
 constexpr double kNearMiddle = 0.25;       ///< of a side: how far from its middle a cut may be
-constexpr std::size_t kChunk = 1U << 14U;  ///< fragments that are looked at in one go
+constexpr std::size_t kChunk = 1U << 14U;  ///< fragments examined per task
 constexpr std::uint32_t kSharing = 3;      ///< vertices with one coordinate that attract a cut
-constexpr double kBeside = 1e-7;           ///< of the diagonal: as near as this is beside
+constexpr double kBeside = 1e-7;           ///< of the diagonal: the step to a point beside a plane
 
-/// A box that is still to be cut.
+/// A box that may still be cut.
 struct Open {
     Box box;
     std::vector<std::uint32_t> fragments;
@@ -50,7 +50,7 @@ Interval between(const Place& place, Axis axis) {
     return {place.lower.*axis, place.upper.*axis};
 }
 
-/// Where the segment between two places meets the plane at which its axis is c.
+/// Returns the place where the segment between two places meets the plane at c across an axis.
 Place cut_segment(const Place& from, const Place& to, Axis across, double c) {
     const Interval start = between(from, across);
     const Interval share = (Interval(c) - start) / (between(to, across) - start);
@@ -59,7 +59,7 @@ Place cut_segment(const Place& from, const Place& to, Axis across, double c) {
         const Interval a = between(from, axis);
         const Interval b = between(to, axis);
         const Interval at = a + share * (b - a);
-        // The segment does not leave its ends' box, whatever rounding says.
+        // The segment does not leave the box of its ends, whatever the rounding.
         cut.lower.*axis = std::max(at.inf(), std::min(a.inf(), b.inf()));
         cut.upper.*axis = std::min(at.sup(), std::max(a.sup(), b.sup()));
     }
@@ -94,7 +94,7 @@ public:
     }
 
 private:
-    /// Coordinates that several vertices have, ascending.
+    /// Finds the coordinates that at least kSharing vertices share, ascending.
     void find_shared_coordinates(const mesh::Mesh& mesh) {
         std::vector<double> values(mesh.positions.size());
         for (std::size_t k = 0; k < 3; ++k) {
@@ -145,21 +145,21 @@ private:
         return share_all(cuts);
     }
 
-    /// A box that is cut in two.
+    /// A box to cut in two.
     struct Cut {
         const Open* open;
         Axis axis;
         double at;
     };
-    /// Some of its fragments, by the sides on which they are.
+    /// Some of its fragments, by the sides on which they lie.
     struct Shared {
         std::size_t cut;
         std::size_t first;
         std::vector<std::uint32_t> below = {}, above = {}, both = {}, across = {}, loose = {};
     };
 
-    /// The two halves of each box. Fragments are looked at side by side, many boxes or many
-    /// parts of one; those that are cut themselves get their numbers one after the other.
+    /// Returns the two halves of each box. Fragments are examined in parallel: many boxes, or many
+    /// parts of one. Fragments that are cut get their numbers one after the other.
     std::vector<Open> share_all(std::span<const Cut> cuts) {
         std::vector<Shared> shares;
         for (std::size_t i = 0; i < cuts.size(); ++i) {
@@ -198,7 +198,7 @@ private:
 
     [[nodiscard]] bool is_small_enough(const Open& open) const {
         const double side = longest_side(open.box);
-        // Boxes without surface may be twice as large: nothing of a hull ends there.
+        // Boxes without surface may be twice as large: no hull ends in them.
         if (open.fragments.empty()) {
             return side <= 2 * options_.size || !solid_.includes(centre(open.box));
         }
@@ -223,14 +223,15 @@ private:
                 box.lower.z / 2 + box.upper.z / 2};
     }
 
-    /// Fragments as small as this need not be cut, nor end where their box does.
+    /// Returns the size up to which fragments are not cut and may extend beyond their box.
     static double uncut_side(const Cut& cut) {
         Box half = cut.open->box;
         half.upper.*cut.axis = cut.at;
         return kUncut * longest_side(half);
     }
 
-    /// Hands fragments to the boxes on either side of a cut; large ones across it are left.
+    /// Assigns fragments to the boxes on either side of a cut. Large ones across it are left for
+    /// later.
     void share(const Cut& cut, Shared& shared) const {
         const Box& box = cut.open->box;
         const double small = uncut_side(cut);
@@ -264,8 +265,9 @@ private:
         bool above;
     };
 
-    /// For a fragment in the plane of a cut the sides on which its body is, or one of them.
-    /// Given to both, it would make of an empty box between two walls a cell that bridges them.
+    /// Returns the sides on which the body of a fragment in the plane of a cut lies, or one of
+    /// them. If both boxes got the fragment, an empty box between two walls would become a cell
+    /// that bridges them.
     [[nodiscard]] Sides sides_of_body(std::uint32_t number, const Cut& cut) const {
         const Fragment& fragment = cells_.fragments[number];
         Double3 middle = {0, 0, 0};
@@ -302,7 +304,7 @@ private:
         });
     }
 
-    /// The same fragment for either box: each cuts its own.
+    /// Gives both boxes a copy of the fragment: each cuts its own.
     void share_copy(std::uint32_t number, Open& below, Open& above) {
         below.fragments.push_back(number);
         const Fragment copy = cells_.fragments[number];
@@ -320,13 +322,14 @@ private:
         return static_cast<std::uint32_t>(cells_.places.size() - 1);
     }
 
-    /// What of a fragment is not on the far sides of a plane.
+    /// The parts of a fragment on the low and the high side of a plane.
     struct Halves {
         std::vector<std::uint32_t> low;
         std::vector<std::uint32_t> high;
     };
 
-    /// How many corners lie on either side of a plane, or on it; and some on no side for sure.
+    /// The number of corners on either side of a plane; corners on it count on both. `is_unclear`:
+    /// some corner is on no side for certain.
     struct Lying {
         int below = 0;
         int above = 0;
@@ -344,8 +347,9 @@ private:
         return lying;
     }
 
-    /// A side at a time: the corners on it and where the edges cross, as a fan. A fragment
-    /// across the plane, for sure or not, is in both halves; one in the plane in the lower.
+    /// Cuts a fragment. Each half is a fan of its corners and of the points where the edges cross.
+    /// A fragment that may or may not cross the plane is in both halves. One in the plane is in the
+    /// lower half.
     Halves cut_fragment(std::uint32_t number, Axis axis, double at) {
         const Fragment fragment = cells_.fragments[number];
         const Lying lying = lie(fragment, axis, at);
@@ -365,7 +369,7 @@ private:
             const bool crosses = (a.upper.*axis < at && b.lower.*axis > at) ||
                                  (a.lower.*axis > at && b.upper.*axis < at);
             if (!crosses) continue;
-            // From the lower end, whichever triangle asks.
+            // The cut starts at the lower end, so that all triangles of an edge get the same point.
             const bool upwards = a.upper.*axis < at;
             const std::uint32_t met =
                 add_place(upwards ? cut_segment(a, b, axis, at) : cut_segment(b, a, axis, at));
@@ -397,7 +401,7 @@ private:
         above.fragments.insert(above.fragments.end(), halves.high.begin(), halves.high.end());
     }
 
-    /// What of a fragment is in the box, or beside it by no more than `by`: other boxes have
+    /// Returns the parts of a fragment that extend beyond the box by at most `by`. Other boxes have
     /// the same fragment for the rest.
     std::vector<std::uint32_t> trim(std::uint32_t number, const Box& box, double by) {
         std::vector<std::uint32_t> kept = {number};
@@ -426,7 +430,7 @@ private:
         return kept;
     }
 
-    /// One cell for each body that has a part in the box.
+    /// Makes one cell for each body that has a part in the box.
     void close(const Open& open) {
         std::vector<std::uint32_t> bodies = solid_.bodies_around(centre(open.box));
         for (const std::uint32_t fragment : open.fragments) {
@@ -446,7 +450,7 @@ private:
         }
     }
 
-    /// What was trimmed away is in no cell: the others take its place.
+    /// Removes fragments that are in no cell because they were trimmed. The others are renumbered.
     void drop_trimmed() {
         std::vector<Fragment> held;
         held.reserve(cells_.fragments.size());
@@ -459,8 +463,9 @@ private:
         cells_.fragments = std::move(held);
     }
 
-    /// A corner on the surface is one of the body's only where that goes on within the box;
-    /// where it does in part, fragments end in the corner.
+    /// Returns true if a corner of the box belongs to the body. A corner on the surface belongs
+    /// only if the body continues from it within the box. If it does in part, fragments end in the
+    /// corner.
     [[nodiscard]] bool is_corner_of_body(const Double3& corner, const SolidCell& cell) const {
         if (!is_in_body(corner, cell.body)) return false;
         if (solid_.tree().nearest(corner).distance > solid_.slack()) return true;

@@ -21,28 +21,28 @@ struct Box {
         lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
         upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
     }
-    /// The box, flat or not, has a point in the inside of `solid`.
+    /// Returns true if the box, flat or not, has a point in the interior of `solid`.
     [[nodiscard]] bool reaches_into(const Box& solid) const {
         return lower.x < solid.upper.x && upper.x > solid.lower.x && lower.y < solid.upper.y &&
                upper.y > solid.lower.y && lower.z < solid.upper.z && upper.z > solid.lower.z;
     }
 };
 
-/// `points` is not empty.
+/// Returns the box of some points. `points` must not be empty.
 [[nodiscard]] inline Box box_of(std::span<const Double3> points) {
     Box box{points[0], points[0]};
     for (const Double3& p : points) box.take_in(p);
     return box;
 }
 
-/// Boxes over eight triangles each, over eight such boxes each and so on, of a mesh whose
-/// triangles stand in tree order. Exact: in the mesh's own coordinates.
+/// Boxes over eight triangles each, over eight such boxes each, and so on. The mesh's triangles
+/// must be in tree order. Exact: boxes are in the mesh's own coordinates.
 class BoxPyramid {
 public:
     explicit BoxPyramid(const mesh::Mesh& mesh);
 
-    /// Calls visit(triangle) for each triangle whose box reaches into `box`, in order, until
-    /// it returns false. Returns false then.
+    /// Calls visit(triangle) for each triangle whose box reaches into `box`, in order. Stops and
+    /// returns false when visit() returns false.
     template <class Visit>
     bool visit(const Box& box, Visit visit) const {
         return levels_.empty() || visit_below(levels_.size() - 1, 0, box, visit);
@@ -74,7 +74,7 @@ private:
     }
 
     const mesh::Mesh& mesh_;
-    std::vector<std::vector<Box>> levels_;  ///< the last one has one box
+    std::vector<std::vector<Box>> levels_;  ///< the last level has one box
 };
 
 }  // namespace cdprep::convex

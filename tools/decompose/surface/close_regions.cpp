@@ -16,9 +16,9 @@ namespace {
 using mesh::HalfEdge;
 using mesh::kNone;
 
-constexpr std::size_t kLeastRegion = 64;         ///< triangles; smaller ones are quickly merged
-constexpr std::size_t kLeastPolygon = 3;         ///< triangles; two are an edge to merge over
-constexpr std::size_t kMostOutline = 4096;       ///< corners: they are tested all against all
+constexpr std::size_t kLeastRegion = 64;         ///< triangles; smaller regions are quickly merged
+constexpr std::size_t kLeastPolygon = 3;         ///< triangles; two merge over their common edge
+constexpr std::size_t kMostOutline = 4096;       ///< corners; the test is quadratic in them
 constexpr std::uint64_t kMostTests = 1U << 28U;  ///< of one region
 
 /// Triangles in groups.
@@ -34,7 +34,7 @@ struct Grouped {
     }
 };
 
-/// Triangles connected by edges that `joins` says yes to; groups by their lowest triangle.
+/// Returns triangles connected by edges for which `joins` is true; groups by lowest triangle.
 template <class Joins>
 Grouped connected(const PatchRules& rules, Joins joins) {
     const auto count = static_cast<std::uint32_t>(rules.mesh.triangles.size());
@@ -57,7 +57,7 @@ Grouped connected(const PatchRules& rules, Joins joins) {
     return result;
 }
 
-/// Calls body(group) for all groups, side by side.
+/// Calls body(group) for all groups, in parallel.
 template <class Body>
 void for_groups(const Grouped& groups, ParallelFor parallel_for, Body body) {
     constexpr std::size_t kAtATime = 1024;
@@ -67,7 +67,7 @@ void for_groups(const Grouped& groups, ParallelFor parallel_for, Body body) {
                       });
 }
 
-/// The vertices of some triangles, ascending.
+/// Returns the vertices of some triangles, ascending.
 std::vector<std::uint32_t> vertices_of(const mesh::Mesh& mesh,
                                        std::span<const std::uint32_t> triangles) {
     std::vector<std::uint32_t> all;
@@ -80,14 +80,14 @@ std::vector<std::uint32_t> vertices_of(const mesh::Mesh& mesh,
     return all;
 }
 
-/// One region, and its hull.
+/// One region and its hull.
 class Region {
 public:
     Region(const PatchRules& rules, std::span<const std::uint32_t> triangles)
         : rules_(rules), triangles_(triangles) {}
 
-    /// All its triangles lie on its hull, which stays in the solid if there is one to be
-    /// kept to.
+    /// Returns true if all its triangles lie on its hull, and the hull stays in the solid if one
+    /// applies.
     [[nodiscard]] bool is_convex() {
         vertices_ = vertices_of(rules_.mesh, triangles_);
         if (!is_below_extremes()) return false;
@@ -101,7 +101,7 @@ public:
     }
 
 private:
-    /// A cheap look at six vertices, which most regions of scans do not pass.
+    /// A cheap test with six extreme vertices. Most regions of scans fail it.
     [[nodiscard]] bool is_below_extremes() const {
         std::array<std::uint32_t, 6> extreme;
         extreme.fill(vertices_[0]);
@@ -128,7 +128,7 @@ private:
         return exact::orient3d(c[0], c[1], c[2], p) >= 0;
     }
 
-    /// Corners beside each corner of the hull.
+    /// Finds the hull corners adjacent to each corner of the hull.
     void find_neighbours() {
         first_.assign(hull_.points.size() + 1, 0);
         for (const auto& facet : hull_.facets) {
@@ -144,8 +144,9 @@ private:
         }
     }
 
-    // A corner of the hull in the triangle's plane with no neighbour above it is a highest
-    // one: the hull is convex. A triangle without such a corner is held against all.
+    // Returns true if the triangle lies on the hull. Take a hull corner in the triangle's plane. If
+    // no adjacent corner is above the plane, none is, because the hull is convex. A triangle
+    // without such a corner is tested against all corners.
     [[nodiscard]] bool is_on_hull(std::uint32_t triangle) {
         std::uint32_t best = kNone;
         for (const std::uint32_t v : rules_.mesh.triangles[triangle].vertex) {
@@ -165,7 +166,7 @@ private:
     [[nodiscard]] std::uint32_t degree(std::uint32_t corner) const {
         return first_[corner + 1] - first_[corner];
     }
-    /// The hull's number of a vertex, or kNone. Corners are in the order of vertices_.
+    /// Returns the hull's number of a vertex, or kNone. Corners are in the order of vertices_.
     [[nodiscard]] std::uint32_t corner_of(std::uint32_t vertex) const {
         const auto place = std::lower_bound(vertices_.begin(), vertices_.end(), vertex);
         const auto number = static_cast<std::uint32_t>(place - vertices_.begin());
@@ -196,7 +197,7 @@ private:
     std::uint64_t tests_ = kMostTests;
 };
 
-/// Visits the half-edges of triangles until one is said yes to.
+/// Visits the half-edges of triangles until visit() returns true.
 template <class Visit>
 bool any_half_edge(std::span<const std::uint32_t> triangles, Visit visit) {
     return std::any_of(triangles.begin(), triangles.end(), [&](std::uint32_t t) {
@@ -204,7 +205,7 @@ bool any_half_edge(std::span<const std::uint32_t> triangles, Visit visit) {
     });
 }
 
-/// Corners of the outline of triangles in one plane, or nothing where that is not convex.
+/// The outline of coplanar triangles.
 class Polygon {
 public:
     Polygon(const PatchRules& rules, std::span<const std::uint32_t> triangles) : rules_(rules) {
@@ -229,7 +230,7 @@ public:
         }
         return true;
     }
-    /// Where the outline bends.
+    /// Returns the vertices at which the outline bends.
     [[nodiscard]] std::vector<std::uint32_t> corners() const {
         const std::span triangles(rules_.mesh.triangles);
         std::vector<std::uint32_t> found;

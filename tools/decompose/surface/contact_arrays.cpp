@@ -14,7 +14,7 @@ using format::EdgeConvexity;
 using format::PieceAdjacency;
 using format::PieceFacet;
 
-/// An edge of a facet, by the corners that it runs between.
+/// An edge of a facet, from one corner to another.
 struct FacetEdge {
     std::uint32_t from;
     std::uint32_t to;
@@ -25,7 +25,7 @@ struct FacetEdge {
     }
 };
 
-/// Writes the adjacency of one hull. Each of its edges is run once in either direction.
+/// Writes the adjacency of one hull. Each edge occurs once in either direction.
 void pair_edges(std::span<const PieceFacet> facets, std::span<PieceAdjacency> adjacency) {
     std::vector<FacetEdge> edges;
     edges.reserve(3 * facets.size());

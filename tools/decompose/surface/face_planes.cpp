@@ -15,20 +15,20 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnit = 0x1p-53;
 
-// Let u = 2^-53. A component of the normal is a difference of two products of two
-// differences: off by (1 + u)^4 - 1 < 4.1u of each product, so by 4.1u m with m the sum of
-// their sizes. A term of the height multiplies it by a difference: (1 + u)^2 more, 6.2u of
-// m times the extent E of the mesh along the axis, which no difference exceeds but by u;
-// three sums add 3.1u. In all less than 10u sum(m E), 12u with the roundings of this
-// sum itself.
+// Error bound. Let u = 2^-53. A component of the normal is a difference of two products of two
+// differences. Its error is (1 + u)^4 - 1 < 4.1u of each product. Let m be the sum of the products'
+// sizes: the error is at most 4.1u m. A term of the height multiplies it by a difference, which
+// adds (1 + u)^2. The error becomes 6.2u m E, where E is the mesh's extent along the axis. No
+// difference exceeds E by more than u. Three sums add 3.1u. In all this is less than 10u sum(m E),
+// or 12u with the roundings of this sum itself.
 constexpr double kHeightDoubt = 12 * kUnit;
 constexpr double kNormalDoubt = 5 * kUnit;
-// What underflows is off by 2^-1074: times an extent of at most kMostExtent, a few times,
-// less than kLeastDoubt. And nothing overflows.
+// An underflow adds an error of 2^-1074. Times an extent of at most kMostExtent, a few times, it
+// stays below kLeastDoubt. Nothing overflows.
 constexpr double kMostExtent = 1e100;
 constexpr double kLeastDoubt = 1e-210;
 
-/// What the products in each component of a cross product add up to.
+/// Returns, for each component of a cross product, the sum of the sizes of its products.
 Double3 cross_sizes(const Double3& a, const Double3& b) {
     const auto sum = [](double p, double q) { return std::fabs(p) + std::fabs(q); };
     return {sum(a.y * b.z, a.z * b.y), sum(a.z * b.x, a.x * b.z), sum(a.x * b.y, a.y * b.x)};
@@ -109,7 +109,7 @@ void FacePlanes::gather(std::span<const std::uint32_t> vertices, Points& points)
 bool FacePlanes::admits_all(std::uint32_t triangle, const Points& points) const {
     const Plane plane = planes_[triangle];
     const double *x = points.x.data(), *y = points.y.data(), *z = points.z.data();
-    constexpr std::size_t kAtATime = 16;  // without a branch, so that lanes are used
+    constexpr std::size_t kAtATime = 16;  // without a branch, so that SIMD lanes are used
     for (std::size_t first = 0; first < points.vertex.size(); first += kAtATime) {
         const std::size_t last = std::min(first + kAtATime, points.vertex.size());
         std::uint64_t doubtful = 0;

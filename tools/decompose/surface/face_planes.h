@@ -12,18 +12,18 @@ namespace cdprep::convex {
 
 using format::Double3;
 
-/// The planes of a mesh's triangles, and which vertices are how far above them. The mesh
-/// must outlive them.
+/// The planes of a mesh's triangles, and the heights of vertices above them. The mesh must outlive
+/// this.
 class FacePlanes {
 public:
-    /// `tolerance` in model units, 0 or more.
+    /// `tolerance` is in model units, 0 or more.
     FacePlanes(const mesh::Mesh& mesh, double tolerance, ParallelFor parallel_for);
 
-    /// True when the vertex is known to be at most the tolerance above the plane; with a
-    /// tolerance of 0 exactly when it is not above. Every vertex is admitted by a triangle
-    /// without area. Heights beyond the filter are decided exactly at 0 and against the
-    /// vertex otherwise: what is admitted is proved, what is refused may be 1 part in 10^9
-    /// below the tolerance.
+    /// Returns true if the vertex is proved to be at most the tolerance above the plane. With a
+    /// tolerance of 0 the result is exact: true if and only if the vertex is not above. A triangle
+    /// without area admits every vertex. If the filter does not decide, an exact test against the
+    /// plane itself does: it admits only a vertex that is not above. So with a tolerance above 0, a
+    /// refused vertex may be up to 1 part in 10^9 below the tolerance.
     [[nodiscard]] bool admits(std::uint32_t triangle, std::uint32_t vertex) const {
         const Plane& plane = planes_[triangle];
         const double height = raw_height(plane, mesh_.positions[vertex]);
@@ -31,27 +31,27 @@ public:
         return height <= plane.doubt && admits_exactly(triangle, vertex);
     }
 
-    /// Points side by side, and the vertices that they are.
+    /// Points stored by coordinate, and their vertex numbers.
     struct Points {
         std::vector<double> x, y, z;
         std::vector<std::uint32_t> vertex;
     };
     void gather(std::span<const std::uint32_t> vertices, Points& points) const;
 
-    /// True when admits() is for all of them.
+    /// Returns true if admits() is true for all points.
     [[nodiscard]] bool admits_all(std::uint32_t triangle, const Points& points) const;
 
-    /// Returns an upper bound of how far one of them is above a triangle's plane; 0 exactly
-    /// when none is.
+    /// Returns an upper bound of the points' heights above a triangle's plane. It is 0 if and only
+    /// if no point is above.
     [[nodiscard]] double height_bound(std::uint32_t triangle, const Points& points) const;
 
 private:
-    /// height * |normal|, rounded: off by at most `doubt`.
+    /// A plane for rounded values of height * |normal|, which are off by at most `doubt`.
     struct alignas(64) Plane {
         Double3 normal;
         Double3 at;
         double doubt;  ///< infinite where rounding has no bound
-        double reach;  ///< what is at most this is at most the tolerance above
+        double reach;  ///< a value up to this proves a height within the tolerance
     };
     [[nodiscard]] static double raw_height(const Plane& plane, const Double3& p) {
         return plane.normal.x * (p.x - plane.at.x) + plane.normal.y * (p.y - plane.at.y) +
@@ -59,7 +59,7 @@ private:
     }
     [[nodiscard]] bool admits_exactly(std::uint32_t triangle, std::uint32_t vertex) const;
     [[nodiscard]] Plane plane_of(std::uint32_t triangle, const Double3& extent) const;
-    /// A lower bound of the true |normal|.
+    /// Returns a lower bound of the true |normal|.
     [[nodiscard]] double least_length(std::uint32_t triangle) const;
 
     const mesh::Mesh& mesh_;

@@ -11,7 +11,7 @@ namespace {
 using mesh::HalfEdge;
 using mesh::kNone;
 
-/// How many triangles each triangle is away from one at an edge that patches do not cross.
+/// Returns each triangle's distance, in triangles, from one at an edge that patches do not cross.
 std::vector<std::uint32_t> crests(const PatchRules& rules) {
     const auto count = static_cast<std::uint32_t>(rules.mesh.triangles.size());
     std::vector<std::uint32_t> distance(count, kNone);
@@ -33,7 +33,7 @@ std::vector<std::uint32_t> crests(const PatchRules& rules) {
     return distance;
 }
 
-/// Patches that grow one after the other.
+/// Grows patches one after the other.
 class Growth {
 public:
     Growth(const PatchRules& rules, PatchSet& patches, PieceOrder order, PatchScope& scope)
@@ -87,7 +87,7 @@ private:
     PieceOrder order_;
     PatchScope& scope_;
     std::deque<std::uint32_t> queue_;
-    std::vector<std::uint32_t> refused_by_;  ///< by triangle, the seed of the last that did
+    std::vector<std::uint32_t> refused_by_;  ///< by triangle: the last refusing patch's seed
     std::vector<std::uint8_t> taken_;
 };
 

@@ -15,10 +15,10 @@ namespace {
 using mesh::HalfEdge;
 using mesh::kNone;
 
-constexpr unsigned kFirstBits = 12;  ///< triangles of a run in the first step
-constexpr unsigned kMoreBits = 3;    ///< times as many in each next one
+constexpr unsigned kFirstBits = 12;  ///< log2 of the triangles of a run in the first step
+constexpr unsigned kMoreBits = 3;    ///< log2 of the growth of a run per step
 
-/// -1 where the two triangles of an edge lie back to back, 1 where in one plane.
+/// Returns -1 if the two triangles of an edge lie back to back, 1 if they lie in one plane.
 double flatness(const PatchRules& rules, HalfEdge h) {
     const auto normal = [&](std::uint32_t triangle) {
         const Corners c = rules.solids.corners_of(triangle);
@@ -30,7 +30,7 @@ double flatness(const PatchRules& rules, HalfEdge h) {
     return std::isfinite(cosine) ? std::clamp(cosine, -1.0, 1.0) : 1.0;
 }
 
-/// The edges to try, each once, by the step in which both its patches are in one part.
+/// The edges to try, each once, by the first step in which both patches are in one part.
 class Schedule {
 public:
     Schedule(const PatchRules& rules, PatchSet& patches, bool reflex_too)
@@ -77,7 +77,7 @@ private:
         std::uint32_t part;
         HalfEdge edge;
     };
-    /// Of a patch: its lowest and highest triangle. One of several need not lie in one part.
+    /// The lowest and highest triangle of a patch. A patch of several triangles may span parts.
     struct Extent {
         std::uint32_t first = kNone;
         std::uint32_t last = 0;
@@ -111,7 +111,7 @@ struct Turn {
     double rank;
     HalfEdge edge;
     float flatness;
-    bool operator<(const Turn& other) const {  // the least first
+    bool operator<(const Turn& other) const {  // the least rank first
         return rank != other.rank ? rank > other.rank : edge > other.edge;
     }
 };
@@ -144,9 +144,10 @@ public:
     }
 
 private:
-    /// Exactly, what fits is scarce: edges that leave most others go first, sharp ones before
-    /// flat ones. With a tolerance most fits at first, and what matters is that patches grow
-    /// evenly and round, flat parts first.
+    /// Returns the rank of an edge; the least is tried first. Without a tolerance, few patches fit.
+    /// Edges that leave the fewest others come first, and sharp ones before flat ones. With a
+    /// tolerance, most patches fit at first. Then patches should grow evenly and round, flat parts
+    /// first.
     [[nodiscard]] double rank(HalfEdge h, double flat) {
         const std::uint32_t a = patches_.patch_of(h / 3);
         const std::uint32_t b = patches_.patch_of(rules_.edges.twin[h] / 3);

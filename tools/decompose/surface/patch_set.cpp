@@ -9,10 +9,11 @@
 namespace cdprep::convex {
 namespace {
 
-// Hulls of patches with more vertices are kept, others made anew when they are needed.
+// The least number of vertices from which a patch keeps its hull. Smaller hulls are rebuilt on
+// demand.
 constexpr std::size_t kKeepHullFrom = 12;
-// Each merge looks at the whole hull: convex parts larger than this stay in several pieces,
-// unless close_convex_regions() took them.
+// The largest number of vertices of a merged hull. Each merge examines the whole hull. Larger
+// convex parts stay in several pieces unless close_convex_regions() took them.
 constexpr std::size_t kMostHullVertices = 512;
 
 }  // namespace
@@ -60,7 +61,7 @@ bool PatchSet::lie_in_one_plane(std::uint32_t a, std::uint32_t b) const {
     return true;
 }
 
-// A flat hull has no inside: it stays in the surface when it is no larger than the patch.
+// A flat hull has no interior: it stays in the surface if it is no larger than the patch.
 bool PatchSet::is_outline_convex(std::uint32_t a, std::uint32_t b) const {
     const mesh::Mesh& mesh = rules_.mesh;
     const Corners plane = rules_.solids.corners_of(faces(a)[0]);

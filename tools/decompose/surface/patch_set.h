@@ -13,71 +13,71 @@
 
 namespace cdprep::convex {
 
-/// What patches are judged by. All must outlive the patches.
+/// The data by which patches are judged. All of it must outlive the patches.
 struct PatchRules {
     const mesh::Mesh& mesh;  ///< tree order
     const SurfaceEdges& edges;
     const FacePlanes& planes;
     const SolidParts& solids;
-    /// Hulls over closed components must stay inside. Not with a tolerance: what a hull
-    /// then takes in besides is within it of the surface, or the piece says nothing.
+    /// True if hulls over closed components must stay inside. False with a tolerance. A hull may
+    /// then add volume: it is within the tolerance of the surface, or the piece makes no promise.
     bool keeps_inside;
 };
 
-/// The part of a mesh that a task may join patches of, and what it uses for it.
+/// The part of a mesh in which a task may join patches, and the task's scratch memory.
 struct PatchScope {
     std::uint32_t first;  ///< triangles [first, last)
     std::uint32_t last;
-    std::uint64_t work;  ///< tests that are left, so that nothing runs for ever
+    std::uint64_t work;  ///< tests left, so that every run ends
     GrowingHull hull = {};
     FacePlanes::Points points = {};
 };
 
-/// A partition of a mesh's triangles, each alone at first. Tasks may join patches at the
-/// same time while their scopes have no triangle in common.
+/// A partition of a mesh's triangles, each alone at first. Tasks may join patches in parallel if
+/// their scopes share no triangle.
 class PatchSet {
 public:
     explicit PatchSet(const PatchRules& rules);
 
-    /// The patch of a triangle, by the number of one of its triangles.
+    /// Returns the patch of a triangle, as the number of one of its triangles.
     [[nodiscard]] std::uint32_t patch_of(std::uint32_t triangle);
 
-    /// The same; for triangles that other tasks may look at too.
+    /// Returns the same, for triangles that other tasks may read too.
     [[nodiscard]] std::uint32_t owner_of(std::uint32_t triangle) const {
         while (parent_[triangle] != triangle) triangle = parent_[triangle];
         return triangle;
     }
 
-    /// True when the two patches of the scope may be one: all vertices of either are
-    /// admitted by all faces of the other, and in closed components the hull of both stays
-    /// inside. What is refused once is refused for all that grows out of the two.
+    /// Returns true if two patches of the scope may become one. All faces of each must admit all
+    /// vertices of the other. In closed components the hull of both must stay inside. A refused
+    /// pair stays refused for all patches that grow from the two.
     [[nodiscard]] bool can_join(std::uint32_t a, std::uint32_t b, PatchScope& scope) const;
 
-    /// Makes one patch of two, which can_join() allowed just before; returns its number.
+    /// Joins two patches that can_join() allowed just before. Returns the number of the result.
     std::uint32_t join(std::uint32_t a, std::uint32_t b, PatchScope& scope);
 
-    /// Makes triangles that fill a convex polygon one patch, of which `corners` are the
-    /// vertices that matter. No other triangle beside one of them lies in their plane.
+    /// Makes one patch of triangles that fill a convex polygon. `corners` are the only vertices
+    /// that matter. No other triangle next to one of them may lie in their plane.
     void join_polygon(std::span<const std::uint32_t> triangles,
                       std::span<const std::uint32_t> corners);
 
-    /// Makes triangles one patch that nothing will be joined to.
+    /// Makes one patch of triangles; nothing will be joined to it.
     void close(std::span<const std::uint32_t> triangles);
 
-    /// True when the hull of a patch of a closed component stays inside, which needs all its
-    /// triangles on the hull.
+    /// Returns true if the hull of a patch of a closed component stays inside. All its triangles
+    /// must lie on the hull.
     [[nodiscard]] bool is_contained(std::uint32_t patch, PatchScope& scope) const;
 
-    /// Vertices that matter: extreme ones of the patch are among them.
+    /// Returns the vertices that matter; the patch's extreme vertices are among them.
     [[nodiscard]] std::span<const std::uint32_t> vertices(std::uint32_t patch) const;
-    /// Faces whose planes are all of the patch.
+    /// Returns faces whose planes are all planes of the patch.
     [[nodiscard]] std::span<const std::uint32_t> faces(std::uint32_t patch) const;
 
 private:
     struct Patch {
         std::vector<std::uint32_t> faces;     ///< empty: itself
         std::vector<std::uint32_t> vertices;  ///< empty: its corners
-        std::unique_ptr<GrowingHull> hull;    ///< of large ones that have an inside
+        std::unique_ptr<GrowingHull> hull;    ///< of large patches that are not flat
         bool is_flat = true;
     };
 

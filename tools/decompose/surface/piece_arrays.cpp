@@ -51,8 +51,9 @@ public:
     }
 
 private:
-    // Triangles in the plane of a face, wound like it, cover it when every side of theirs
-    // that no other of them shares lies on its outline: with the whole face to its left.
+    // Returns true if triangles cover a face. They lie in its plane and are wound like it. Some
+    // sides of theirs are not shared by two of them. They cover the face if each such side lies on
+    // its outline, with the whole face to its left.
     [[nodiscard]] bool is_covered(std::size_t face) const {
         const auto& some = hull_.facets[hull_.groups[face]];
         const std::array<Double3, 3> plane = {hull_.points[some[0]], hull_.points[some[1]],

@@ -9,7 +9,7 @@
 
 namespace cdprep::convex {
 
-/// Pieces as a baked file holds them (format/pieces.h).
+/// Pieces as a baked file stores them (format/pieces.h).
 struct PieceArrays {
     std::vector<format::Piece> pieces;
     std::vector<std::uint32_t> triangles;
@@ -17,8 +17,8 @@ struct PieceArrays {
     std::vector<format::PieceFacet> facets;
 };
 
-/// Makes the hull of every piece of a mesh, and says exactly which of its faces are covered
-/// by triangles of the piece. With a tolerance few are. The same for any parallel_for.
+/// Makes the hull of every piece of a mesh, and finds exactly which hull faces are covered by
+/// triangles of the piece. With a tolerance, few faces are. The same for any parallel_for.
 [[nodiscard]] PieceArrays make_piece_arrays(const mesh::Mesh& mesh, SurfacePieces pieces,
                                             ParallelFor parallel_for);
 

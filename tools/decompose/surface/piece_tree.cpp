@@ -41,7 +41,7 @@ PointBox box_of(std::span<const Double3> points) {
     return box;
 }
 
-/// The corners of a leaf's triangles.
+/// Adds the corners of a leaf's triangles.
 void append(const PieceLeaf& leaf, const mesh::Mesh& mesh, const PieceArrays& pieces,
             std::vector<Double3>& points) {
     for (std::uint32_t i = 0; i < leaf.count; ++i) {
@@ -77,12 +77,12 @@ PieceNodeHull stored(std::span<const Double3> corners, double slack) {
     return hull;
 }
 
-/// Around an exact hull; a box where coordinates are too large for planes.
+/// Returns an enclosing hull of an exact hull; a box if its coordinates are too large for planes.
 PieceNodeHull around(const ConvexHull& exact) {
     const std::optional<EnclosingHull> enclosing = enclosing_hull(exact, format::kPieceHullCorners);
     if (enclosing) return stored(enclosing->hull.points, enclosing->distance);
     const PointBox box = box_of(exact.points);
-    // Of numbers in double's upper range: halved, no square leaves it.
+    // Coordinates may be near double's upper range: halved, their squares stay in it.
     constexpr double kHalf = 0.5, kRoundedUp = 1 + 0x1p-50;
     const double half = std::hypot(kHalf * box.upper.x - kHalf * box.lower.x,
                                    kHalf * box.upper.y - kHalf * box.lower.y,
@@ -90,7 +90,7 @@ PieceNodeHull around(const ConvexHull& exact) {
     return stored(corners_of(box), half / kHalf * kRoundedUp);
 }
 
-/// Level by level, from the points of the exact hulls below.
+/// Builds the hulls level by level, from the points of the exact hulls below.
 std::vector<PieceNodeHull> hulls_around(const std::vector<PieceLeaf>& leaves,
                                         const mesh::Mesh& mesh, const PieceArrays& pieces,
                                         ParallelFor parallel_for) {

@@ -9,7 +9,7 @@
 
 namespace cdprep::convex {
 
-/// The hierarchy over pieces as a baked file holds it (format/pieces.h).
+/// The hierarchy over pieces as a baked file stores it (format/pieces.h).
 struct PieceTree {
     std::vector<format::BvhNode> nodes;
     std::vector<format::SweptNode> swept;
@@ -17,11 +17,11 @@ struct PieceTree {
     std::vector<format::PieceNodeHull> hulls;
 };
 
-/// Builds the hierarchy over the pieces of a mesh, in whose frame the boxes are. Leaves stand
-/// as the surface-area heuristic cuts them; hulls are the exact ones where those have few
-/// corners, else enclosing ones. The same for any parallel_for.
+/// Builds the hierarchy over the pieces of a mesh. Boxes are in the given frame of the mesh. The
+/// surface-area heuristic cuts the leaves. Hulls are exact where those have few corners, else
+/// enclosing ones. The same for any parallel_for.
 ///
-/// Nothing when there would be more than format::kMaxPieceLeaves leaves.
+/// Returns nothing if there would be more than format::kMaxPieceLeaves leaves.
 [[nodiscard]] PieceTree make_piece_tree(const mesh::Mesh& mesh, const PieceArrays& pieces,
                                         const build::Frame& frame, ParallelFor parallel_for);
 

@@ -122,7 +122,7 @@ std::string pieces_json(const SurfacePiecesReport& report) {
         json["triangles"] = pieces.triangles.size();
         json["pieces"] = pieces.pieces.size();
         json["outer_error"] = outer_error(pieces);
-        json["inner_error"] = 0.0;  // hulls hold all vertices of their pieces
+        json["inner_error"] = 0.0;  // hulls contain all vertices of their pieces
         json["contained"] = contained(pieces);
         json["largest"] = largest(pieces);
         json["seconds"] = report.seconds;

@@ -9,7 +9,7 @@
 
 namespace cdprep::report {
 
-/// What cutting one file into convex pieces of its surface gave.
+/// The result of cutting one file into convex pieces of its surface.
 struct SurfacePiecesReport {
     std::string input;
     std::string output;  ///< empty: nothing was written
@@ -19,17 +19,18 @@ struct SurfacePiecesReport {
     bool has_table = false;            ///< a row for each piece
     double seconds = 0;                ///< of the decomposition alone
     int exit = 0;                      ///< exit code for this file
-    std::optional<std::string> error;  ///< the sentence, when it failed
+    std::optional<std::string> error;  ///< the message, if it failed
 };
 
-/// A screen for a person, and with a table a line for each piece.
+/// Returns a few lines for a person. With a table, it adds one line per piece.
 [[nodiscard]] std::string pieces_text(const SurfacePiecesReport& report);
 
-/// One object: "pieces" is their number, "outer_error" and "inner_error" how far the hulls
-/// lie over the surface of their pieces and under it at most, in the mesh's unit.
+/// Returns one JSON object. "pieces" is the number of pieces. "outer_error" and "inner_error" are
+/// the greatest distances of the hulls above and below the surface. They refer to the surface of
+/// the piece, in the mesh's unit.
 [[nodiscard]] std::string pieces_json(const SurfacePiecesReport& report);
 
-/// The name of an order on the command line.
+/// Returns the name of an order on the command line.
 [[nodiscard]] const char* name_of(convex::PieceOrder order);
 
 }  // namespace cdprep::report

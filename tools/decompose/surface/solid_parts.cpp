@@ -6,7 +6,7 @@
 
 namespace cdprep::convex {
 
-// Both number components in the order of their lowest triangle.
+// Both functions number components in the order of their lowest triangle.
 SolidParts::SolidParts(const mesh::Mesh& mesh)
     : mesh_(mesh), boxes_(mesh), component_of_vertex_(mesh::number_components(mesh).of_vertex) {
     for (const format::Component& component : mesh::find_topology(mesh).components) {

@@ -10,22 +10,23 @@
 
 namespace cdprep::convex {
 
-/// What a hull over some triangles of a mesh must keep clear of to stay in the solid that
-/// they bound: triangles of their own component, and of closed components wound inwards,
-/// which are cavities. The mesh, whose triangles stand in tree order, must outlive it.
+/// The obstacles for a hull over some triangles of a mesh. A hull that avoids them stays in the
+/// solid that the triangles bound. Obstacles are triangles of their own component, and of cavities:
+/// closed components wound inwards. The mesh's triangles must be in tree order, and the mesh must
+/// outlive this.
 class SolidParts {
 public:
     explicit SolidParts(const mesh::Mesh& mesh);
 
-    /// The triangle's component is closed: containment means something.
+    /// Returns true if the triangle's component is closed, so that containment is defined.
     [[nodiscard]] bool is_solid(std::uint32_t triangle) const {
         return closed_[component_of(triangle)] != 0;
     }
 
-    /// True when no triangle but those for which is_own(triangle) has a point strictly
-    /// inside the hull of a patch to which `triangle` belongs. Exact. Own triangles lie on
-    /// the hull. False, too, when that takes more than `most_tests` tests of a point against a
-    /// plane, from which what was taken is subtracted.
+    /// Returns true if only own triangles have a point strictly inside the hull of a patch to which
+    /// `triangle` belongs. Exact. Triangles with is_own(triangle) are own ones; they lie on the
+    /// hull. Also returns false if that takes more than `most_tests` tests of a point against a
+    /// plane. Subtracts the tests made from `most_tests`.
     template <class IsOwn>
     bool contains(const GrowingHull& hull, std::uint32_t triangle, IsOwn is_own,
                   std::uint64_t& most_tests) const {

@@ -14,7 +14,7 @@ namespace {
 using mesh::HalfEdge;
 using mesh::kNone;
 
-/// What the uses of an edge say without looking at positions: convex stands for "joined".
+/// Returns the kind that the uses of an edge imply, without positions. `convex` means "joined".
 EdgeKind kind_by_uses(const mesh::Mesh& mesh, std::span<const HalfEdge> uses) {
     if (uses.size() == 1) return EdgeKind::border;
     if (uses.size() > 2) return EdgeKind::non_manifold;
@@ -23,7 +23,7 @@ EdgeKind kind_by_uses(const mesh::Mesh& mesh, std::span<const HalfEdge> uses) {
     return same ? EdgeKind::inconsistent : EdgeKind::convex;
 }
 
-/// Two triangles with area that an edge joins.
+/// Returns the kind of an edge that joins two triangles with area.
 EdgeKind kind_by_bend(const mesh::Mesh& mesh, HalfEdge h, HalfEdge twin) {
     const std::span triangles(mesh.triangles);
     const auto at = [&](std::uint32_t vertex) { return mesh.positions[vertex]; };

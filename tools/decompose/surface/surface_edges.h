@@ -12,21 +12,21 @@
 
 namespace cdprep::convex {
 
-/// How the surface bends at an edge, by exact signs, or why it does not go on there.
+/// How the surface bends at an edge, by exact signs, or why it does not continue there.
 enum class EdgeKind : std::uint8_t {
     convex,        ///< the solid is locally convex
     flat,          ///< both triangles in one plane, side by side
     reflex,        ///< the solid is locally concave
     fold,          ///< both triangles in one plane, one over the other
     border,        ///< used by one triangle
-    non_manifold,  ///< used by more than two
-    inconsistent,  ///< used by two, in the same direction
-    no_area        ///< of a triangle without area, or beside one
+    non_manifold,  ///< used by more than two triangles
+    inconsistent,  ///< used by two triangles, in the same direction
+    no_area        ///< of a triangle without area, or next to one
 };
 inline constexpr std::size_t kEdgeKinds = 8;
 
-/// Pieces cross convex and flat edges only, with a tolerance reflex ones too: the others
-/// are barriers.
+/// Returns true if pieces never cross such an edge. They cross convex and flat edges, and with a
+/// tolerance also reflex ones.
 [[nodiscard]] constexpr bool is_barrier(EdgeKind kind) noexcept {
     return kind > EdgeKind::reflex;
 }
@@ -37,7 +37,7 @@ struct SurfaceEdges {
     std::array<std::size_t, kEdgeKinds> count{};  ///< edges of each kind, each counted once
 };
 
-/// Finds what every edge is. Exact. The same for any parallel_for. O(n).
+/// Classifies every edge. Exact. The same for any parallel_for. O(n).
 [[nodiscard]] SurfaceEdges find_surface_edges(const mesh::Mesh& mesh, ParallelFor parallel_for);
 
 }  // namespace cdprep::convex

@@ -14,7 +14,7 @@
 namespace cdprep::convex {
 namespace {
 
-/// Triangles in an order in which neighbours are near each other.
+/// Returns the triangles in an order that keeps neighbours near each other.
 std::vector<std::uint32_t> tree_order(const mesh::Mesh& mesh, ParallelFor parallel_for) {
     return build::build_bvh(mesh.positions, mesh.triangles,
                             {.parallel_for = parallel_for,
@@ -23,7 +23,7 @@ std::vector<std::uint32_t> tree_order(const mesh::Mesh& mesh, ParallelFor parall
         .order;
 }
 
-/// The patches, with the mesh's own numbers.
+/// Returns the patches as pieces, with the mesh's own triangle numbers.
 SurfacePieces listed(PatchSet& patches, std::span<const std::uint32_t> place) {
     const std::size_t count = place.size();
     std::vector<std::uint32_t> piece_of_patch(count, mesh::kNone);
@@ -48,10 +48,10 @@ SurfacePieces listed(PatchSet& patches, std::span<const std::uint32_t> place) {
     return result;
 }
 
-/// The largest height of a vertex of a patch above a plane of it, at most.
+/// Returns an upper bound of the height of a patch's vertices above its planes.
 double error_of(const PatchRules& rules, const PatchSet& patches, std::uint32_t patch,
                 double tolerance, FacePlanes::Points& points) {
-    constexpr std::uint64_t kMostTests = 1U << 24U;  // else what was admitted is what is said
+    constexpr std::uint64_t kMostTests = 1U << 24U;  // beyond this, the tolerance is the bound
     const std::uint64_t tests = patches.faces(patch).size() * patches.vertices(patch).size();
     if (tests > kMostTests) return tolerance;
     rules.planes.gather(patches.vertices(patch), points);
@@ -62,7 +62,7 @@ double error_of(const PatchRules& rules, const PatchSet& patches, std::uint32_t 
     return most;
 }
 
-/// Says what each piece promises. Without a tolerance it was built to.
+/// Sets the promises of each piece. Without a tolerance the pieces were built to keep them.
 void describe(const PatchRules& rules, PatchSet& patches, std::span<const std::uint32_t> place,
               SurfacePieces& result, const SurfacePieceOptions& options) {
     constexpr std::size_t kAtATime = 256;
@@ -81,7 +81,7 @@ void describe(const PatchRules& rules, PatchSet& patches, std::span<const std::u
     for_chunks(result.pieces.size(), kAtATime, options.parallel_for, run);
 }
 
-/// places[order[i]] is i.
+/// Returns the inverse permutation: places[order[i]] is i.
 std::vector<std::uint32_t> places_of(std::span<const std::uint32_t> order) {
     std::vector<std::uint32_t> places(order.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) places[order[i]] = i;

@@ -12,64 +12,62 @@
 
 namespace cdprep::convex {
 
-/// How pieces come about.
+/// The algorithm that makes the pieces.
 enum class PieceOrder : std::uint8_t {
     greedy,         ///< neighbouring patches merge, bottom-up; the fewest pieces, in parallel
     depth_first,    ///< a patch grows from the lowest free triangle, last neighbour first
-    breadth_first,  ///< and first neighbour first
+    breadth_first,  ///< the same, but first neighbour first
     cresting        ///< breadth first, from triangles far from reflex edges and barriers
 };
 
 struct SurfacePieceOptions {
     PieceOrder order = PieceOrder::greedy;
-    /// Model units, 0 or more. A patch is a piece while no vertex of it is known to be more
-    /// than this above a plane of its triangles. 0: exact.
+    /// Model units, 0 or more. In a piece, each vertex is proved to be at most this far above each
+    /// plane of its triangles. 0: exact.
     double tolerance = 0;
-    /// Tests of a point against a plane for each triangle, some nanoseconds each, so that
-    /// nothing hangs: only large surfaces that are all but convex come near, and then have
-    /// more pieces than they need. The same for any parallel_for.
+    /// The limit of tests of a point against a plane, per triangle; a test takes some nanoseconds.
+    /// It bounds the running time. Only large, nearly convex surfaces come near it; they then have
+    /// more pieces than necessary. The same for any parallel_for.
     std::uint64_t most_work = 5000;
     ParallelFor parallel_for = serial_for;
-    mesh::StopCheck stop = {};  ///< then the result is of no use
+    mesh::StopCheck stop = {};  ///< if it stops, the result is of no use
 };
 
-/// What is said of a piece besides its triangles.
+/// The properties of a piece besides its triangles.
 struct SurfacePiece {
-    /// The hull of its vertices has no point outside the solid that its component bounds:
-    /// the component is closed, and neither a triangle of it nor one of a closed component
-    /// wound inwards has a point strictly inside the hull. Exact. A flat piece is contained
-    /// when it fills its hull.
+    /// True if the hull of the vertices has no point outside the solid that the component bounds.
+    /// The component is then closed. Neither its triangles nor those of closed components wound
+    /// inwards have a point strictly inside the hull. Exact. A flat piece is contained if it fills
+    /// its hull.
     bool contained = false;
-    /// Proved: no vertex is more than this above the plane of a triangle, so that the
-    /// triangles lie at most this deep below the hull. 0 exactly when all lie on the hull.
-    /// Model units.
+    /// Proved: no vertex is more than this above the plane of a triangle. The triangles therefore
+    /// lie at most this deep below the hull. 0 if and only if all lie on the hull. Model units.
     double outer_error = 0;
 };
 
-/// A partition of a surface into pieces that are, each by itself, part of the boundary of
-/// a convex body, or nearly so.
+/// A partition of a surface into pieces. Each piece by itself is part of the boundary of a convex
+/// body, exactly or within a tolerance.
 struct SurfacePieces {
     std::vector<std::uint32_t> triangles;  ///< each once: by piece, ascending in each
-    std::vector<std::uint32_t> first;      ///< of each piece in `triangles`; then their number
+    std::vector<std::uint32_t> first;      ///< where each piece starts there; then the total
     std::vector<SurfacePiece> pieces;      ///< in the order of their lowest triangle
-    std::array<std::size_t, kEdgeKinds> edges{};  ///< by EdgeKind: how many of each the mesh has
+    std::array<std::size_t, kEdgeKinds> edges{};  ///< by EdgeKind: number of edges in the mesh
 
     [[nodiscard]] std::span<const std::uint32_t> of(std::size_t piece) const {
         return std::span(triangles).subspan(first[piece], first[piece + 1] - first[piece]);
     }
 };
 
-/// Cuts the surface of a mesh into convex pieces: patches whose triangles all lie on the
-/// boundary of the hull of their vertices. Never refuses: borders and edges that are not
-/// manifold or not consistent are never crossed, nor are, without a tolerance, reflex ones,
-/// and a triangle without area is a piece by itself. Pieces of components that are not
-/// closed say that they are not contained.
+/// Cuts the surface of a mesh into convex pieces: patches whose triangles all lie on the boundary
+/// of the hull of their vertices. Accepts every mesh. Pieces never cross borders, non-manifold
+/// edges or inconsistent edges, and without a tolerance no reflex edges. A triangle without area is
+/// a piece by itself. Pieces of components that are not closed are never marked as contained.
 ///
 /// All signs are exact: without a tolerance every triangle lies on its hull exactly, and
-/// what is said to be contained is. A mesh without reflex edges whose triangles lie on its
-/// hull is one piece for each component. Positions must be finite and at most
-/// format::kMaxCoordinate, no two may be equal (weld() sees to it). The same pieces for any
-/// parallel_for. tests/bench/surface_pieces_bench measures.
+/// `contained` is exact. A mesh without reflex edges whose triangles lie on its hull becomes one
+/// piece per component. Positions must be finite and at most format::kMaxCoordinate, and no two may
+/// be equal (weld() ensures this). The pieces are the same for any parallel_for. Measured by
+/// tests/bench/surface_pieces_bench.
 [[nodiscard]] SurfacePieces find_surface_pieces(const mesh::Mesh& mesh,
                                                 const SurfacePieceOptions& options = {});
 
