@@ -40,8 +40,8 @@ struct Pruning {
     Pruning& operator/=(double count) noexcept;
 };
 
-/// Runs that search for one placement; both models have hashed octrees. Adds the pairs that the
-/// literal form misses to `missed`.
+/// Runs that search for one placement; both models have hashed octrees. Sets `missed` to the pairs
+/// that the literal form misses.
 [[nodiscard]] Pruning prune(const Model& a, const Model& b, const Pose& a_from_b, CellSearch search,
                             Workspace& workspace, std::vector<TrianglePair>& missed);
 
