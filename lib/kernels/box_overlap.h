@@ -150,7 +150,7 @@ R least_overlap(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexcept {
     return least;
 }
 
-/// Returns the lanes of `a` that boxes of `rows` miss along one of three axes.
+/// Returns the lanes of `a` that one of three axes separates from boxes of `rows`.
 template <class R>
 typename R::Mask apart(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexcept {
     typename R::Mask out = R::none();
@@ -232,8 +232,8 @@ R largest(const FaceGaps<R>& gaps) noexcept {
                max(max(gaps.of_b[0], gaps.of_b[1]), gaps.of_b[2]));
 }
 
-/// Tests six of the fifteen directions of Gottschalk, Lin and Manocha 1996. The nine cross products
-/// of edges separate a few boxes more, but double the cost.
+/// The separating-axis test of two oriented boxes (Gottschalk, Lin and Manocha 1996), along six of
+/// its fifteen axes. The nine cross products of edges separate a few boxes more, but double the cost.
 template <class R>
 FaceGaps<R> oriented_gaps(const OrientedBoxes<R>& a, const OrientedRows& rows, RowPair at,
                           const BoxPlacement& p) noexcept {

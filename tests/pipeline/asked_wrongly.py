@@ -74,7 +74,7 @@ def main():
         (["info", folder / "sheet.off"], 3, ["Bake it first with 'cdprep bake "]),
         (["bake", model], 3, ["is a baked model"]),
         (["query", "collide", model], 2, ["b is required: The second baked model", "collide a b'"]),
-        (["query", "ray", model], 2, ["--rays is required: File of rays"]),
+        (["query", "ray", model], 2, ["--rays is required: A file with rays"]),
         (["explain", "slivr"], 2, ["Did you mean 'sliver'?"]),
         (["validate", folder / "sheet.off", "--rule", "slivr=off"], 2, ["Did you mean 'sliver'?"]),
         (["bake", folder / "missing.off"], 3, ["missing.off"]),

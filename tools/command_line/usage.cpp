@@ -76,7 +76,7 @@ const CLI::Option* option_of(const CLI::App& command, const std::string& name) {
     return nullptr;
 }
 
-/// Returns "--rays is required: File of rays ...", or "b is required: ... Usage: 'cdprep query
+/// Returns "--rays is required: A file with rays ...", or "b is required: ... Usage: 'cdprep query
 /// collide a b'." for an input.
 std::string required(const Reached& at, const std::string& name) {
     const CLI::Option* option = option_of(*at.command, name);
