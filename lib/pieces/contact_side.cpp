@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "cdprep/hulls.h"
+#include "core/triangle_facts.h"
 #include "exact/point_triangle_distance.h"
 #include "pieces/piece_parts.h"
-#include "walk/contact_pairs.h"
 
 namespace cdprep {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "core/triangle_facts.h"
 #include "exact/triangle_distance.h"
-#include "walk/contact_pairs.h"
 
 namespace cdprep {
 namespace {

@@ -7,10 +7,11 @@
 #include <cmath>
 
 #include "cdprep/format/float_environment.h"
+#include "core/moved_model.h"
 #include "core/require.h"
 #include "core/smallest.h"
+#include "core/triangle_facts.h"
 #include "exact/ray_triangle.h"
-#include "walk/contact_pairs.h"
 #include "walk/walk_model.h"
 #include "walk/walk_ordered.h"
 

@@ -5,9 +5,9 @@
 
 #include "cdprep/format/float_environment.h"
 #include "core/require.h"
+#include "core/triangle_facts.h"
 #include "exact/point_triangle_distance.h"
 #include "query/shape_gap.h"
-#include "walk/contact_pairs.h"
 #include "walk/walk_ordered.h"
 
 namespace cdprep {

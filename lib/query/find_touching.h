@@ -5,11 +5,12 @@
 
 #include "cdprep/format/float_environment.h"
 #include "cdprep/points.h"
+#include "core/moved_model.h"
 #include "core/require.h"
 #include "core/smallest.h"
 #include "core/sort_numbers.h"
+#include "core/triangle_facts.h"
 #include "query/touching_shapes.h"
-#include "walk/contact_pairs.h"
 #include "walk/walk_model.h"
 
 namespace cdprep {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/triangle_facts.h"
 #include "exact/triangle_distance.h"
 #include "query/shape_gap.h"
-#include "walk/contact_pairs.h"
 #include "walk/walk_ordered.h"
 
 namespace cdprep {

@@ -4,6 +4,7 @@
 
 #include "cdprep/format/float_environment.h"
 #include "core/require.h"
+#include "exact/triangle_contact.h"
 #include "query/find_touching.h"
 #include "query/nearest_to_shape.h"
 #include "query/shape_frame.h"

@@ -6,6 +6,7 @@
 #include "cdprep/pairs.h"
 #include "core/require.h"
 #include "exact/exact_within.h"
+#include "walk/contact_pairs.h"
 #include "walk/near_triangles.h"
 #include "walk/smallest_pairs.h"
 #include "walk/walked_trees.h"

@@ -3,7 +3,8 @@
 
 #include "core/smallest.h"
 #include "core/sort_pairs.h"
-#include "walk/contact_pairs.h"
+#include "core/triangle_facts.h"
+#include "walk/workspace_storage.h"
 
 namespace cdprep {
 
