@@ -23,6 +23,7 @@
 #include "support/every_structure.h"
 
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/cells.h"
 #include "cdprep/points.h"
 
 namespace cdprep {
@@ -80,7 +81,7 @@ double timed(Structure structure, const Model& model, const Points& points, Work
 }
 
 void measure(const std::string& name, const Model& model, const Points& points, int rounds) {
-    Workspace workspace;
+    Workspace workspace(cells());
     std::array<std::vector<double>, test::kStructures.size()> ns;
     std::array<QueryCounts, test::kStructures.size()> counts;
     std::array<std::size_t, test::kStructures.size()> inside{};

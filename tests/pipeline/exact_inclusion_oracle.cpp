@@ -29,6 +29,7 @@
 #include "support/every_structure.h"
 
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/cells.h"
 #include "cdprep/points.h"
 
 namespace {
@@ -229,7 +230,7 @@ int compare(const cdprep::Model& model, const BuilderInput& input, Oracle&& orac
             std::size_t count) {
     using cdprep::test::kStructures;
     Points points(input, model.tetra_tree().tree->centre);
-    cdprep::Workspace workspace;
+    cdprep::Workspace workspace(cdprep::cells());
     std::array<cdprep::QueryCounts, kStructures.size()> counts;
     std::size_t on_surface = 0, inside = 0;
     for (std::size_t i = 0; i < count; ++i) {

@@ -242,7 +242,7 @@ def test_inputs(validate):
         mesh = validate.json(wrong, "good", code=3)["meshes"]
         must([m["exit"] for m in mesh] == [3, 0] and wrong in mesh[0]["error"], f"{wrong}: {mesh}")
     (validate.folder / "empty").mkdir()
-    must("no mesh file" in validate.json("empty", code=3)["meshes"][0]["error"], "an empty folder")
+    must("no file with the extension of a mesh" in validate.json("empty", code=3)["meshes"][0]["error"], "an empty folder")
     os.symlink("..", validate.folder / "good/loop")
     must(names("good") == ["good/cube.obj"], "a link to a folder above")
     os.unlink(validate.folder / "good/loop")
@@ -348,8 +348,8 @@ def test_baseline(validate):
     # What cannot be a baseline.
     validate("base", "--format", "json", "--baseline", "old.json", "-o", "new.json")
     for name, text, words in (("new.json", None, "--baseline"), ("none.json", None, "none.json"),
-                              ("text.json", "{", "byte"), ("other.json", "{}", "no report"),
-                              ("list.json", "[]", "no report"),
+                              ("text.json", "{", "byte"), ("other.json", "{}", "not a report"),
+                              ("list.json", "[]", "not a report"),
                               ("old2.json", '{"report": "cdprep-validate", "version": 99}', "99"),
                               ("cut.json", '{"report": "cdprep-validate", "version": 1}',
                                "schema")):

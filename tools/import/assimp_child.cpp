@@ -90,7 +90,7 @@ std::optional<std::filesystem::path> find_child_program() {
     const std::filesystem::path folder = self.parent_path();
     std::vector<std::filesystem::path> places = {folder / kProgram,
                                                  folder / "../libexec/cdprep" / kProgram};
-    constexpr int kBuildTreeDepth = 4;
+    constexpr int kBuildTreeDepth = 6;
     std::filesystem::path above = folder;
     for (int i = 0; i < kBuildTreeDepth; ++i, above = above.parent_path()) {
         places.push_back(above / "bin" / kProgram);

@@ -7,6 +7,7 @@
 
 #include "cdprep/cells/octree_search.h"
 #include "cdprep/exact/triangles.h"
+#include "cdprep/format/float_environment.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::study {
@@ -195,6 +196,7 @@ std::size_t PotentialSet::triangles_in_leaves() const {
 
 bool visit_literal_overlaps(const Model& a, const Model& b, const Placement& placement,
                             const LiteralOptions& options, PairVisitor visit) {
+    const format::FloatEnvironment environment;
     if (a.triangle_count() == 0 || b.triangle_count() == 0) return true;
     QueryCounts ignored;
     QueryCounts& counts = options.counts != nullptr ? *options.counts : ignored;

@@ -17,6 +17,7 @@
 #include "support/exact_winding.h"
 
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/cells.h"
 
 namespace cdprep::test {
 namespace {
@@ -62,7 +63,7 @@ struct Seen {
 
 void expect_everywhere(const Model& model, const Double3& q, const Inclusion& truth,
                        const std::string& where) {
-    Workspace workspace;
+    Workspace workspace(cells());
     for (const Structure structure : kStructures) {
         const Inclusion found = points_inside(model, q, workspace, structure);
         EXPECT_TRUE(same(found, truth))
@@ -108,7 +109,7 @@ TEST(IncludesThroughLaws, EveryStructureAgreesWithExactRays) {
 std::vector<double> windings(const TestMesh& mesh, const std::vector<Double3>& points,
                              const Division& division = {}) {
     const OpenModel open = open_with_every_structure(mesh, division);
-    Workspace workspace;
+    Workspace workspace(cells());
     std::vector<double> all;
     for (const Double3& q : points) {
         const Inclusion truth = points_inside(open.model, q, workspace);
@@ -180,7 +181,7 @@ double area_of(const std::vector<Corners>& surface) {
 /// The winding numbers in n^3 cells of about [-2, 2]^3, times a cell's volume. Asked off
 /// the middles, lest all halves of a shape err alike.
 double volume_by_counting(Structure structure, const Model& model, int n) {
-    Workspace workspace;
+    Workspace workspace(cells());
     const double edge = 4.0 / n;
     double sum = 0;
     for (int i = 0; i < n * n * n; ++i) {
@@ -228,7 +229,7 @@ TEST(IncludesThroughLaws, LargeModelsAgreeWithTheHierarchy) {
         for (const std::uint32_t level : {2U, 7U}) {
             const OpenModel open =
                 open_with_every_structure(mesh, {.level = level, .threshold = 4});
-            Workspace workspace;
+            Workspace workspace(cells());
             for (int i = 0; i < 300; ++i) {
                 const double x = component(random), y = component(random), z = component(random);
                 Double3 q{scale * x + shift, scale * y - shift, scale * z * 0.5 + shift};

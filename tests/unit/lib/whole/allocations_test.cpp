@@ -221,7 +221,7 @@ TEST(Allocations, NoStructureAllocatesToTellWhatIsInside) {
         }
     }
     EXPECT_EQ(allocations, before);
-    EXPECT_EQ(inside, 12);
+    EXPECT_EQ(inside, 2 * std::ssize(kStructures));
 }
 
 TEST(Allocations, NoQuestionThroughAHashedOctreeAllocates) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cdprep/ask.h"
+#include "cdprep/cells.h"
 #include "cdprep/format/sections.h"
 #include "support/c_models.h"
 #include "support/c_questions.h"
@@ -158,7 +159,7 @@ protected:
         const Model a = *Model::open(outer.span()), b = *Model::open(inner.span());
         const Model all_a = *Model::open(outer_.span()), all_b = *Model::open(inner_.span());
         const Ask serves = a.asks() & b.asks();
-        Workspace workspace;
+        Workspace workspace(cells());
         for (const Question& question : questions()) {
             if (!contains(serves, question.needs)) {
                 const auto lacks = static_cast<std::uint32_t>(without(question.needs, serves));

@@ -244,7 +244,7 @@ TEST(ReadPly, SaysWhatIsWrongWithTheHeader) {
               "t.ply: line 4: the file ends inside the PLY header.");
     EXPECT_EQ(sentence("ply\nformat utf7 1.0\n"), "t.ply: line 2: unknown PLY format 'utf7'.");
     EXPECT_EQ(sentence("ply\nformat ascii 1.0\nelement vertex x\n"),
-              "t.ply: line 3: 'x' is no count.");
+              "t.ply: line 3: 'x' is not a count.");
     EXPECT_EQ(sentence("ply\nproperty float x\n"),
               "t.ply: line 2: a property comes before the first element.");
     EXPECT_EQ(sentence("ply\nelement vertex 1\nproperty quad x\n"),

@@ -273,7 +273,7 @@ TEST(Junit, FailsWhatFailsTheRunAndSkipsWhatIsOff) {
     ValidationRun run = run_of();
     run.rules = RuleSettings::parse({"sliver=off"}, {"CDP0301"}).value();
     const std::string text = written(ValidationFormat::junit, run, {with_a_hole(), unreadable()});
-    EXPECT_TRUE(holds(text, "name=\"in &lt;put&gt; &amp; &quot;co&quot;.obj\""));
+    EXPECT_TRUE(holds(text, "name=\"in &lt;put> &amp; &quot;co&quot;.obj\""));
     EXPECT_TRUE(holds(text, "failures=\"1\" errors=\"0\" skipped=\"1\""));
     EXPECT_TRUE(holds(text, "<failure message=\"Edge has one triangle: 3\" type=\"warning\">"));
     EXPECT_TRUE(holds(text, "<system-out>note: Surface has a hole: 1\n"));
