@@ -103,7 +103,8 @@ void bound_leaves(PieceBoxes& made, const PiecesOf& surface, const Frame& frame,
 
 }  // namespace
 
-PieceBoxes build_piece_boxes(const PiecesOf& surface, const Frame& frame, ParallelFor parallel_for) {
+PieceBoxes build_piece_boxes(const PiecesOf& surface, const Frame& frame,
+                             ParallelFor parallel_for) {
     PieceBoxes made;
     made.leaves = cut_into_leaves(surface);
     if (made.leaves.size() > format::kMaxPieceLeaves) return {};

@@ -5,9 +5,9 @@
 #include <cassert>
 
 #include "build/chunks.h"
-#include "cdprep/advanced/parallel_for.h"
 #include "build/frame_map.h"
 #include "cdprep/advanced/mesh_arrays.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/float_environment.h"
 #include "core/guarded_for.h"
 #include "exact/triangle_contact.h"

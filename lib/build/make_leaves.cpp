@@ -5,10 +5,10 @@
 #include <cassert>
 
 #include "build/chunks.h"
-#include "cdprep/advanced/parallel_for.h"
 #include "build/frame_map.h"
 #include "build/lanes.h"
 #include "build/make_nodes.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "core/prefetch.h"
 
 namespace cdprep::build {

@@ -3,8 +3,8 @@
 
 #include <cassert>
 
-#include "cdprep/advanced/parallel_for.h"
 #include "build/lanes.h"
+#include "cdprep/advanced/parallel_for.h"
 
 namespace cdprep::build {
 namespace {

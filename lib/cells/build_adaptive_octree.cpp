@@ -7,8 +7,8 @@
 #include <cassert>
 
 #include "build/chunks.h"
-#include "cdprep/advanced/parallel_for.h"
 #include "build/frame_map.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/cells/build_octree.h"
 #include "cdprep/format/float_environment.h"
 #include "cells/cell_boxes.h"

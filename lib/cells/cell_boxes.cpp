@@ -5,8 +5,8 @@
 #include <cassert>
 #include <limits>
 
-#include "cdprep/advanced/parallel_for.h"
 #include "build/frame_map.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cells/octree_cells.h"
 #include "cells/octree_codes.h"
 #include "cells/split_box.h"

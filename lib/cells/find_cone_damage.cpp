@@ -9,8 +9,8 @@
 #include "cells/cell_bounds.h"
 #include "cells/cone_faces.h"
 #include "cells/cone_reach.h"
-#include "cells/tetra_cones.h"
 #include "cells/list_places.h"
+#include "cells/tetra_cones.h"
 #include "core/moved_model.h"
 
 // Like in find_list_damage.cpp, every triangle goes down into each child whose closed cone it
@@ -47,7 +47,8 @@ public:
             const Double3& c = tree_.centre;
             if (triangles_touch({c, c, c}, t)) {
                 if (!find_reference(references_, 0, tree_.centre_count, i)) {
-                    return format::wrong_fact(file_, SectionId::tetra_tree, 0, tree_.centre_count, i);
+                    return format::wrong_fact(file_, SectionId::tetra_tree, 0, tree_.centre_count,
+                                              i);
                 }
                 ++at_centre;
                 continue;
@@ -61,10 +62,12 @@ public:
             places += places_.size();
         }
         if (at_centre != tree_.centre_count) {
-            return format::wrong_fact(file_, SectionId::tetra_tree, 0, tree_.centre_count, at_centre);
+            return format::wrong_fact(file_, SectionId::tetra_tree, 0, tree_.centre_count,
+                                      at_centre);
         }
         if (places != references_.size()) {
-            return format::wrong_fact(file_, SectionId::tetra_references, 0, references_.size(), places);
+            return format::wrong_fact(file_, SectionId::tetra_references, 0, references_.size(),
+                                      places);
         }
         return find_narrow_cone();
     }
@@ -93,7 +96,7 @@ private:
             if (!triangle_touches_cone(t, tree_.centre, tetra_cone(key))) continue;
             if ((children >> child & 1) == 0) {
                 return format::wrong_fact(file_, SectionId::tetra_nodes, number, children,
-                                  children | 1U << child);
+                                          children | 1U << child);
             }
             const int before = std::popcount(children & ((1U << child) - 1));
             const std::uint32_t next = node.first + static_cast<std::uint32_t>(before);

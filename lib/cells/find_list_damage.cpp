@@ -9,9 +9,9 @@
 #include "cdprep/format/float_environment.h"
 #include "cells/cell_bounds.h"
 #include "cells/find_cone_damage.h"
+#include "cells/list_places.h"
 #include "cells/octree_codes.h"
 #include "cells/split_box.h"
-#include "cells/list_places.h"
 #include "exact/triangle_box.h"
 
 // Every triangle goes down the tree by itself, into each child whose closed cell it touches, stored
@@ -166,7 +166,8 @@ private:
             if (!below || !triangle_touches_box(t, *below)) continue;
             const std::uint32_t children = node.count & 0xff;
             if ((children >> child & 1) == 0) {
-                return format::wrong_fact(file_, Cells::kNodes, number, children, children | 1U << child);
+                return format::wrong_fact(file_, Cells::kNodes, number, children,
+                                          children | 1U << child);
             }
             const int before = std::popcount(children & ((1U << child) - 1));
             const std::uint32_t next = node.first + static_cast<std::uint32_t>(before);
@@ -218,7 +219,8 @@ private:
             if ((node.count & kInnerNode) == 0) continue;
             const auto children = static_cast<std::size_t>(std::popcount(node.count & 0xff));
             for (const format::CellBox& child : boxes.subspan(node.first, children)) {
-                if (!holds(boxes[i], child)) return format::wrong_fact(file_, Cells::kBoxes, i, i, 0);
+                if (!holds(boxes[i], child))
+                    return format::wrong_fact(file_, Cells::kBoxes, i, i, 0);
             }
         }
         return std::nullopt;

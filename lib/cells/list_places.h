@@ -37,7 +37,8 @@ inline std::optional<format::Damage> find_wrong_mark(std::span<const std::byte> 
         const std::uint32_t reference = references[place];
         const bool marked = (reference & format::kSharedReference) != 0;
         if (marked != (places.size() > 1)) {
-            return format::wrong_fact(file, id, place, reference, reference ^ format::kSharedReference);
+            return format::wrong_fact(file, id, place, reference,
+                                      reference ^ format::kSharedReference);
         }
     }
     return std::nullopt;

@@ -7,8 +7,8 @@
 #include <span>
 
 #include "cdprep/cells/octree_search.h"
-#include "cells/octree_cells.h"
 #include "cells/cell_bounds.h"
+#include "cells/octree_cells.h"
 
 namespace cdprep {
 

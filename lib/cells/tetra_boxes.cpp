@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "cdprep/advanced/parallel_for.h"
 #include "build/frame_map.h"
 #include "build/oriented_axes.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/octree.h"
 #include "cells/cone_maximum.h"
 

@@ -6,8 +6,8 @@
 #include <cassert>
 
 #include "build/chunks.h"
-#include "cdprep/advanced/parallel_for.h"
 #include "build/frame_map.h"
+#include "cdprep/advanced/parallel_for.h"
 
 namespace cdprep::build {
 namespace {

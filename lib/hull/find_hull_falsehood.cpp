@@ -98,7 +98,8 @@ public:
             if (is_in(last)) continue;
             last = 0;
             while (last < parts.size() && !is_in(last)) ++last;
-            if (last == parts.size()) return format::wrong_fact(file_, SectionId::hulls, *first, v, 0);
+            if (last == parts.size())
+                return format::wrong_fact(file_, SectionId::hulls, *first, v, 0);
         }
         return std::nullopt;
     }
@@ -149,7 +150,8 @@ private:
                                              std::array<std::uint32_t, 2>{source, 0});
             const bool named = at != by_source_.end() && (*at)[0] == source &&
                                equal(vertices_[(*at)[1]], hull_point(points, p));
-            if (!named) return format::wrong_fact(file_, SectionId::hull_vertices, place, source, 0);
+            if (!named)
+                return format::wrong_fact(file_, SectionId::hull_vertices, place, source, 0);
         }
         return std::nullopt;
     }
@@ -171,7 +173,7 @@ private:
                 const bool flat = facet.group == other.group || hull.dimension == 2;
                 if (flat ? sign == 0 : sign > 0) continue;
                 return format::wrong_fact(file_, SectionId::hull_facets, hull.first_facet + f,
-                                  facet.across[i], f);
+                                          facet.across[i], f);
             }
         }
         return std::nullopt;
@@ -196,8 +198,8 @@ private:
         }
         std::sort(stored.begin(), stored.end());
         if (edges == stored) return std::nullopt;
-        return format::wrong_fact(file_, SectionId::hull_neighbours, hull.first_neighbour, stored.size(),
-                          edges.size());
+        return format::wrong_fact(file_, SectionId::hull_neighbours, hull.first_neighbour,
+                                  stored.size(), edges.size());
     }
 
     /// Returns the points that must not be outside: all vertices for the whole model's hull,

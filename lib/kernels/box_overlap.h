@@ -233,7 +233,8 @@ R largest(const FaceGaps<R>& gaps) noexcept {
 }
 
 /// The separating-axis test of two oriented boxes (Gottschalk, Lin and Manocha 1996), along six of
-/// its fifteen axes. The nine cross products of edges separate a few boxes more, but double the cost.
+/// its fifteen axes. The nine cross products of edges separate a few boxes more, but double the
+/// cost.
 template <class R>
 FaceGaps<R> oriented_gaps(const OrientedBoxes<R>& a, const OrientedRows& rows, RowPair at,
                           const BoxPlacement& p) noexcept {

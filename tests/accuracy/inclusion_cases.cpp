@@ -31,11 +31,10 @@ bool is_right(const Inclusion& found, const HardPoint& point) {
            found.answer == (*point.winding != 0 ? Answer::yes : Answer::no);
 }
 
-constexpr std::array kThrough = {std::pair(Structure::bvh, "bvh"),
-                                 std::pair(Structure::octree, "octree"),
-                                 std::pair(Structure::adaptive_octree, "adaptive"),
-                                 std::pair(Structure::hashed_octree, "hashed"),
-                                 std::pair(Structure::tetra_tree, "tetra-tree")};
+constexpr std::array kThrough = {
+    std::pair(Structure::bvh, "bvh"), std::pair(Structure::octree, "octree"),
+    std::pair(Structure::adaptive_octree, "adaptive"),
+    std::pair(Structure::hashed_octree, "hashed"), std::pair(Structure::tetra_tree, "tetra-tree")};
 
 class Asker {
 public:

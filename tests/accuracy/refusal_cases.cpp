@@ -16,8 +16,8 @@
 #include "cdprep/format/sections.h"
 
 #ifdef CDPREP_HAVE_TOOLS
-#include "validate/defects/find_defects.h"
 #include "unit/tools/soup_of.h"
+#include "validate/defects/find_defects.h"
 #endif
 
 namespace cdprep::test {

@@ -10,15 +10,15 @@
 #include "accuracy/mesh_variants.h"
 #include "decompose/enclose/approximate_pieces.h"
 #include "decompose/surface/surface_pieces.h"
-#include "validate/defects/find_defects.h"
-#include "repair/repair.h"
 #include "mesh/weld.h"
+#include "repair/repair.h"
 #include "support/concave_solids.h"
 #include "support/defect_zoo.h"
 #include "support/hard_point_sets.h"
 #include "support/small_hull.h"
 #include "unit/tools/pieces_flaw.h"
 #include "unit/tools/soup_of.h"
+#include "validate/defects/find_defects.h"
 
 #include "cdprep/advanced/convex_distance.h"
 

@@ -25,8 +25,8 @@
 #include <map>
 
 #include "bench_input.h"
-#include "cells/octree_codes.h"
 #include "cdprep/cells/octree_search.h"
+#include "cells/octree_codes.h"
 #include "compare/cells/literal_octree.h"
 #include "compare/pruning.h"
 #include "support/more_sections.h"

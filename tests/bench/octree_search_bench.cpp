@@ -30,8 +30,8 @@
 #include <cstdlib>
 #include <map>
 
-#include "octree_meshes.h"
 #include "compare/cells/cell_searches.h"
+#include "octree_meshes.h"
 
 namespace cdprep {
 namespace {

@@ -21,10 +21,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "cells/octree_cells.h"
-#include "kernels/curve.h"
 #include "cdprep/cells/overlap_through.h"
+#include "cells/octree_cells.h"
 #include "core/prefetch.h"
+#include "kernels/curve.h"
 #include "octree_meshes.h"
 
 namespace cdprep {

@@ -26,8 +26,8 @@
 
 #include "bench_input.h"
 #include "cli/program_threads.h"
-#include "import/import_file.h"
 #include "crossings/self_intersections.h"
+#include "import/import_file.h"
 #include "mesh/weld.h"
 
 namespace cdprep {

@@ -18,6 +18,7 @@
 #include "support/tiny_pieces.h"
 
 #include "cdprep/advanced/convex_penetration.h"
+#include "cdprep/advanced/find_falsehood.h"
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/cells.h"
 #include "cdprep/cells/find_list_damage.h"
@@ -30,7 +31,6 @@
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
 #include "cdprep/points.h"
-#include "cdprep/advanced/find_falsehood.h"
 
 namespace {
 
@@ -84,9 +84,8 @@ void ask_structures(const Model& model, Workspace& workspace) {
     static std::vector<TrianglePair> pairs(256);
     const Placement turned =
         Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {0.25, 0, 0}).value());
-    for (const Structure structure :
-         {Structure::octree, Structure::adaptive_octree, Structure::hashed_octree,
-          Structure::tetra_tree}) {
+    for (const Structure structure : {Structure::octree, Structure::adaptive_octree,
+                                      Structure::hashed_octree, Structure::tetra_tree}) {
         if (!model.serves(ask_of(structure))) continue;
         if (model.serves(Ask::inside)) {
             (void)points_inside(model, {0.5, 0.5, 0.5}, workspace, structure);

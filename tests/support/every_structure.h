@@ -13,15 +13,13 @@
 
 namespace cdprep::test {
 
-inline constexpr std::array kStructures = {Structure::bvh,
-                                           Structure::octree,
-                                           Structure::adaptive_octree,
-                                           Structure::hashed_octree,
+inline constexpr std::array kStructures = {Structure::bvh, Structure::octree,
+                                           Structure::adaptive_octree, Structure::hashed_octree,
                                            Structure::tetra_tree};
 
 inline std::string name_of(Structure structure) {
-    constexpr std::array<const char*, 5> kNames = {
-        "bvh", "octree", "adaptive_octree", "hashed_octree", "tetra_tree"};
+    constexpr std::array<const char*, 5> kNames = {"bvh", "octree", "adaptive_octree",
+                                                   "hashed_octree", "tetra_tree"};
     return kNames.at(static_cast<std::size_t>(structure));
 }
 

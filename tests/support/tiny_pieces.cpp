@@ -72,7 +72,7 @@ std::vector<TinySection> piece_tree_sections(const Model& model,
     const format::FileHeader& header = model.header();
     const build::PieceBoxes boxes =
         build::build_piece_boxes({input.positions, input.triangles, pieces, triangles},
-                                {header.frame_origin, header.frame_exponent}, serial_for);
+                                 {header.frame_origin, header.frame_exponent}, serial_for);
     const std::vector<format::PieceNodeHull> hulls(
         format::piece_hull_count(
             format::piece_tree_shape(static_cast<std::uint32_t>(boxes.leaves.size()))),

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "cdprep/result.h"
 #include "accuracy/ladder.h"
+#include "cdprep/result.h"
 #include "study/machine.h"
 
 namespace cdprep::study {

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/accuracy_report.h"
-#include "text/json_layout.h"
 #include "page/page_parts.h"
+#include "text/json_layout.h"
 
 namespace cdprep::report {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "accuracy/accuracy_chart.h"
 #include "accuracy/accuracy_report.h"
-#include "text/json_layout.h"
 #include "page/page_parts.h"
 #include "page/page_text.h"
+#include "text/json_layout.h"
 
 namespace cdprep::report {
 namespace page {

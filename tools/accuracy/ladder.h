@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/pair_errors.h"
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/pairs.h"
 #include "study/memory_model.h"
-#include "accuracy/pair_errors.h"
 #include "study/pose_set.h"
 #include "study/share_interval.h"
 #include "study/timing.h"

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "accuracy/bounding_shapes.h"
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/pose.h"
 #include "decompose/enclose/hull_sections.h"
 #include "mesh/mesh.h"
-#include "accuracy/bounding_shapes.h"
 
 namespace cdprep::study {
 

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "compare/comparison_report.h"
-#include "text/number_text.h"
-#include "text/json_layout.h"
 #include "page/page_parts.h"
 #include "page/page_text.h"
 #include "study/cells.h"
+#include "text/json_layout.h"
+#include "text/number_text.h"
 
 namespace cdprep::report {
 namespace {

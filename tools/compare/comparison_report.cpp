@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "text/csv_text.h"
-#include "text/number_text.h"
-#include "text/json_layout.h"
-#include "text/printable.h"
 #include "study/cells.h"
+#include "text/csv_text.h"
+#include "text/json_layout.h"
+#include "text/number_text.h"
+#include "text/printable.h"
 
 namespace cdprep::report {
 namespace {

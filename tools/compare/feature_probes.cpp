@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "cdprep/cells/overlap_through.h"
-#include "study/cells.h"
 #include "compare/strategy.h"
+#include "study/cells.h"
 
 namespace cdprep::study {
 namespace {

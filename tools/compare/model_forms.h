@@ -9,10 +9,10 @@ namespace cdprep::study {
 
 /// A mesh in every form that is compared, in memory.
 struct ModelForms {
-    MemoryModel plain;  ///< as bake makes it, with pieces and hulls
-    MemoryModel swept;  ///< the BVH with PQP's volumes: oriented boxes and swept rectangles
-    MemoryModel paper;  ///< octree, hashed octree and tetra-tree of 512 leaf cells
-    MemoryModel tuned;  ///< octree and tetra-tree with boxes, divided for speed
+    MemoryModel plain;         ///< as bake makes it, with pieces and hulls
+    MemoryModel swept;         ///< the BVH with PQP's volumes: oriented boxes and swept rectangles
+    MemoryModel paper;         ///< octree, hashed octree and tetra-tree of 512 leaf cells
+    MemoryModel tuned;         ///< octree and tetra-tree with boxes, divided for speed
     MemoryModel tuned_hashed;  ///< the hashed octree, whose best division differs
 };
 

@@ -12,8 +12,8 @@
 
 #include "cdprep/advanced/query_counts.h"
 #include "compare/model_forms.h"
-#include "study/pose_set.h"
 #include "compare/strategy.h"
+#include "study/pose_set.h"
 #include "study/timing.h"
 
 namespace cdprep::study {

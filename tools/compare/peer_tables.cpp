@@ -5,8 +5,8 @@
 #include <array>
 #include <utility>
 
-#include "study/cells.h"
 #include "compare/pair_tables.h"
+#include "study/cells.h"
 
 namespace cdprep::study {
 namespace {

@@ -8,12 +8,12 @@
 #include <string>
 #include <utility>
 
-#include "hull/convex_hull.h"
-#include "hull/enclosing_hull.h"
 #include "decompose/surface/piece_arrays.h"
 #include "decompose/surface/piece_tree.h"
 #include "decompose/surface/surface_edges.h"
 #include "decompose/surface/surface_pieces.h"
+#include "hull/convex_hull.h"
+#include "hull/enclosing_hull.h"
 #include "study/cells.h"
 
 namespace cdprep::study {

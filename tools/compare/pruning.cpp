@@ -12,8 +12,8 @@
 #include "cdprep/cells/overlap_through.h"
 #include "cdprep/points.h"
 #include "cdprep/pose.h"
-#include "study/cells.h"
 #include "compare/cells/literal_octree.h"
+#include "study/cells.h"
 
 namespace cdprep::study {
 namespace {

@@ -7,19 +7,19 @@
 #include <optional>
 #include <utility>
 
-#include "cli/signals.h"
 #include "cli/load_mesh.h"
-#include "compare/pair_poses.h"
-#include "compare/peers.h"
+#include "cli/signals.h"
 #include "compare/cells/cell_search.h"
-#include "study/cells.h"
+#include "compare/cells/spatial_tables.h"
 #include "compare/feature_probes.h"
+#include "compare/pair_poses.h"
 #include "compare/pair_tables.h"
 #include "compare/peer_tables.h"
+#include "compare/peers.h"
 #include "compare/preparation.h"
 #include "compare/pruning.h"
+#include "study/cells.h"
 #include "study/published.h"
-#include "compare/cells/spatial_tables.h"
 
 namespace cdprep::cli {
 namespace {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "cdprep/result.h"
-#include "import/import_file.h"
 #include "cli/program_threads.h"
 #include "cli/progress.h"
 #include "compare/comparison.h"
+#include "import/import_file.h"
 
 namespace cdprep::cli {
 

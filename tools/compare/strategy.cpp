@@ -93,8 +93,8 @@ std::size_t StrategyPair::count_pairs(const Placement& placement) {
             return true;
         };
         visit_literally(placement, keep);
-        std::sort(pairs_.begin(), pairs_.begin() + static_cast<std::ptrdiff_t>(
-                                                       std::min(count, pairs_.size())));
+        std::sort(pairs_.begin(),
+                  pairs_.begin() + static_cast<std::ptrdiff_t>(std::min(count, pairs_.size())));
         return count;
     }
     return overlaps_through({a_, b_, placement}, strategy_.through, workspace_, pairs_);

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "crossings/arc.h"
-#include "mesh/point_tree.h"
 #include "crossings/seen_triangle.h"
 #include "crossings/triangle_meeting.h"
+#include "mesh/point_tree.h"
 
 namespace cdprep::mesh {
 namespace {

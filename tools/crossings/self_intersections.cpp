@@ -6,14 +6,14 @@
 #include <functional>
 #include <optional>
 
+#include "cdprep/advanced/self_walk.h"
 #include "cdprep/format/limits.h"
-#include "mesh/degenerate.h"
 #include "crossings/hub_meetings.h"
 #include "crossings/meeting_search.h"
 #include "crossings/neighbour_meetings.h"
 #include "crossings/triangle_meeting.h"
+#include "mesh/degenerate.h"
 #include "mesh/vertex_stars.h"
-#include "cdprep/advanced/self_walk.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -71,7 +71,8 @@ public:
 
     void go_on(SearchTurn& turn) {
         Workspace workspace;
-        walk_->run(rest_, workspace, [&](const SelfPair& pair) { ask(pair, turn); },
+        walk_->run(
+            rest_, workspace, [&](const SelfPair& pair) { ask(pair, turn); },
             [&](std::size_t work) { return turn.count(work); });
     }
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "crossings/arc.h"
+#include "crossings/triangle_meeting.h"
 #include "mesh/around_edge.h"
 #include "mesh/point_tree.h"
-#include "crossings/triangle_meeting.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -13,7 +13,8 @@ using Signs = std::array<int, 3>;
 bool pierces(const Double3& from, const Double3& to, const Corners& t) {
     const int e0 = exact::orient3d(from, to, t[0], t[1]);
     if (e0 == 0) return false;
-    return exact::orient3d(from, to, t[1], t[2]) == e0 && exact::orient3d(from, to, t[2], t[0]) == e0;
+    return exact::orient3d(from, to, t[1], t[2]) == e0 &&
+           exact::orient3d(from, to, t[2], t[0]) == e0;
 }
 
 bool an_edge_pierces(const Corners& a, const Corners& b) {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <map>
 
-#include "hull/exact_hull.h"
-#include "cdprep/exact/triangles.h"
 #include "cdprep/exact/predicates.h"
+#include "cdprep/exact/triangles.h"
+#include "hull/exact_hull.h"
 #include "mesh/vectors.h"
 
 // K half-spaces that touch the hull contain it, and their intersection has at most 2 K - 4
@@ -22,7 +22,6 @@
 // result is checked exactly, and the planes move outwards step by step until it passes.
 namespace cdprep::convex {
 namespace {
-
 
 using mesh::cross;
 using mesh::dot;
@@ -251,8 +250,8 @@ bool contains(const ConvexHull& outer, std::span<const Double3> points) {
     for (std::size_t g = 0; g + 1 < outer.groups.size(); ++g) {
         const Facet& facet = outer.facets[outer.groups[g]];
         for (const Double3& p : points) {
-            if (exact::orient3d(outer.points[facet[0]], outer.points[facet[1]], outer.points[facet[2]],
-                         p) < 0) {
+            if (exact::orient3d(outer.points[facet[0]], outer.points[facet[1]],
+                                outer.points[facet[2]], p) < 0) {
                 return false;
             }
         }

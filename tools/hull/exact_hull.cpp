@@ -6,15 +6,14 @@
 #include <numeric>
 #include <tuple>
 
-#include "hull/quickhull.h"
 #include "cdprep/exact/predicates.h"
 #include "cdprep/exact/triangles.h"
+#include "hull/quickhull.h"
 #include "mesh/disjoint_sets.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {
 namespace {
-
 
 using mesh::largest_of;
 
@@ -125,7 +124,7 @@ Projection projection_of(const DistinctPoints& points, const Facet& plane) {
     for (int axis = 0; axis < 2; ++axis) {
         const Projection flat = {axis};
         if (exact::orient2d(flat(points.at[plane[0]]), flat(points.at[plane[1]]),
-                     flat(points.at[plane[2]])) != 0) {
+                            flat(points.at[plane[2]])) != 0) {
             return flat;
         }
     }
@@ -137,7 +136,7 @@ void add_to_chain(Polygon& chain, std::size_t first, std::uint32_t p, const Dist
                   Projection flat) {
     while (chain.size() >= first + 2 &&
            exact::orient2d(flat(points.at[chain[chain.size() - 2]]), flat(points.at[chain.back()]),
-                    flat(points.at[p])) <= 0) {
+                           flat(points.at[p])) <= 0) {
         chain.pop_back();
     }
     chain.push_back(p);

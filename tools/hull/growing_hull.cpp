@@ -33,8 +33,8 @@ bool parted(const Sides& a, const Sides& b) {
 }  // namespace
 
 int GrowingHull::side(const Facet& facet, const Double3& p) const {
-    return exact::orient3d(points_[facet.corner[0]], points_[facet.corner[1]], points_[facet.corner[2]],
-                    p);
+    return exact::orient3d(points_[facet.corner[0]], points_[facet.corner[1]],
+                           points_[facet.corner[2]], p);
 }
 
 bool GrowingHull::find_start(std::array<std::uint32_t, 4>& start) const {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "cdprep/format/limits.h"
 #include "cdprep/exact/predicates.h"
+#include "cdprep/format/limits.h"
 #include "import/join_chunks.h"
 
 namespace cdprep::import {
@@ -53,7 +53,8 @@ bool mirrors(const Affine& m) {
                      [](double x) { return std::fabs(x) <= format::kMaxCoordinate; })) {
         return false;
     }
-    return exact::orient3d({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {0, 0, 0}) < 0;
+    return exact::orient3d({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {0, 0, 0}) <
+           0;
 }
 
 /// A cursor over consecutive arrays in bytes that are neither aligned nor checked.

@@ -19,8 +19,8 @@ struct ImportOptions {
     std::chrono::seconds time{300};                       ///< --import-time
     std::uint64_t file_bytes = std::uint64_t{16} << 30;   ///< --import-file-size
     bool allow_empty = false;                             ///< --allow-empty
-    std::optional<double> metres_per_unit;  ///< --unit: replaces the unit of the file
-    std::optional<format::UpAxis> up_axis;  ///< --up-axis: likewise; rotates nothing
+    std::optional<double> metres_per_unit;                ///< --unit: replaces the unit of the file
+    std::optional<format::UpAxis> up_axis;                ///< --up-axis: likewise; rotates nothing
     ParallelFor parallel_for = serial_for;
 };
 

@@ -9,16 +9,16 @@
 #include <vector>
 
 #include "cdprep/format/sections.h"
-#include "mesh/find_bounds.h"
 #include "info/mass_error.h"
-#include "mesh/mass_properties.h"
 #include "mesh/component_numbers.h"
 #include "mesh/degenerate.h"
-#include "validate/defects/find_defects.h"
+#include "mesh/find_bounds.h"
+#include "mesh/mass_properties.h"
 #include "mesh/topology.h"
 #include "mesh/vectors.h"
-#include "text/verdict_words.h"
 #include "study/memory_model.h"
+#include "text/verdict_words.h"
+#include "validate/defects/find_defects.h"
 
 namespace cdprep::cli {
 namespace {

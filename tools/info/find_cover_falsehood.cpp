@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "cdprep/hulls.h"
 #include "cdprep/exact/predicates.h"
 #include "cdprep/exact/triangles.h"
+#include "cdprep/hulls.h"
 #include "mesh/point_tree.h"
 
 // A triangle is cut in its own coordinates: a point is a weighted sum of the corners, up to a

@@ -10,7 +10,6 @@
 namespace cdprep::convex {
 namespace {
 
-
 using mesh::largest_of;
 
 using mesh::Double3;

@@ -72,7 +72,8 @@ std::vector<HalfEdge> AroundEdge::sorted(std::span<const HalfEdge> uses) const {
         const int sector_a = sector(a), sector_b = sector(b);
         if (sector_a != sector_b) return sector_a < sector_b;
         if (sector_a % 2 == 1) {
-            const int side = exact::orient3d(positions_[lower_], positions_[upper_], apex(a), apex(b));
+            const int side =
+                exact::orient3d(positions_[lower_], positions_[upper_], apex(a), apex(b));
             if (side != 0) return side < 0;
         }
         if (opens(a) != opens(b)) return opens(b);

@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "mesh/weld.h"
 #include "repair/repair_steps.h"
 #include "repair/stored_verdict.h"
-#include "mesh/weld.h"
 
 namespace cdprep::mesh {
 namespace {

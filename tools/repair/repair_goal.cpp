@@ -7,11 +7,11 @@
 #include <span>
 #include <utility>
 
+#include "mesh/stars.h"
 #include "validate/defects/component_pairs.h"
 #include "validate/defects/copies.h"
 #include "validate/defects/edge_flaws.h"
 #include "validate/defects/sound_mesh.h"
-#include "mesh/stars.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "mesh/around_edge.h"
-#include "repair/repair_steps.h"
 #include "mesh/vectors.h"
+#include "repair/repair_steps.h"
 
 namespace cdprep::mesh {
 namespace {

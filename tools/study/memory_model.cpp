@@ -4,16 +4,16 @@
 #include <chrono>
 #include <utility>
 
+#include "bake/section_list.h"
 #include "cdprep/advanced/build_image.h"
 #include "cdprep/advanced/build_model.h"
 #include "cdprep/format/sections.h"
-#include "decompose/surface/contact_arrays.h"
-#include "mesh/find_bounds.h"
 #include "decompose/enclose/hull_sections.h"
+#include "decompose/surface/contact_arrays.h"
 #include "decompose/surface/piece_arrays.h"
 #include "decompose/surface/piece_tree.h"
-#include "bake/section_list.h"
 #include "decompose/surface/surface_pieces.h"
+#include "mesh/find_bounds.h"
 
 namespace cdprep::study {
 namespace {

@@ -71,7 +71,8 @@ Pair pair_of(const Model& a, const Model& b) {
     const Extent of_b = extent_of(b);
     const double smaller = std::min(of_a.diagonal(), of_b.diagonal());
     const double larger = std::max(of_a.diagonal(), of_b.diagonal());
-    return {a, b, SourceTriangles(a), SourceTriangles(b), of_a, of_b, smaller > 0 ? smaller : larger};
+    return {
+        a, b, SourceTriangles(a), SourceTriangles(b), of_a, of_b, smaller > 0 ? smaller : larger};
 }
 
 /// A straight path of B towards A: at `s` the middle of B is at target + s * direction.
@@ -178,9 +179,9 @@ StudyPose ask(const Pair& pair, const Pose& pose, double in, Workspace& workspac
     asked.gap_lower = apart->lower;
     asked.gap_upper = apart->upper;
     if (asked.hit) asked.depth = std::max(0.0, in) * pair.diagonal;
-    asked.is_rigid =
-        asked.hit ? crosses_when_rigid(pair.triangles_a, pair.triangles_b, pose, workspace)
-                  : is_apart_when_rigid(pair.b, pose, apart->lower);
+    asked.is_rigid = asked.hit
+                         ? crosses_when_rigid(pair.triangles_a, pair.triangles_b, pose, workspace)
+                         : is_apart_when_rigid(pair.b, pose, apart->lower);
     return asked;
 }
 

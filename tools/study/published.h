@@ -55,7 +55,7 @@ extern const std::array<PublishedPair, 12> kPublishedPairs;
 struct Likeness {
     std::optional<std::size_t> model;  ///< in kPublished; its figures may be shown beside ours
     Mark mark = Mark::none;            ///< none: the published counts
-    std::string sentence;  ///< text: what the mesh is, or why no figures are shown
+    std::string sentence;              ///< text: what the mesh is, or why no figures are shown
     /// The model that the mesh is a version of, if any. It is also set if the counts differ too
     /// much to show the published figures.
     std::optional<std::size_t> version_of{};

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "page/base64.h"
-#include "validate/page_marks.h"
 #include "page/page_parts.h"
-#include "validate/page_surface.h"
 #include "page/page_text.h"
+#include "validate/page_marks.h"
+#include "validate/page_surface.h"
 
 namespace cdprep::report {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "validate/defects/finding.h"
 #include "mesh/mesh.h"
+#include "validate/defects/finding.h"
 #include "validate/page_surface.h"
 
 namespace cdprep::report {

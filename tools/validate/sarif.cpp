@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "text/file_uri.h"
-#include "validate/fingerprint.h"
 #include "text/json_layout.h"
 #include "text/number_text.h"
+#include "validate/fingerprint.h"
 #include "validate/place_text.h"
 #include "validate/severity_name.h"
 #include "validate/validation_json.h"

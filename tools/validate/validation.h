@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <functional>
 
-#include "import/import_file.h"
 #include "cli/input_list.h"
-#include "validate/defects/find_defects.h"
 #include "cli/program_threads.h"
+#include "import/import_file.h"
 #include "validate/baseline.h"
+#include "validate/defects/find_defects.h"
 #include "validate/validation_run.h"
 
 namespace cdprep::cli {

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "text/file_uri.h"
-#include "validate/fingerprint.h"
 #include "text/json_layout.h"
+#include "text/verdict_words.h"
+#include "validate/fingerprint.h"
 #include "validate/place_text.h"
 #include "validate/severity_name.h"
-#include "text/verdict_words.h"
 
 namespace cdprep::report {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "validate/defects/find_defects.h"
 #include "text/stage_time.h"
+#include "validate/defects/find_defects.h"
 
 namespace cdprep::report {
 

@@ -5,10 +5,10 @@
 #include <numeric>
 
 #include "text/number_text.h"
-#include "validate/place_text.h"
 #include "text/printable.h"
-#include "validate/severity_name.h"
 #include "text/verdict_words.h"
+#include "validate/place_text.h"
+#include "validate/severity_name.h"
 
 namespace cdprep::report {
 namespace {

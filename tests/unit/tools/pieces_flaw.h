@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "hull/convex_hull.h"
 #include "decompose/surface/surface_pieces.h"
+#include "hull/convex_hull.h"
 #include "support/exact_rational.h"
 #include "unit/tools/hull_flaw.h"
 

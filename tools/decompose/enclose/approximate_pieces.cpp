@@ -26,16 +26,15 @@
 namespace cdprep::convex {
 namespace {
 
-constexpr double kCellSize = 6;       ///< side of the largest cells, in errors
-constexpr double kCellError = 0.5;    ///< in errors: how far a cell's hull may stick out
-constexpr double kSpacing = 0.75;     ///< of the field's nodes, in errors
-constexpr double kReach = 2.3;        ///< distance outside to which the field measures, in errors
-constexpr double kReuse = 1.5;        ///< factor by which the error may change before a new cut
-constexpr double kLeastError = 1e-3;  ///< of the diagonal: smallest error that is searched
-constexpr double kMeasured = 0.92;    ///< of the requested error: searched, as estimates are low
-constexpr double kRelative =
-    0.02;                          ///< relative gap of error bounds, unless that costs too much
-constexpr std::size_t kTries = 8;  ///< errors tried to come near the number of parts
+constexpr double kCellSize = 6;        ///< side of the largest cells, in errors
+constexpr double kCellError = 0.5;     ///< in errors: how far a cell's hull may stick out
+constexpr double kSpacing = 0.75;      ///< of the field's nodes, in errors
+constexpr double kReach = 2.3;         ///< distance outside to which the field measures, in errors
+constexpr double kReuse = 1.5;         ///< factor by which the error may change before a new cut
+constexpr double kLeastError = 1e-3;   ///< of the diagonal: smallest error that is searched
+constexpr double kMeasured = 0.92;     ///< of the requested error: searched, as estimates are low
+constexpr double kRelative = 0.02;     ///< relative gap of error bounds, unless that costs too much
+constexpr std::size_t kTries = 8;      ///< errors tried to come near the number of parts
 constexpr double kFirstError = 0.18;   ///< of the diagonal: expected error of one piece
 constexpr double kPower = 0.65;        ///< the expected error falls as (piece count)^-kPower
 constexpr double kCloseErrors = 1.05;  ///< ratio of two errors below which the search ends
@@ -63,8 +62,8 @@ constexpr std::size_t kFewestFragments = 4;       ///< least, per triangle on av
 constexpr std::size_t kFewestErrorCells = 2'000;  ///< largest minimum per hull, for few hulls
 constexpr std::size_t kFewestOfMany = 100;        ///< smallest minimum per hull, for many hulls
 constexpr std::size_t kFewestInAll = 400'000;     ///< minimum of all hulls, between these limits
-constexpr double kWorkPower = 0.5;    ///< exponent: error growth from the work ratio
-constexpr double kLeastGrowth = 1.5;  ///< of an error that takes too much work
+constexpr double kWorkPower = 0.5;                ///< exponent: error growth from the work ratio
+constexpr double kLeastGrowth = 1.5;              ///< of an error that takes too much work
 constexpr double kMostGrowth = 8;
 
 /// Cells and distances for errors near `error`.

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "cdprep/advanced/parallel_for.h"
-#include "hull/convex_hull.h"
 #include "decompose/enclose/hull_error.h"
 #include "decompose/enclose/solid.h"
+#include "hull/convex_hull.h"
 #include "mesh/mesh.h"
 
 namespace cdprep::convex {

@@ -11,7 +11,6 @@
 namespace cdprep::convex {
 namespace {
 
-
 using mesh::middle_of;
 
 constexpr double kSampling = 0.4;    ///< of a spacing: sides of the last triangles

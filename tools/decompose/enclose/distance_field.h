@@ -8,9 +8,9 @@
 #include <memory>
 #include <vector>
 
-#include "hull/convex_hull.h"
 #include "decompose/enclose/separated_points.h"
 #include "decompose/enclose/solid.h"
+#include "hull/convex_hull.h"
 
 namespace cdprep::convex {
 

@@ -12,9 +12,9 @@
 #include <numeric>
 #include <utility>
 
-#include "hull/convex_hull.h"
 #include "decompose/enclose/flush_bound.h"
 #include "decompose/surface/surface_edges.h"
+#include "hull/convex_hull.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {

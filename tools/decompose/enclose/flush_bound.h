@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "hull/convex_hull.h"
 #include "decompose/enclose/solid.h"
+#include "hull/convex_hull.h"
 
 namespace cdprep::convex {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "hull/convex_hull.h"
 #include "decompose/enclose/solid.h"
+#include "hull/convex_hull.h"
 
 namespace cdprep::convex {
 

@@ -22,7 +22,8 @@ bool is_convex(const mesh::Mesh& mesh, std::span<const std::uint32_t> triangles,
         if (uses.size() != 2) return false;
         if (mesh::start_of(list, uses[0]) == mesh::start_of(list, uses[1])) return false;
         const auto& v = list[uses[0] / 3].vertex;
-        const int behind = exact::orient3d(at(v[0]), at(v[1]), at(v[2]), at(mesh::apex_of(list, uses[1])));
+        const int behind =
+            exact::orient3d(at(v[0]), at(v[1]), at(v[2]), at(mesh::apex_of(list, uses[1])));
         if (behind * turn < 0) return false;
         if (behind != 0) turn = behind;
     }

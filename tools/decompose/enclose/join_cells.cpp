@@ -13,7 +13,6 @@
 namespace cdprep::convex {
 namespace {
 
-
 using mesh::middle_of;
 
 using Cells = std::vector<std::uint32_t>;

@@ -9,8 +9,8 @@
 #include <queue>
 #include <utility>
 
-#include "hull/convex_hull.h"
 #include "decompose/enclose/separated_points.h"
+#include "hull/convex_hull.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {
@@ -18,8 +18,8 @@ namespace {
 
 using Cells = std::vector<std::uint32_t>;
 
-constexpr std::size_t kSeeds = 4;   ///< growths tried for each piece
-constexpr std::size_t kInVain = 8;  ///< consecutive unwanted cells tried before growth ends
+constexpr std::size_t kSeeds = 4;        ///< growths tried for each piece
+constexpr std::size_t kInVain = 8;       ///< consecutive unwanted cells tried before growth ends
 constexpr std::size_t kWorkOfTry = 100;  ///< one cell tried, without tests of kept-out points
 constexpr std::size_t kLooksOfWork = 4;  ///< planes and points tested per unit of work
 constexpr std::size_t kWorkOfSample = 10;

@@ -18,8 +18,8 @@ struct CoverCell {
 };
 
 struct CoverOptions {
-    double error = 0;      ///< estimated limit by which pieces may stick out, model units
-    double margin = 0.25;  ///< hulls keep out nodes beyond (1 - margin) * error
+    double error = 0;            ///< estimated limit by which pieces may stick out, model units
+    double margin = 0.25;        ///< hulls keep out nodes beyond (1 - margin) * error
     std::size_t rounds = 16;     ///< of attempts with fewer pieces
     std::size_t few_enough = 0;  ///< attempts end at this number of pieces
     /// Pieces within the error that take in all cells. The search then only tries to use fewer.

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cdprep/advanced/parallel_for.h"
-#include "mesh/triangle_tree.h"
 #include "mesh/mesh.h"
+#include "mesh/triangle_tree.h"
 
 namespace cdprep::convex {
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <numeric>
 
-#include "hull/convex_hull.h"
-#include "decompose/surface/flat_turn.h"
 #include "cdprep/exact/predicates.h"
+#include "decompose/surface/flat_turn.h"
+#include "hull/convex_hull.h"
 
 namespace cdprep::convex {
 namespace {
@@ -61,10 +61,9 @@ Grouped connected(const PatchRules& rules, Joins joins) {
 template <class Body>
 void for_groups(const Grouped& groups, ParallelFor parallel_for, Body body) {
     constexpr std::size_t kAtATime = 1024;
-    for_chunks(groups.count(), kAtATime, parallel_for,
-                      [&](std::size_t first, std::size_t last) {
-                          for (std::size_t i = first; i < last; ++i) body(i);
-                      });
+    for_chunks(groups.count(), kAtATime, parallel_for, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) body(i);
+    });
 }
 
 /// Returns the vertices of some triangles, ascending.

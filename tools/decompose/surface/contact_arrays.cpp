@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cdprep/advanced/parallel_for.h"
 #include "decompose/surface/contact_arrays.h"
+#include "cdprep/advanced/parallel_for.h"
 
 #include <algorithm>
 #include <array>
@@ -82,14 +82,14 @@ std::vector<PieceAdjacency> find_adjacency(const PieceArrays& pieces, ParallelFo
                                             : pieces.facets.size();
     };
     for_chunks(pieces.pieces.size(), kAtATime, parallel_for,
-                      [&](std::size_t first, std::size_t last) {
-                          for (std::size_t i = first; i < last; ++i) {
-                              const std::size_t begin = begin_of(i);
-                              const std::size_t count = begin_of(i + 1) - begin;
-                              pair_edges(std::span(pieces.facets).subspan(begin, count),
-                                         std::span(adjacency).subspan(begin, count));
-                          }
-                      });
+               [&](std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                       const std::size_t begin = begin_of(i);
+                       const std::size_t count = begin_of(i + 1) - begin;
+                       pair_edges(std::span(pieces.facets).subspan(begin, count),
+                                  std::span(adjacency).subspan(begin, count));
+                   }
+               });
     return adjacency;
 }
 
@@ -128,7 +128,7 @@ std::optional<format::Damage> find_convexity_falsehood(std::span<const std::byte
     const auto [at, right] = std::mismatch(stored.begin(), stored.end(), found.begin());
     if (at == stored.end()) return std::nullopt;
     return format::wrong_fact(file, SectionId::edge_convexity,
-                      static_cast<std::uint64_t>(at - stored.begin()), *at, *right);
+                              static_cast<std::uint64_t>(at - stored.begin()), *at, *right);
 }
 
 }  // namespace cdprep::convex

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cdprep/advanced/parallel_for.h"
 #include "decompose/surface/face_planes.h"
+#include "cdprep/advanced/parallel_for.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,12 +50,11 @@ FacePlanes::FacePlanes(const mesh::Mesh& mesh, double tolerance, ParallelFor par
     : mesh_(mesh), tolerance_(tolerance), planes_(mesh.triangles.size()) {
     const Double3 extent = extent_of(mesh);
     constexpr std::size_t kAtATime = 1 << 14;
-    for_chunks(planes_.size(), kAtATime, parallel_for,
-                      [&](std::size_t first, std::size_t last) {
-                          for (std::size_t t = first; t < last; ++t) {
-                              planes_[t] = plane_of(static_cast<std::uint32_t>(t), extent);
-                          }
-                      });
+    for_chunks(planes_.size(), kAtATime, parallel_for, [&](std::size_t first, std::size_t last) {
+        for (std::size_t t = first; t < last; ++t) {
+            planes_[t] = plane_of(static_cast<std::uint32_t>(t), extent);
+        }
+    });
 }
 
 FacePlanes::Plane FacePlanes::plane_of(std::uint32_t triangle, const Double3& extent) const {
@@ -90,7 +89,7 @@ double FacePlanes::least_length(std::uint32_t triangle) const {
 bool FacePlanes::admits_exactly(std::uint32_t triangle, std::uint32_t vertex) const {
     const auto& v = mesh_.triangles[triangle].vertex;
     return exact::orient3d(mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]],
-                    mesh_.positions[vertex]) >= 0;
+                           mesh_.positions[vertex]) >= 0;
 }
 
 void FacePlanes::gather(std::span<const std::uint32_t> vertices, Points& points) const {

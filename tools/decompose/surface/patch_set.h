@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "decompose/surface/face_planes.h"
-#include "hull/growing_hull.h"
 #include "decompose/surface/solid_parts.h"
 #include "decompose/surface/surface_edges.h"
+#include "hull/growing_hull.h"
 
 namespace cdprep::convex {
 

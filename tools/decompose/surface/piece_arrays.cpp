@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cdprep/advanced/parallel_for.h"
 #include "decompose/surface/piece_arrays.h"
+#include "cdprep/advanced/parallel_for.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "hull/convex_hull.h"
-#include "decompose/surface/flat_turn.h"
 #include "cdprep/exact/predicates.h"
+#include "decompose/surface/flat_turn.h"
+#include "hull/convex_hull.h"
 
 namespace cdprep::convex {
 namespace {
@@ -79,7 +79,8 @@ private:
         const auto& at = mesh_.positions;
         return std::all_of(v.begin(), v.end(),
                            [&](std::uint32_t corner) {
-                               return exact::orient3d(plane[0], plane[1], plane[2], at[corner]) == 0;
+                               return exact::orient3d(plane[0], plane[1], plane[2], at[corner]) ==
+                                      0;
                            }) &&
                flat_turn(axis, at[v[0]], at[v[1]], at[v[2]]) == turn;
     }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <span>
 
-#include "decompose/surface/flat_turn.h"
 #include "cdprep/exact/predicates.h"
+#include "decompose/surface/flat_turn.h"
 #include "mesh/degenerate.h"
 
 namespace cdprep::convex {

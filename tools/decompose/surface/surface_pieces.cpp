@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cdprep/advanced/parallel_for.h"
 #include "decompose/surface/surface_pieces.h"
+#include "cdprep/advanced/parallel_for.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "cdprep/advanced/build_bvh.h"
-#include "decompose/surface/patch_steps.h"
 #include "decompose/surface/patch_set.h"
+#include "decompose/surface/patch_steps.h"
 #include "mesh/tree_order.h"
 
 namespace cdprep::convex {

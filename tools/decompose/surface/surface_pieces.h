@@ -48,9 +48,9 @@ struct SurfacePiece {
 /// A partition of a surface into pieces. Each piece by itself is part of the boundary of a convex
 /// body, exactly or within a tolerance.
 struct SurfacePieces {
-    std::vector<std::uint32_t> triangles;  ///< each once: by piece, ascending in each
-    std::vector<std::uint32_t> first;      ///< where each piece starts there; then the total
-    std::vector<SurfacePiece> pieces;      ///< in the order of their lowest triangle
+    std::vector<std::uint32_t> triangles;         ///< each once: by piece, ascending in each
+    std::vector<std::uint32_t> first;             ///< where each piece starts there; then the total
+    std::vector<SurfacePiece> pieces;             ///< in the order of their lowest triangle
     std::array<std::size_t, kEdgeKinds> edges{};  ///< by EdgeKind: number of edges in the mesh
 
     [[nodiscard]] std::span<const std::uint32_t> of(std::size_t piece) const {

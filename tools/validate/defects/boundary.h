@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "mesh/point_tree.h"
+#include "mesh/stop.h"
 #include "validate/defects/edge_flaws.h"
 #include "validate/defects/finding_list.h"
-#include "mesh/point_tree.h"
 #include "validate/defects/sound_mesh.h"
-#include "mesh/stop.h"
 
 namespace cdprep::mesh {
 

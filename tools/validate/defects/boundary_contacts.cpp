@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "cdprep/exact/triangles.h"
-#include "validate/defects/boundary.h"
 #include "mesh/close_groups.h"
-#include "validate/defects/source_places.h"
 #include "mesh/vectors.h"
+#include "validate/defects/boundary.h"
+#include "validate/defects/source_places.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "validate/defects/edge_flaws.h"
-#include "mesh/mesh.h"
 #include "crossings/self_intersections.h"
+#include "mesh/mesh.h"
+#include "validate/defects/edge_flaws.h"
 
 namespace cdprep::mesh {
 

@@ -5,14 +5,14 @@
 #include <cmath>
 #include <limits>
 
-#include "validate/defects/boundary.h"
 #include "mesh/close_groups.h"
 #include "mesh/component_numbers.h"
+#include "mesh/nesting.h"
+#include "validate/defects/boundary.h"
 #include "validate/defects/copies.h"
 #include "validate/defects/edge_flaws.h"
 #include "validate/defects/finding_list.h"
 #include "validate/defects/meetings.h"
-#include "mesh/nesting.h"
 #include "validate/defects/orientability.h"
 #include "validate/defects/sound_mesh.h"
 #include "validate/defects/source_places.h"

@@ -7,10 +7,10 @@
 
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/verdict.h"
-#include "validate/defects/finding.h"
-#include "mesh/mesh.h"
 #include "crossings/self_intersections.h"
+#include "mesh/mesh.h"
 #include "mesh/stop.h"
+#include "validate/defects/finding.h"
 
 namespace cdprep::mesh {
 

@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "crossings/self_intersections.h"
 #include "mesh/component_numbers.h"
+#include "mesh/nesting.h"
 #include "validate/defects/component_pairs.h"
 #include "validate/defects/copies.h"
 #include "validate/defects/finding_list.h"
-#include "mesh/nesting.h"
-#include "crossings/self_intersections.h"
 #include "validate/defects/sound_mesh.h"
 
 namespace cdprep::mesh {

@@ -75,7 +75,8 @@ Shape shape_far_out(const Corners& t) {
     const int second = std::ilogb(length);
     // In two steps: 2^-second alone may not be a double.
     const auto near_one = [second](const Double3& p) {
-        return scaled(scaled(p, std::ldexp(1.0, -second / 2)), std::ldexp(1.0, second / 2 - second));
+        return scaled(scaled(p, std::ldexp(1.0, -second / 2)),
+                      std::ldexp(1.0, second / 2 - second));
     };
     Shape shape = shape_of_edges(near_one(u), near_one(v));
     shape.exponent = first + second;

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "cdprep/format/verdict.h"
-#include "validate/defects/boundary.h"
 #include "mesh/component_numbers.h"
+#include "mesh/nesting.h"
+#include "validate/defects/boundary.h"
 #include "validate/defects/edge_flaws.h"
 #include "validate/defects/meetings.h"
-#include "mesh/nesting.h"
 #include "validate/defects/orientability.h"
 #include "validate/defects/sound_mesh.h"
 #include "validate/defects/surface_measures.h"

@@ -116,7 +116,7 @@ struct Component {
     std::uint32_t triangle_count;  ///< its triangles
     std::uint32_t flags;           ///< ComponentFlags
     std::uint32_t reserved;        ///< zero
-    double signed_volume;  ///< cubic model units; negative if inverted; 0 unless balanced
+    double signed_volume;          ///< cubic model units; negative if inverted; 0 unless balanced
 };
 
 /// Bits of Component::flags.

@@ -283,8 +283,9 @@ TEST(RuntimeModel, BadPositionsAreRefusedByNumberAndChangeNothing) {
     EXPECT_EQ(moving.object.refit(few).error().message,
               "The run-time model has 162 positions, and 161 were given.");
     const std::span<const Double3> own = moving.object.model().mesh().positions_f64;
-    EXPECT_EQ(
-        moving.object.refit(own).error().message.find("The positions point into the run-time model"), 0U);
+    EXPECT_EQ(moving.object.refit(own).error().message.find(
+                  "The positions point into the run-time model"),
+              0U);
     EXPECT_TRUE(std::ranges::equal(before.span(), moving.memory.span()));
 }
 

@@ -5,12 +5,12 @@
 
 #include <array>
 
+#include "cells/cell_storage.h"
 #include "support/brute_force.h"
 #include "support/hard_placements.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
-#include "cells/cell_storage.h"
 
 #include "cdprep/cells.h"
 #include "cdprep/cells/overlap_through.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The public functions of <cdprep/exact/...> beside the private ones, which have oracles of their own,
-// and in every floating-point environment.
+// The public functions of <cdprep/exact/...> beside the private ones, which have oracles of their
+// own, and in every floating-point environment.
 #include <gtest/gtest.h>
 
 #include <random>

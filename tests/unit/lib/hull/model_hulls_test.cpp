@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 
+#include "cdprep/advanced/find_falsehood.h"
 #include "cdprep/cells/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
-#include "cdprep/advanced/find_falsehood.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 

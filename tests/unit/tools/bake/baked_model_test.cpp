@@ -3,10 +3,10 @@
 
 #include <cstring>
 
+#include "bake/pipeline.h"
 #include "cdprep/advanced/build_model.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/model.h"
-#include "bake/pipeline.h"
 #include "study/memory_model.h"
 #include "support/scratch_folder.h"
 

@@ -8,11 +8,11 @@
 
 #include "cdprep/cells.h"
 #include "cdprep/cells/overlap_through.h"
+#include "compare/cells/spatial_tables.h"
 #include "compare/pair_tables.h"
 #include "compare/peer_tables.h"
 #include "compare/preparation.h"
 #include "compare/pruning.h"
-#include "compare/cells/spatial_tables.h"
 #include "support/meshes.h"
 #include "unit/tools/soup_of.h"
 

@@ -8,10 +8,10 @@
 #include <atomic>
 #include <tuple>
 
-#include "validate/defects/find_defects.h"
 #include "support/large_stars.h"
 #include "support/team.h"
 #include "unit/tools/soup_of.h"
+#include "validate/defects/find_defects.h"
 
 namespace cdprep::mesh {
 namespace {

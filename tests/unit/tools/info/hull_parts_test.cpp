@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "cdprep/advanced/convex_distance.h"
+#include "cdprep/advanced/find_falsehood.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
-#include "info/find_cover_falsehood.h"
 #include "decompose/enclose/hull_sections.h"
-#include "cdprep/advanced/find_falsehood.h"
+#include "info/find_cover_falsehood.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "repair/repair.h"
 #include "crossings/self_intersections.h"
 #include "mesh/weld.h"
+#include "repair/repair.h"
 #include "unit/tools/soup_of.h"
 
 namespace cdprep::mesh {

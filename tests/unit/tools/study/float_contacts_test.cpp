@@ -32,8 +32,8 @@ TEST(FloatContacts, HoldTheExactSetAndAreRightWhereCertain) {
             EXPECT_TRUE(!contact.certain || std::ranges::binary_search(exact, left.back()));
             return true;
         };
-        EXPECT_TRUE(
-            visit_float_contacts({a.model, b.model, placement}, workspace, FloatSearch::all, visit));
+        EXPECT_TRUE(visit_float_contacts({a.model, b.model, placement}, workspace, FloatSearch::all,
+                                         visit));
         std::ranges::sort(left);
         EXPECT_TRUE(std::ranges::includes(left, exact));
         bool found = false;
@@ -41,8 +41,8 @@ TEST(FloatContacts, HoldTheExactSetAndAreRightWhereCertain) {
             found = true;
             return false;
         };
-        const bool whole =
-            visit_float_contacts({a.model, b.model, placement}, workspace, FloatSearch::first, first);
+        const bool whole = visit_float_contacts({a.model, b.model, placement}, workspace,
+                                                FloatSearch::first, first);
         EXPECT_EQ(whole, !found);
         EXPECT_TRUE(found || exact.empty());
     }

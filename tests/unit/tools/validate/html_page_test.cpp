@@ -12,12 +12,12 @@
 #include <string_view>
 #include <vector>
 
-#include "validate/defects/rule.h"
 #include "page/base64.h"
-#include "validate/page_marks.h"
-#include "validate/page_surface.h"
 #include "page/page_text.h"
 #include "support/meshes.h"
+#include "validate/defects/rule.h"
+#include "validate/page_marks.h"
+#include "validate/page_surface.h"
 
 namespace cdprep::report {
 namespace {

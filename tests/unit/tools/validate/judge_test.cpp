@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "validate/fingerprint.h"
 #include "unit/tools/soup_of.h"
+#include "validate/fingerprint.h"
 
 namespace cdprep::report {
 namespace {

@@ -12,11 +12,11 @@
 #include <numeric>
 #include <random>
 
+#include "cdprep/advanced/find_falsehood.h"
 #include "cdprep/format/content_hash.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/hulls.h"
-#include "cdprep/advanced/find_falsehood.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"

@@ -11,9 +11,9 @@
 #include <random>
 #include <tuple>
 
+#include "unit/tools/soup_of.h"
 #include "validate/defects/find_defects.h"
 #include "validate/defects/sound_mesh.h"
-#include "unit/tools/soup_of.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -13,10 +13,10 @@
 #include <tuple>
 
 #include "mesh/close_groups.h"
-#include "validate/defects/find_defects.h"
 #include "support/exact_rational.h"
 #include "support/exact_winding.h"
 #include "unit/tools/soup_of.h"
+#include "validate/defects/find_defects.h"
 
 namespace cdprep::mesh {
 namespace {

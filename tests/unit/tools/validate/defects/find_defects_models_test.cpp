@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "import/import_file.h"
-#include "validate/defects/find_defects.h"
 #include "support/shared_models.h"
+#include "validate/defects/find_defects.h"
 
 namespace cdprep::mesh {
 namespace {

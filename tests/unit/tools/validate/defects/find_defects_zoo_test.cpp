@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "validate/defects/find_defects.h"
 #include "support/defect_zoo.h"
 #include "unit/tools/soup_of.h"
+#include "validate/defects/find_defects.h"
 
 namespace cdprep::mesh {
 namespace {
