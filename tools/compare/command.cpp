@@ -178,11 +178,12 @@ void add_compare(const Command& app, Exit& exit) {
     const Command command = app.add_command(
         "compare", "Reproduce the tables of two published studies with these models");
     command.set_notes(
-        "Tables 1 to 4: what each strategy can answer; the cost of spatial decompositions; "
-        "the cost of hulls, hierarchies and convex pieces; times of collisions and overlapping "
-        "triangles for each pair. Published figures stand beside ours where a model has the "
-        "published counts. Table talk: pruning with hashed octrees. All models are scaled to a "
-        "diagonal of 1. The exit code is 6 when exact strategies disagree.",
+        "Table 1 shows what each strategy can answer. Table 2 shows the cost of spatial "
+        "decompositions, Table 3 that of hulls, hierarchies and convex pieces. Table 4 shows the "
+        "times of collisions and overlapping triangles for each pair. Published figures stand "
+        "beside ours where a model has the published counts. Table talk shows pruning with hashed "
+        "octrees. All models are scaled to a diagonal of 1. The exit code is 6 when exact "
+        "strategies disagree.",
         {"cdprep compare bunny.ply horse.ply --quick",
          "cdprep compare scans/*.ply --format html -o tables.html"});
     command
