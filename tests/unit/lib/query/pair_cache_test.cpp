@@ -43,6 +43,9 @@ Work work_of(const Model& a, const Model& b, double x, double step, Ask ask) {
 bool touch(const Pair& pair, Workspace& workspace) {
     return collide(pair, workspace).hit == Answer::yes;
 }
+bool overlap(const Pair& pair, Workspace& workspace) {
+    return overlaps(pair, workspace, {}) > 0;
+}
 bool are_near(const Pair& pair, Workspace& workspace) {
     return within(pair, 0.25, workspace);
 }
@@ -81,10 +84,34 @@ TEST_F(PairCacheSaves, AllBoxesWhileAProvenGapLasts) {
     EXPECT_GT(work.cache.gap, 0);
 }
 
-TEST_F(PairCacheSaves, AllBoxesOfWithinWhileAProvenGapLasts) {
-    const Work work = work_of(a.model, b.model, 2.51, 1e-3, are_near);
+// overlaps() seeks any contact first, and lists nothing while the gap that this proved lasts.
+TEST_F(PairCacheSaves, AllBoxesOfOverlapsWhileAProvenGapLasts) {
+    const Work work = work_of(a.model, b.model, 2.26, 1e-3, overlap);
     EXPECT_EQ(work.hits, 0);
+    EXPECT_GT(work.plain.box_pairs, 100u);
     EXPECT_LT(work.cached.box_pairs, work.plain.box_pairs / 3);
+}
+
+// A pair within the tolerance is asked first.
+TEST_F(PairCacheSaves, AllBoxesWhileAPairStaysNear) {
+    const Work work = work_of(a.model, b.model, 2.3, 1e-3, are_near);
+    EXPECT_EQ(work.hits, 100);
+    EXPECT_LT(work.cached.box_pairs, work.plain.box_pairs / 10);
+}
+
+// within() proves no gap, but uses the one that distance() found.
+TEST_F(PairCacheSaves, AllBoxesOfWithinAfterADistance) {
+    Workspace workspace;
+    PairCache cache;
+    ASSERT_GT(distance({a.model, b.model, along_x(3.5), {}, &cache}, workspace)->lower, 1);
+    QueryCounts counts;
+    workspace.count_into(&counts);
+    for (const double x : {3.4, 3.1, 2.8, 2.52}) {
+        EXPECT_FALSE(are_near({a.model, b.model, along_x(x), {}, &cache}, workspace));
+    }
+    EXPECT_EQ(counts.box_pairs, 0u);
+    EXPECT_FALSE(are_near({a.model, b.model, along_x(2.52)}, workspace));
+    EXPECT_GT(counts.box_pairs, 0u);
 }
 
 // The last closest pair bounds the search from its start.
@@ -97,7 +124,9 @@ TEST_F(PairCacheSaves, MeasuringFromTheLastClosestPair) {
 
 // By hand: two steps, or twice the last proof if that held; none while one waits.
 TEST(PairCacheMargin, IsTwoStepsOrTwiceTheLastProof) {
-    PairCache cache{.step = 3, .proof = 2};
+    PairCache cache;
+    cache.step = 3;
+    cache.proof = 2;
     EXPECT_EQ(next_margin(cache), 6);
     cache.proof = 5;
     EXPECT_EQ(next_margin(cache), 10);
