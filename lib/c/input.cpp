@@ -51,14 +51,6 @@ int refuse_number(Call& call, const Name& name, Holds holds, double number) noex
                        "is %.17g; it must be %s.", number, allowed);
 }
 
-/// The kinds of fields, in the order in which their errors are reported.
-enum class Phase : std::uint8_t { pointers, words, numbers };
-
-Phase phase_of(Holds holds) noexcept {
-    if (holds == Holds::pointer) return Phase::pointers;
-    return holds <= Holds::reserved ? Phase::words : Phase::numbers;
-}
-
 int check_field(Call& call, const Name& name, const Field& field, const void* given) noexcept {
     switch (field.holds) {
         case Holds::pointer:
@@ -112,11 +104,8 @@ int check_head(Call& call, const Name& name, const InputType& type, const void* 
 }
 
 int check_fields(Call& call, const Name& name, const InputType& type, const void* given) noexcept {
-    for (const Phase phase : {Phase::pointers, Phase::words, Phase::numbers}) {
-        for (const Field& field : type.fields) {
-            if (phase_of(field.holds) != phase) continue;
-            if (const int code = check_field(call, name, field, given)) return code;
-        }
+    for (const Field& field : type.fields) {
+        if (const int code = check_field(call, name, field, given)) return code;
     }
     return CDPREP_OK;
 }

@@ -36,7 +36,7 @@ struct InputType {
     std::uint32_t tag;
     std::uint32_t first_size;  ///< of the first version that had it
     std::uint32_t size;        ///< as this library knows it
-    std::span<const Field> fields;
+    std::span<const Field> fields;  ///< checked in this order: pointers, choices, numbers
 };
 
 /// The greatest size of a struct that is accepted. No version will be larger.

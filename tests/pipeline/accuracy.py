@@ -92,8 +92,8 @@ def check_rung(study, ladder, rung):
 
 def check_json(folder):
     """Every number of the tables can be derived again, and promises hold."""
-    output = folder / "study.json"
-    accuracy(BOLT, BRACKET, "--quick", "--format", "json", "-o", output)
+    output, table = folder / "study.json", folder / "study.csv"
+    accuracy(BOLT, BRACKET, "--quick", "--format", "json", "-o", output, "--save", table)
     study = json.loads(output.read_text())
     check_schema(study)
     must(study["exit"] == 0 and study["broken"] == [], f"broken: {study['broken']}")
@@ -112,7 +112,26 @@ def check_json(folder):
     for rung in study["ladders"][1]["rungs"]:
         holds = rung["distance"]["interval_holds"]
         must(holds["count"] == holds["of"] > 0, f"distance, {rung['name']}: {holds}")
+    check_table(study, list(csv.DictReader(table.read_text().splitlines())))
     return study
+
+
+def check_table(study, rows):
+    """The CSV has the figures of the JSON."""
+    rungs = [rung for ladder in study["ladders"] for rung in ladder["rungs"]]
+    must([row["rung"] for row in rows] == [rung["name"] for rung in rungs], "rungs of the CSV")
+    for row, rung in zip(rows, rungs):
+        figures = {"median_s": rung["time"]["median_s"], "cases": rung["time"]["cases"]}
+        figures |= {name: rung[name] for name in ("bytes", "build_s", "outer", "inner", "error")
+                    if isinstance(rung.get(name), (int, float))}
+        if "answers" in rung:
+            for name in ("misses", "false_hits"):
+                counts = {s: stratum[name]["count"] for s, stratum in rung["strata"].items()}
+                figures |= {f"{s}_{name}": count for s, count in counts.items()}
+                figures[name] = sum(counts.values())
+        for name, value in figures.items():
+            must(math.isclose(float(row[name] or 0), value, rel_tol=1e-8, abs_tol=1e-300),
+                 f"{rung['name']}, {name}: {row[name]} in the CSV, {value} in the JSON")
 
 
 def check_poses(study, folder):

@@ -162,6 +162,14 @@ def check_poses(program, meshes, folder):
                       "--format", "json").stdout)["pairs"][0]["poses"]
     assert {p["stratum"] for p in bare if p["hit"]} == {"deep"}, bare
     assert {p["stratum"] for p in bare if not p["hit"]} == {"touching", "near", "far"}, bare
+
+    # A stratum without poses has no figures.
+    path.write_text("1 0 0 0 1 0 0 0 1 900 0 0\n")
+    apart = parsed(run(program, *models, "--quick", "--tables", "4", "--poses", folder / "poses",
+                       "--format", "json").stdout)
+    assert [pose["hit"] for pose in apart["pairs"][0]["poses"]] == [False], apart["pairs"]
+    rows = {t["table"]: t for t in apart["tables"]}["4.bracket-bolt"]["rows"]
+    assert all("value" not in row["cells"]["collide_deep"] for row in rows), rows
     for text, word in (("1 0 0 0 1 0 0 0 1 0 0\n", "11 numbers"), ("# deep\n", "no pose"),
                        ("2 0 0 0 1 0 0 0 1 0 0 0\n", "line 1"), (None, "bracket-bolt.pose")):
         path.unlink() if text is None else path.write_text(text)

@@ -189,6 +189,7 @@ def reports():
                        f"keep out.{end}"]
         yield [f"repair {model} -o out.off --preset closed --seam 0.01 --weld 0.001"
                " --drop-components 3 --hole-size 3", "keep out.off"]
+        yield [f"repair {model} -o out.off --drop-components 100000 --format json"]
         for options in ("", "--max-vertices 9", "--per component", "--per node"):
             yield [f"hull {model} -o out.obj {options}", "keep out.obj"]
     yield ["explain --format json"]

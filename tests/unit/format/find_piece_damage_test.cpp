@@ -159,6 +159,15 @@ TEST(FindPieceDamage, RefusesTrianglesOfOtherPieces) {
     expect(DamageKind::bad_index, kOwner, [](Arrays& a) { (*a.piece_of)[1] = 2; });
     expect(DamageKind::bad_order, kOwner, [](Arrays& a) { (*a.piece_of)[1] = 0; });
     expect(DamageKind::bad_count, kOwner, [](Arrays& a) { a.piece_of->pop_back(); });
+    // A wrong count is told of the first element.
+    Arrays short_by_one = two_pieces(), wrong = two_pieces();
+    short_by_one.piece_of->pop_back();
+    (*wrong.piece_of)[0] = 2;
+    const auto damage = check(short_by_one), first = check(wrong);
+    ASSERT_TRUE(damage && first);
+    EXPECT_EQ(damage->at, first->at);
+    EXPECT_EQ(damage->found, 1u);
+    EXPECT_EQ(damage->limit, 2u);
 }
 
 TEST(FindPieceDamage, DeepCheckRefusesATriangleInTwoPieces) {

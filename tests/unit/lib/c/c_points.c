@@ -64,6 +64,7 @@ static const char* ask_places(const cdprep_model* cube, cdprep_workspace* scratc
     MUST(closest[0].found == CDPREP_YES && closest[0].lower <= 0.5 && closest[0].upper >= 0.5);
     MUST(closest[1].lower <= 2 && closest[1].upper >= 2 && closest[1].point[0] == 0);
     MUST(closest[2].lower == 0 && closest[2].upper < 1e-12 && closest[2].triangle < 12);
+    MUST(closest[2].point[0] > 0.999 && closest[2].point[1] == 0.5 && closest[2].point[2] == 0.25);
     query.max_distance = 1;
     MUST(cdprep_points_closest(&query, scratch, closest, NULL) == CDPREP_OK);
     MUST(closest[0].found == CDPREP_YES && closest[1].found == CDPREP_NO);
