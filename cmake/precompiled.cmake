@@ -24,8 +24,10 @@ function(cdprep_precompile target)
     endif()
     string(MD5 key "${type} ${ARGN} ${options} ${definitions}")
     get_property(owner GLOBAL PROPERTY CDPREP_PRECOMPILED_${key})
-    # ccache keeps what is compiled with such a file if it sees which one.
-    target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)
+    # ccache keeps what is compiled with such a file if it sees which one. GCC 12 then also warns,
+    # wrongly, of inlined code of the standard library.
+    target_compile_options(${target} PRIVATE "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:\
+-fpch-preprocess;-Wno-array-bounds;-Wno-stringop-overflow>")
     if(owner)
         target_precompile_headers(${target} REUSE_FROM ${owner})
     else()
