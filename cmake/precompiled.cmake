@@ -27,7 +27,7 @@ function(cdprep_precompile target)
     # ccache keeps what is compiled with such a file if it sees which one. GCC 12 then also warns,
     # wrongly, of inlined code of the standard library.
     target_compile_options(${target} PRIVATE "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:\
--fpch-preprocess;-Wno-array-bounds;-Wno-stringop-overflow>")
+-fpch-preprocess;-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>")
     if(owner)
         target_precompile_headers(${target} REUSE_FROM ${owner})
     else()
