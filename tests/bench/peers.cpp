@@ -51,7 +51,7 @@
 #ifdef CDPREP_HAVE_EMBREE
 #include <embree3/rtcore.h>
 
-#include "accuracy/naive_contact.h"
+#include "study/naive_contact.h"
 #endif
 #ifdef CDPREP_HAVE_QHULL
 extern "C" {

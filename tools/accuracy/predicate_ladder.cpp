@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "accuracy/naive_contact.h"
 #include "cdprep/exact/triangles.h"
 #include "cdprep/pairs.h"
+#include "study/naive_contact.h"
 #include "study/seeded_random.h"
 #include "study/source_triangles.h"
 

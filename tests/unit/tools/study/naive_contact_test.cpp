@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "accuracy/naive_contact.h"
+#include "study/naive_contact.h"
 
 #include <gtest/gtest.h>
 
