@@ -14,6 +14,11 @@ namespace {
 constexpr double kUnit = 0x1p-53;
 /// The maximum number of a piece's triangles whose normals are tried as ways out.
 constexpr std::size_t kMostWays = 256;
+/// The maximum number of ways out, the shortest first, that are examined for what lies beyond.
+constexpr std::size_t kMostExits = 16;
+/// The factor by which an exit that does not end at both surfaces must be shorter than one that
+/// does.
+constexpr double kMuchShorter = 2;
 
 /// Returns the vertices that define a nearest point.
 VertexSet vertices_of(const NearestSimplex& simplex, std::uint32_t Difference::*side,
@@ -163,38 +168,102 @@ private:
         Meeting meeting{};
         meeting.a = a_.feature_along(depth.normal, depth.witness_a);
         meeting.b = b_.feature_along(-depth.normal, depth.witness_b);
-        if (leads_inside(a_, meeting.a, depth.normal) ||
-            leads_inside(b_, meeting.b, -depth.normal)) {
-            if (const auto way = shortest_way()) turn(*way, meeting, contact);
-        } else if (const auto upright = upright_normal(meeting, depth.normal)) {
-            turn(*upright, meeting, contact);
-        }
-        return meeting;
+        const bool is_inside = leads_inside(meeting, depth.normal);
+        const auto upright = is_inside ? std::nullopt : upright_normal(meeting, depth.normal);
+        if (!is_inside && !upright) return meeting;
+        const std::optional<Exit> exit = shortest_exit(upright);
+        if (!exit) return meeting;
+        contact.flags |= contact_internal_edge;
+        contact.normal = exit->normal;
+        contact.point_a = exit->point_a;
+        contact.point_b = exit->point_b;
+        contact.lower = std::min(contact.lower, -exit->length);
+        return exit->meeting;
     }
 
-    /// Returns whether a direction leads through a face that no triangle covers: deeper into the
-    /// solid, not out of it.
-    static bool leads_inside(const ContactSide& side, const PieceFeature& feature,
-                             const Double3& direction) noexcept {
-        return side.is_contained() && !side.leads_out(feature, direction);
+    /// Returns whether B leaves A along a direction through a face that no triangle covers: deeper
+    /// into the solid, not out of it.
+    [[nodiscard]] bool leads_inside(const Meeting& meeting,
+                                    const Double3& direction) const noexcept {
+        return (a_.is_contained() && !a_.leads_out(meeting.a, direction)) ||
+               (b_.is_contained() && !b_.leads_out(meeting.b, -direction));
+    }
+    /// Returns whether B leaves A along a direction by the end of a plane that continues.
+    [[nodiscard]] bool leaves_along_plane(const Meeting& meeting,
+                                          const Double3& direction) const noexcept {
+        return a_.leans_over_flat_edge(meeting.a, direction) ||
+               b_.leans_over_flat_edge(meeting.b, -direction);
+    }
+    /// Returns whether B leaves A along a direction where both surfaces end.
+    [[nodiscard]] bool exits_at_surface(const Meeting& meeting,
+                                        const Double3& direction) const noexcept {
+        return !leads_inside(meeting, direction) && !a_.upright(meeting.a, direction) &&
+               !b_.upright(meeting.b, -direction);
     }
 
-    /// Returns the unit normal of a triangle of either piece with the shortest way out along it.
-    [[nodiscard]] std::optional<Double3> shortest_way() const noexcept {
-        std::optional<Double3> best;
-        double least = std::numeric_limits<double>::infinity();
-        const auto try_all = [&](const ContactSide& side, double sign) {
-            const std::size_t count = std::min(side.triangles().size(), kMostWays);
-            for (const std::uint32_t t : side.triangles().first(count)) {
-                const Double3 normal = sign * side.normal_of(t);
-                if (!(dot(normal, normal) > 0)) continue;
-                const double way = about_way_out(normal);
-                if (way < least) least = way, best = normal;
-            }
+    /// A way in which B leaves A.
+    struct Exit {
+        Double3 normal;
+        double length;  ///< an upper bound, rounding included
+        Double3 point_a;
+        Double3 point_b;
+        Meeting meeting;
+    };
+
+    /// Returns the shortest exit along the normal of a triangle of either piece. If a direction
+    /// leaned over an edge, `upright` is that direction without the lean. Then exits along a plane
+    /// do not count, `upright` does, and one that ends at both surfaces is preferred unless another
+    /// is shorter by kMuchShorter.
+    [[nodiscard]] std::optional<Exit> shortest_exit(
+        const std::optional<Double3>& upright) const noexcept {
+        std::array<Way, 2 * kMostWays + 1> ways;
+        std::size_t count = 0;
+        const auto add = [&](const Double3& normal) {
+            if (!(dot(normal, normal) > 0)) return;
+            ways[count] = {about_way_out(normal), count, normal};
+            ++count;
         };
-        try_all(a_, 1);
-        try_all(b_, -1);
-        return best;
+        if (upright) add(*upright);
+        for (const std::uint32_t t : first_triangles(a_)) add(a_.normal_of(t));
+        for (const std::uint32_t t : first_triangles(b_)) add(-b_.normal_of(t));
+        if (count == 0) return std::nullopt;
+        std::sort(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(count),
+                  [](const Way& x, const Way& y) {
+                      return x.length != y.length ? x.length < y.length : x.number < y.number;
+                  });
+        if (!upright) return exit_along(ways[0].normal);
+        std::optional<Exit> shortest;
+        for (std::size_t i = 0; i < std::min(count, kMostExits); ++i) {
+            if (shortest && ways[i].length > kMuchShorter * shortest->length) break;
+            const Exit exit = exit_along(ways[i].normal);
+            if (ways[i].number != 0 && leaves_along_plane(exit.meeting, exit.normal)) continue;
+            if (exits_at_surface(exit.meeting, exit.normal)) return exit;
+            if (!shortest) shortest = exit;
+        }
+        return shortest ? shortest : exit_along(*upright);
+    }
+    struct Way {
+        double length;
+        std::size_t number;
+        Double3 normal;
+    };
+    static std::span<const std::uint32_t> first_triangles(const ContactSide& side) noexcept {
+        return side.triangles().first(std::min(side.triangles().size(), kMostWays));
+    }
+
+    /// Returns the exit along a unit direction. Its points are the farthest point of the piece
+    /// without a face there, and its foot on the other piece.
+    [[nodiscard]] Exit exit_along(const Double3& normal) const noexcept {
+        const WayOut way = way_out(normal);
+        Exit exit = {normal, way.length, way.on_a, way.on_b, {}};
+        exit.meeting.a = a_.feature_along(normal, way.on_b);
+        if (exit.meeting.a.kind == FeatureKind::face) {
+            exit.point_a = way.on_b + dot(normal, way.on_a - way.on_b) * normal;
+        } else {
+            exit.point_b = way.on_a + dot(normal, way.on_b - way.on_a) * normal;
+        }
+        exit.meeting.b = b_.feature_along(-normal, exit.point_b);
+        return exit;
     }
 
     /// The distance that B must move along a unit direction to be out of A: an upper bound,
@@ -218,22 +287,6 @@ private:
         const double sum = std::max(0.0, of_a.bound + of_b.bound);
         const double shortest = std::sqrt(dot(direction, direction)) * (1 - 4 * kUnit);
         return {sum / shortest * (1 + 4 * kUnit), a.point(of_a.number), b.point(of_b.number)};
-    }
-
-    /// Sets another normal and the points that meet along it. These are the farthest point of the
-    /// piece without a face there, and its foot on the other piece.
-    void turn(const Double3& normal, Meeting& meeting, Contact& contact) const noexcept {
-        const WayOut way = way_out(normal);
-        contact.flags |= contact_internal_edge;
-        contact.normal = normal;
-        contact.lower = std::min(contact.lower, -way.length);
-        meeting.a = a_.feature_along(normal, way.on_b);
-        const bool a_has_face = meeting.a.kind == FeatureKind::face;
-        contact.point_a =
-            a_has_face ? way.on_b + dot(normal, way.on_a - way.on_b) * normal : way.on_a;
-        contact.point_b =
-            a_has_face ? way.on_b : way.on_a + dot(normal, way.on_b - way.on_a) * normal;
-        meeting.b = b_.feature_along(-normal, contact.point_b);
     }
 
     const ContactSide& a_;

@@ -194,8 +194,8 @@ bool ContactSide::is_inner(std::uint32_t triangle, unsigned edge) const noexcept
 }
 
 std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feature,
-                                                        const Double3& direction,
-                                                        double least) const noexcept {
+                                                        const Double3& direction, double least,
+                                                        Over over) const noexcept {
     std::optional<Lean> most;
     each_around(feature, [&](std::uint32_t t, unsigned edges) {
         const std::uint8_t bits = model_->model->mesh().edge_convexity[t];
@@ -206,7 +206,8 @@ std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feat
         const EdgeConvexity inward = from_front ? EdgeConvexity::reflex : EdgeConvexity::convex;
         for (unsigned k = 0; k < 3; ++k) {
             const EdgeConvexity edge = format::edge_convexity(bits, k);
-            const bool goes_on = edge == EdgeConvexity::flat || edge == inward;
+            const bool goes_on =
+                edge == EdgeConvexity::flat || (edge == inward && over == Over::flat_or_reflex);
             if ((edges >> k & 1) == 0 || !goes_on) continue;
             const Double3 outward = cross(unit(at[(k + 1) % 3] - at[k]), front);
             const double by = dot(outward, direction);
@@ -221,17 +222,23 @@ std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feat
 std::optional<Double3> ContactSide::upright(const PieceFeature& feature,
                                             const Double3& direction) const noexcept {
     if (feature.kind == FeatureKind::face) return std::nullopt;
-    const auto first = find_lean(feature, direction, 0);
+    const auto first = find_lean(feature, direction, 0, Over::flat_or_reflex);
     if (!first) return std::nullopt;
     if (feature.kind == FeatureKind::edge) return first->face;
     // Removes the lean over one edge. If the result leans over another edge, takes the direction
     // that is upright on both.
     const Double3 turned = unit(direction - first->by * first->outward);
-    const auto second = find_lean(feature, turned, kNoLean);
+    const auto second = find_lean(feature, turned, kNoLean, Over::flat_or_reflex);
     if (!second) return turned;
     const Double3 both = cross(first->outward, second->outward);
     if (!(dot(both, both) > kNoLean)) return first->face;
     return dot(both, first->face) < 0 ? unit(-both) : unit(both);
+}
+
+bool ContactSide::leans_over_flat_edge(const PieceFeature& feature,
+                                       const Double3& direction) const noexcept {
+    return feature.kind != FeatureKind::face &&
+           find_lean(feature, direction, kNoLean, Over::flat).has_value();
 }
 
 ContactFeature ContactSide::in_source(const PieceFeature& feature) const noexcept {

@@ -113,6 +113,11 @@ public:
     [[nodiscard]] std::optional<Double3> upright(const PieceFeature& feature,
                                                  const Double3& direction) const noexcept;
 
+    /// Returns whether a unit direction at a feature leans over an edge where the surface continues
+    /// in the same plane.
+    [[nodiscard]] bool leans_over_flat_edge(const PieceFeature& feature,
+                                            const Double3& direction) const noexcept;
+
     /// Returns the feature with source numbers.
     [[nodiscard]] ContactFeature in_source(const PieceFeature& feature) const noexcept;
 
@@ -141,11 +146,13 @@ private:
         Double3 outward;
         Double3 face;
     };
+    /// The edges over which a surface continues.
+    enum class Over : std::uint8_t { flat, flat_or_reflex };
     /// Returns the greatest lean above `least` over the edges at a feature where the surface
     /// continues.
     [[nodiscard]] std::optional<Lean> find_lean(const PieceFeature& feature,
-                                                const Double3& direction,
-                                                double least) const noexcept;
+                                                const Double3& direction, double least,
+                                                Over over) const noexcept;
     [[nodiscard]] bool is_inner(std::uint32_t triangle, unsigned edge) const noexcept;
 
     const MovedModel* model_;

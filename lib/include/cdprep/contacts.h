@@ -34,8 +34,8 @@ enum ContactFlags : std::uint32_t {
     /// shortest translation that separates the hulls.
     contact_overlap = 1,
     /// The direction between the nearest points, or the shortest separating translation, would lean
-    /// over a flat or reflex edge, where the surface continues. The normal is that of the face
-    /// instead.
+    /// over a flat or reflex edge, where the surface continues, or lead through a part of the hull
+    /// that no triangle covers. The normal is that of a face instead.
     contact_internal_edge = 2,
     /// The pieces do not overlap, but one lies behind the other's triangles, inside the solid.
     /// Ignore this contact in a solver; other piece pairs give the separating direction.
@@ -90,8 +90,11 @@ struct ContactOptions {
 /// within the tolerance. The deepest point is first, then those that span the largest area.
 ///
 /// Normals do not catch on edges inside a surface. At a flat or reflex edge, or a vertex between
-/// two such edges, the normal is that of the face (contact_internal_edge). Inside a solid, the
-/// inner side of a wall may be near (contact_from_behind); such a contact should not push.
+/// two such edges, the normal is that of the face (contact_internal_edge). Of overlapping pieces it
+/// is the face, of either piece, with the shortest way out. The way ends at both surfaces, unless
+/// another is less than half as long. So a tilted face never asks for a way across a large box.
+/// Inside a solid, the inner side of a wall may be near (contact_from_behind); such a contact should
+/// not push.
 ///
 /// The answer is the same on every processor. A piece inside another's hull makes no contact if it
 /// is farther than the tolerance from the other's triangles. collide() with Body::solid detects it.

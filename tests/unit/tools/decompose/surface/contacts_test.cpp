@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -383,6 +384,47 @@ TEST(Contacts, AFloorPushesATiltedBoxUp) {
     EXPECT_GT(seen, 400U);
     EXPECT_GT(corrected, seen / 10);
     EXPECT_LT(corrected, seen * 9 / 10);
+}
+
+/// A ball of 1,280 triangles whose vertices are up to 4 % nearer to its middle, at random.
+TestMesh rough_ball(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> share(0.96, 1);
+    TestMesh ball = icosphere(3);
+    for (Double3& p : ball.positions) {
+        const double factor = share(random);
+        p = {factor * p.x, factor * p.y, factor * p.z};
+    }
+    return ball;
+}
+
+// By construction: a rough ball that sinks into a box forty times its size is pushed up by no more
+// than it sank in, wherever the normals of its small faces point.
+TEST(Contacts, ALargeBoxPushesARoughBallUp) {
+    TestMesh wide = unit_cube();
+    for (Double3& p : wide.positions) p = {40 * p.x - 20, 40 * p.y - 20, p.z - 1};
+    const OpenModel box = open_with_pieces(wide);
+    std::size_t seen = 0, corrected = 0;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        const TestMesh mesh = rough_ball(seed);
+        const OpenModel ball = open_with_pieces(mesh);
+        double lowest = 0;
+        for (const Double3& p : mesh.positions) lowest = std::min(lowest, p.z);
+        for (const double depth : {0.001, 0.01, 0.1}) {
+            const Double3 at = {1.5 + seed, 0.75, -lowest - depth};
+            for (const Contact& contact : all_contacts(box, ball, shifted(at), 0)) {
+                SCOPED_TRACE(contact.piece_b);
+                EXPECT_GT(contact.normal.z, 0.8);
+                EXPECT_GE(contact.lower, -depth * (1 + 1e-9));
+                ASSERT_GE(contact.point_count, 1U);
+                EXPECT_GE(contact.points[0].distance, -depth * (1 + 1e-9));
+                corrected += (contact.flags & contact_internal_edge) != 0 ? 1 : 0;
+                ++seen;
+            }
+        }
+    }
+    EXPECT_GT(seen, 100U);
+    EXPECT_GT(corrected, seen / 4);
 }
 
 // By hand: a box slides over the top of an L and on along the outside of its arms, across the edges
