@@ -87,6 +87,16 @@ def mends_bad_numbers(program, folder, good):
     must(found(program, folder / "nan.cdp.h5")["triangles"] == 8, "four triangles use that vertex")
 
 
+def keeps_numbers_of_vertices(program, folder, good):
+    (folder / "first.off").write_text(good.read_text().replace("\n0 0 0\n", "\nnan 0 0\n", 1))
+    bake(program, folder / "first.off", "-o", folder / "first.cdp.h5", "--repair", "safe")
+    with h5py.File(folder / "first.cdp.h5") as file:
+        sources = [VERTICES[i] for i in file["cdprep/source_vertex"]]
+        corners = [" ".join(str(int(x)) for x in p) for p in file["cdprep/positions_f64"]]
+        must(sources == corners and len(corners) == 7,
+             f"vertices come from {sources} and lie at {corners}")
+
+
 def main():
     program = sys.argv[1]
     scratch = tempfile.TemporaryDirectory()
@@ -96,6 +106,7 @@ def main():
     says_what_it_is(program, folder, good)
     mends(program, folder)
     mends_bad_numbers(program, folder, good)
+    keeps_numbers_of_vertices(program, folder, good)
 
 
 main()

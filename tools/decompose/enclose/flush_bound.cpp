@@ -40,7 +40,6 @@ public:
             Plane plane = plane_of(hull.points[f[0]], hull.points[f[1]], hull.points[f[2]]);
             // A thin facet has an arbitrary direction: the offset puts the hull behind its plane
             // anyway.
-            plane.offset = -kInfinity;
             for (const Double3& p : hull.points) {
                 plane.offset = std::max(plane.offset, mesh::dot(plane.normal, p));
             }

@@ -44,6 +44,20 @@ TEST(BoundingShapes, OfAUnitCubeAreKnown) {
     EXPECT_FALSE(may_touch(sphere, sphere, shifted(1.75)));
 }
 
+// By hand: the smallest sphere around a right triangle has its longest side as diameter, and that
+// around a corner of a cube goes through three of its points. Boxes have other middles.
+TEST(BoundingShapes, SpheresComeNearTheSmallest) {
+    const BoundingSphere triangle =
+        bounding_sphere(test::mesh_of({{{0, 0, 0}, {4, 0, 0}, {0.5, 1, 0}}, {{{0, 1, 2}}}}));
+    EXPECT_GE(triangle.radius, 2);
+    EXPECT_LE(triangle.radius, 2 * 1.005);
+    const double corner = std::sqrt(2.0 / 3);
+    const BoundingSphere tip = bounding_sphere(
+        test::mesh_of({{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}, {{{0, 1, 2}}, {{0, 1, 3}}}}));
+    EXPECT_GE(tip.radius, corner);
+    EXPECT_LE(tip.radius, corner * 1.005);
+}
+
 // By hand: cubes turned by 45 degrees, an edge towards an edge across: boxes along their own
 // axes part them where the boxes around them meet.
 TEST(BoundingShapes, OrientedBoxesTellTurnedCubesApart) {

@@ -75,6 +75,26 @@ TEST(GrowingHull, IsTheHullOfItsPoints) {
     }
 }
 
+// A hull that has been another before forgets all of it.
+TEST(GrowingHull, AdoptsAHullAndGrowsOn) {
+    Points points(31, 1000);
+    GrowingHull hull;
+    for (int round = 0; round < 60; ++round) {
+        const std::vector<Double3> others = points.distinct(20);
+        ASSERT_TRUE(hull.build(others));
+        const ConvexHull known = convex_hull(points.distinct(6));
+        if (known.dimension != 3) continue;
+        hull.adopt(known.points, known.facets);
+        std::vector<Double3> all = known.points;
+        expect_hull_of(hull, all);
+        for (int i = 0; i < 4; ++i) {
+            all.push_back(points.one());
+            hull.add(all.back());
+            expect_hull_of(hull, all);
+        }
+    }
+}
+
 // The oracle clips the triangle with every facet's plane in exact rationals.
 TEST(GrowingHull, SaysWhetherATriangleHasAPointInside) {
     for (const int grid : {2, 3, 1000}) {
