@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// A study of fixed numbers, and the hashes of all that is written about it. A change of a report
+// that is meant changes the hash: read the text that the failure prints, and record the new one.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <regex>
+#include <string>
+
+#include "accuracy/accuracy_chart.h"
+#include "accuracy/accuracy_report.h"
+
+namespace cdprep::study {
+namespace {
+
+/// The text with at most eight digits of each number: the last ones are the C library's.
+std::string rounded(const std::string& text) {
+    static const std::regex number(R"(\d+\.\d+(e[-+]?\d+)?)");
+    std::string result;
+    auto end = text.begin();
+    for (std::sregex_iterator at(text.begin(), text.end(), number), none; at != none; ++at) {
+        std::array<char, 32> digits;
+        std::snprintf(digits.data(), digits.size(), "%.8g", std::stod(at->str()));
+        result.append(end, (*at)[0].first);
+        result += digits.data();
+        end = (*at)[0].second;
+    }
+    return result.append(end, text.end());
+}
+
+/// FNV-1a.
+std::uint64_t hash_of(const std::string& text) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const char letter : rounded(text)) {
+        hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3;
+    }
+    return hash;
+}
+
+constexpr std::size_t kPoses = 10;
+
+Timing time_of(double median) {
+    return {.median_s = median,
+            .p95_s = 1.5 * median,
+            .p999_s = 2.25 * median,
+            .spread_s = 0.125 * median,
+            .low_s = 0.9 * median,
+            .high_s = 1.2 * median,
+            .cases = kPoses,
+            .rounds = 5,
+            .asked = 700};
+}
+
+PoseSet poses() {
+    PoseSet set;
+    set.seed = 11;
+    set.diagonal = 2.5;
+    for (std::size_t i = 0; i < kPoses; ++i) {
+        StudyPose pose;
+        const double x = 0.25 * static_cast<double>(i);
+        pose.quaternion = {0.5, 0.5, 0.5, -0.5};
+        pose.a_from_b = Pose::from_quaternion(0.5, 0.5, 0.5, -0.5, {x, 1, -2}).value();
+        pose.stratum = static_cast<Stratum>(i / 2);
+        pose.hit = i < 5;
+        pose.solid = i < 5 ? Answer::yes : (i == 9 ? Answer::unknown : Answer::no);
+        pose.gap_lower = pose.hit ? 0 : 0.5 * x;
+        pose.gap_upper = pose.hit ? 0 : 0.75 * x;
+        pose.depth = pose.hit ? 0.125 : 0;
+        pose.is_rigid = i != 4;
+        set.poses.push_back(pose);
+    }
+    set.missing = {0, 1, 0, 0, 2};
+    return set;
+}
+
+/// A rung with every figure that rungs of geometry can have.
+Rung shape(const PoseSet& set, double median, std::size_t wrong, Broken& broken) {
+    Rung rung;
+    rung.name = std::to_string(wrong) + " wrong";
+    rung.how = "calls the first " + std::to_string(wrong) + " poses apart that touch, or a hit";
+    rung.promise = wrong == 0 ? Promise::exact : Promise::none;
+    rung.time = time_of(median);
+    for (std::size_t i = 0; i < kPoses; ++i) {
+        rung.seconds.push_back(median * (1 + 0.1 * static_cast<double>(i)));
+        const bool is_wrong = i % 5 < wrong;
+        rung.answers.push_back(set.poses[i].hit != is_wrong ? Answer::yes : Answer::no);
+    }
+    judge_answers("geometry", set, rung, broken);
+    for (std::size_t i = 0; i < kStrata; ++i) {
+        rung.strata[i].median_s = median * (2 - 0.3 * static_cast<double>(i));
+    }
+    rung.build_s = 3e-3 * static_cast<double>(wrong + 1);
+    rung.bytes = 12'345 * (wrong + 1);
+    rung.touched = 1234.5 * static_cast<double>(wrong + 1);
+    rung.outer = 0.0625 * static_cast<double>(wrong);
+    rung.inner = 0.03125 * static_cast<double>(wrong);
+    return rung;
+}
+
+Rung estimate(const std::string& name, double median, double error) {
+    Rung rung;
+    rung.name = name;
+    rung.how = "within " + name;
+    rung.promise = Promise::interval;
+    rung.time = time_of(median);
+    rung.seconds.assign(kPoses, median);
+    rung.distance = {error / 2, error, error / 4, clopper_pearson(10, kPoses)};
+    rung.error = error;
+    rung.worst_pose = 7;
+    rung.worst = "0.5 for 0.25";
+    return rung;
+}
+
+Rung stored(const std::string& name, double median, std::size_t found) {
+    Rung rung;
+    rung.name = name;
+    rung.how = "positions rounded";
+    rung.question = "all pairs";
+    rung.time = time_of(median);
+    rung.seconds.assign(kPoses, median);
+    for (std::size_t i = 0; i < kPoses; ++i) rung.pair_counts.push_back({100, found, found - 1});
+    rung.pairs = pair_errors(rung.pair_counts);
+    keep_error(rung.pairs->wrong, rung);
+    rung.displacement = 1.5e-6;
+    rung.degenerate = 3;
+    return rung;
+}
+
+/// Every kind of ladder, sentences about what is left out, and a promise that broke.
+report::AccuracyReport fixed_report() {
+    report::AccuracyReport report;
+    report.input = "a.obj";
+    report.input_b = "b & c.obj";
+    report.version = "1.2.3";
+    AccuracyStudy& study = report.study;
+    study.machine = {"A processor",  8,         16ULL << 30, 32ULL << 20, "System 1",
+                     "A compiler 2", "Release", "scalar"};
+    study.a = {1000, 502, 2.5, true, true};
+    study.b = {20'000, 10'002, 40, false, false};
+    study.timing.rounds = 5;
+    study.set = poses();
+    study.rigid = 9;
+    study.self = {1.001, 0.98, 1.02};
+    study.seconds = 12.5;
+    Ladder geometry = {"geometry", "Do the models touch",    "the share of wrong answers", "pose",
+                       {},         {"Sheets are not boxed."}};
+    for (const std::size_t wrong : {5, 3, 4, 1, 0}) {
+        const double median = wrong == 3 ? 6.5e-6 : 1e-6 * static_cast<double>(7 - wrong);
+        geometry.rungs.push_back(shape(study.set, median, wrong, study.broken));
+    }
+    Ladder distance = {"distance",
+                       "How far apart are they",
+                       "the worst relative error",
+                       "pose",
+                       {estimate("0.1", 2e-6, 0.08), estimate("0.01", 3e-6, 0.009),
+                        estimate("1e-6", 5e-6, 4e-7), estimate("0", 7e-6, 0)},
+                       {}};
+    Ladder storage = {"storage",
+                      "Which triangles overlap",
+                      "the share of wrong pairs",
+                      "pose",
+                      {stored("16 bits", 4e-5, 90), stored("float", 5e-5, 99)},
+                      {}};
+    Ladder coherence = {"coherence",
+                        "Do they still touch",
+                        "the share of wrong answers",
+                        "frame",
+                        {estimate("cold", 6e-4, 0), estimate("warm", 2e-5, 0)},
+                        {}};
+    study.ladders = {geometry, distance, storage, coherence};
+    study.broken.emplace_back("geometry, 0 wrong: deep 1 (pose 0) is called apart");
+    report.exit = 6;
+    return report;
+}
+
+TEST(RecordedReport, TextJsonAndTablesAreAsRecorded) {
+    const report::AccuracyReport report = fixed_report();
+    const std::string text = report::accuracy_text(report);
+    EXPECT_EQ(hash_of(text), 0x3e15ade020b411ab) << text;
+    const std::string json = report::accuracy_json(report);
+    EXPECT_EQ(hash_of(json), 0xad75022a5a3840ad) << json;
+    const std::string csv = report::accuracy_csv(report);
+    EXPECT_EQ(hash_of(csv), 0xce69acafa5099cb2) << csv;
+    const std::string data = report::accuracy_page_data(report);
+    EXPECT_EQ(hash_of(data), 0x25debe9e70b0fb37) << data;
+}
+
+TEST(RecordedReport, ChartsAreAsRecorded) {
+    const std::string svg = report::accuracy_svg(fixed_report());
+    EXPECT_EQ(hash_of(svg), 0xd29791e77cd45291) << svg;
+}
+
+}  // namespace
+}  // namespace cdprep::study
