@@ -1,42 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A study of fixed numbers, and the hashes of all that is written about it. A change of a report
-// that is meant changes the hash: read the text that the failure prints, and record the new one.
+// A study of fixed numbers, and the hashes of all that is written about it.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
-#include <regex>
 #include <string>
 
 #include "accuracy/accuracy_chart.h"
 #include "accuracy/accuracy_report.h"
+#include "unit/tools/recorded_text.h"
 
 namespace cdprep::study {
 namespace {
-
-/// The text with at most eight digits of each number: the last ones are the C library's.
-std::string rounded(const std::string& text) {
-    static const std::regex number(R"(\d+\.\d+(e[-+]?\d+)?)");
-    std::string result;
-    auto end = text.begin();
-    for (std::sregex_iterator at(text.begin(), text.end(), number), none; at != none; ++at) {
-        std::array<char, 32> digits;
-        std::snprintf(digits.data(), digits.size(), "%.8g", std::stod(at->str()));
-        result.append(end, (*at)[0].first);
-        result += digits.data();
-        end = (*at)[0].second;
-    }
-    return result.append(end, text.end());
-}
-
-/// FNV-1a.
-std::uint64_t hash_of(const std::string& text) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (const char letter : rounded(text)) {
-        hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3;
-    }
-    return hash;
-}
 
 constexpr std::size_t kPoses = 10;
 
@@ -177,18 +150,18 @@ report::AccuracyReport fixed_report() {
 TEST(RecordedReport, TextJsonAndTablesAreAsRecorded) {
     const report::AccuracyReport report = fixed_report();
     const std::string text = report::accuracy_text(report);
-    EXPECT_EQ(hash_of(text), 0x3e15ade020b411ab) << text;
+    EXPECT_EQ(test::hash_of_text(text), 0x3e15ade020b411ab) << text;
     const std::string json = report::accuracy_json(report);
-    EXPECT_EQ(hash_of(json), 0xad75022a5a3840ad) << json;
+    EXPECT_EQ(test::hash_of_text(json), 0xad75022a5a3840ad) << json;
     const std::string csv = report::accuracy_csv(report);
-    EXPECT_EQ(hash_of(csv), 0xce69acafa5099cb2) << csv;
+    EXPECT_EQ(test::hash_of_text(csv), 0xce69acafa5099cb2) << csv;
     const std::string data = report::accuracy_page_data(report);
-    EXPECT_EQ(hash_of(data), 0x25debe9e70b0fb37) << data;
+    EXPECT_EQ(test::hash_of_text(data), 0x25debe9e70b0fb37) << data;
 }
 
 TEST(RecordedReport, ChartsAreAsRecorded) {
     const std::string svg = report::accuracy_svg(fixed_report());
-    EXPECT_EQ(hash_of(svg), 0xd29791e77cd45291) << svg;
+    EXPECT_EQ(test::hash_of_text(svg), 0xd29791e77cd45291) << svg;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "compare/comparison_page.h"
 #include "study/cells.h"
+#include "unit/tools/recorded_text.h"
 
 namespace cdprep::report {
 namespace {
@@ -136,6 +137,20 @@ TEST(ComparisonPage, DrawsWhatPairsTake) {
     EXPECT_NE(page.find("<svg"), std::string::npos);
     EXPECT_NE(page.find("collide: 1.50 us</title>"), std::string::npos);
     EXPECT_NE(page.find("collide in the paper: 250 ms</title>"), std::string::npos);
+    const std::size_t begin = page.find("<svg"), end = page.rfind("</svg>");
+    const std::string chart = page.substr(begin, end - begin);
+    EXPECT_EQ(test::hash_of_text(chart), 0xb61408baf94e8ee4) << chart;
+}
+
+TEST(RecordedComparison, TextJsonTableAndPageAreAsRecorded) {
+    const study::Comparison comparison = small_comparison();
+    const std::string text = comparison_text(comparison);
+    EXPECT_EQ(test::hash_of_text(text), 0x9f37ff0d4227076e) << text;
+    const std::string json =
+        comparison_json({.input = "", .exit = 0, .error = "", .comparison = comparison});
+    EXPECT_EQ(test::hash_of_text(json), 0xd6633df60bb03210) << json;
+    const std::string csv = comparison_csv(comparison);
+    EXPECT_EQ(test::hash_of_text(csv), 0x2a2090abb2780271) << csv;
 }
 
 }  // namespace
