@@ -34,8 +34,8 @@ struct Field {
 struct InputType {
     const char* name;
     std::uint32_t tag;
-    std::uint32_t first_size;  ///< of the first version that had it
-    std::uint32_t size;        ///< as this library knows it
+    std::uint32_t first_size;       ///< of the first version that had it
+    std::uint32_t size;             ///< as this library knows it
     std::span<const Field> fields;  ///< checked in this order: pointers, choices, numbers
 };
 
