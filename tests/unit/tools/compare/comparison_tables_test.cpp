@@ -13,6 +13,7 @@
 #include "compare/peer_tables.h"
 #include "compare/preparation.h"
 #include "compare/pruning.h"
+#include "compare/strategy.h"
 #include "support/meshes.h"
 #include "unit/tools/soup_of.h"
 
@@ -138,6 +139,20 @@ TEST(PairTables, AreCompleteAndEveryExactStrategyAgrees) {
     EXPECT_GT(collide.box_pairs, 0U);
     EXPECT_EQ(collide.cell_pairs, 0U);
     EXPECT_GT(overlap.triangle_pairs, collide.triangle_pairs);  // it does not end at the first
+}
+
+TEST(StrategyPair, OfHullsNeedsThatOfBothModels) {
+    const StudyMesh ball = study_mesh("ball", test::icosphere(1));
+    const ModelForms whole = make_model_forms(ball, serial_for).value();
+    ModelForms bare = make_model_forms(ball, serial_for).value();
+    bare.plain = make_memory_model(ball.mesh, {}).value();
+    const auto of_hulls = std::ranges::find(strategies(), true, &Strategy::of_hulls);
+    ASSERT_NE(of_hulls, strategies().end());
+    EXPECT_EQ(StrategyPair(*of_hulls, whole, whole).find_reason(Asked::collide), "");
+    EXPECT_EQ(StrategyPair(*of_hulls, whole, bare).find_reason(Asked::collide),
+              "a model has no hull");
+    EXPECT_EQ(StrategyPair(*of_hulls, bare, whole).find_reason(Asked::collide),
+              "a model has no hull");
 }
 
 TEST(PairChecks, OneWrongAnswerBreaksThePromise) {

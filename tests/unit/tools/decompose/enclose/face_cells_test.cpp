@@ -72,6 +72,18 @@ TEST(FaceCells, OfAnLPrismAreThreeCubesHoweverItIsTurned) {
     }
 }
 
+// A Z of four cubes: one plane has a face of the solid above it, and another below.
+TEST(FaceCells, OfAZPrismAreFourCubes) {
+    const auto cells = cells_of(
+        mesh_of(test::prism({{1, 0}, {3, 0}, {3, 1}, {2, 1}, {2, 2}, {0, 2}, {0, 1}, {1, 1}},
+                            {{0, 1, 2}, {0, 2, 3}, {0, 3, 7}, {3, 4, 5}, {3, 5, 7}, {5, 6, 7}})));
+    ASSERT_TRUE(cells);
+    ASSERT_EQ(cells->cells.size(), 4u);
+    for (const SolidCell& cell : cells->cells) {
+        EXPECT_NEAR(volume_of(hull_of(*cells, cell)), 1, 1e-9);
+    }
+}
+
 // Points of a grid that hits faces, edges and cuts, of the solid as it is stored.
 TEST(FaceCells, LeaveNoCracks) {
     const auto cells = cells_of(l_prism(0));
