@@ -16,8 +16,7 @@ constexpr double kUnit = 0x1p-53;
 constexpr std::size_t kMostWays = 256;
 /// The maximum number of ways out, the shortest first, that are examined for what lies beyond.
 constexpr std::size_t kMostExits = 16;
-/// The factor by which an exit that does not end at both surfaces must be shorter than one that
-/// does.
+/// How many times shorter an exit must be to be preferred to one that ends at both surfaces.
 constexpr double kMuchShorter = 2;
 
 /// Returns the vertices that define a nearest point.
@@ -211,9 +210,9 @@ private:
     };
 
     /// Returns the shortest exit along the normal of a triangle of either piece. If a direction
-    /// leaned over an edge, `upright` is that direction without the lean. Then exits along a plane
-    /// do not count, `upright` does, and one that ends at both surfaces is preferred unless another
-    /// is shorter by kMuchShorter.
+    /// leaned over an edge, `upright` is that direction without the lean. Then `upright` counts as
+    /// well, and exits along a plane do not. An exit that ends at both surfaces is preferred,
+    /// unless another is shorter by kMuchShorter.
     [[nodiscard]] std::optional<Exit> shortest_exit(
         const std::optional<Double3>& upright) const noexcept {
         std::array<Way, 2 * kMostWays + 1> ways;

@@ -163,7 +163,8 @@ def main():
         commands.check("hull", "cone.ply", "-o", "out.obj", "--max-vertices", "64")
         commands.check("decompose", "sheet.ply", "-o", "out.obj")
         commands.check("decompose", "sheet.ply", "-o", "out.obj", "--max-error", "1")
-        commands.check("bake", "sheet.ply", "-o", "out.h5", "--structures", "hull", "--max-error", "1")
+        commands.check("bake", "sheet.ply", "-o", "out.h5", "--structures", "hull",
+                       "--max-error", "1")
         commands.check("info", "--deep", "sheet.cdp.h5")
         commands.check("reindex", "sheet.cdp.h5")
         commands.check("query", "overlap", "sheet.cdp.h5", "sheet.cdp.h5", "--count")

@@ -90,11 +90,10 @@ struct ContactOptions {
 /// within the tolerance. The deepest point is first, then those that span the largest area.
 ///
 /// Normals do not catch on edges inside a surface. At a flat or reflex edge, or a vertex between
-/// two such edges, the normal is that of the face (contact_internal_edge). Of overlapping pieces it
-/// is the face, of either piece, with the shortest way out. The way ends at both surfaces, unless
-/// another is less than half as long. So a tilted face never asks for a way across a large box.
-/// Inside a solid, the inner side of a wall may be near (contact_from_behind); such a contact should
-/// not push.
+/// two such edges, the normal is that of a face (contact_internal_edge). If pieces overlap, the
+/// shortest way out decides, along a face of either piece. A way that ends at both surfaces is
+/// preferred, unless another is less than half as long. Inside a solid, the inner side of a wall
+/// may be near (contact_from_behind); such a contact should not push.
 ///
 /// The answer is the same on every processor. A piece inside another's hull makes no contact if it
 /// is farther than the tolerance from the other's triangles. collide() with Body::solid detects it.
