@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <tuple>
 
 #include "c/c_pairs.h"
 #include "cdprep/contacts.h"
 #include "cdprep/format/float_environment.h"
+#include "pieces/list_contacts.h"
 
 namespace cdprep::c {
 
@@ -18,7 +18,7 @@ struct Input<cdprep_contact_options> {
         options.most = kDefaultMost;
         return options;
     }
-    static constexpr std::uint32_t kDefaultMost = 256;
+    static constexpr std::uint32_t kDefaultMost = kMostListedContacts;
 };
 
 namespace {
@@ -36,6 +36,7 @@ static_assert(sizeof(cdprep_contact::points) / sizeof(cdprep_contact_point) == k
 constexpr std::array kFields = {
     Field{"manifold", offsetof(cdprep_contact_options, manifold), Holds::choice, kManifold},
     Field{"tolerance", offsetof(cdprep_contact_options, tolerance), Holds::length},
+    Field{"cluster_angle", offsetof(cdprep_contact_options, cluster_angle), Holds::length},
 };
 
 cdprep_feature in_c(const ContactFeature& feature) noexcept {
@@ -50,6 +51,8 @@ cdprep_contact in_c(const Contact& contact) noexcept {
     cdprep_contact to{};
     to.piece_a = contact.piece_a;
     to.piece_b = contact.piece_b;
+    to.id = contact.id;
+    to.members = contact.members;
     to.feature_a = in_c(contact.feature_a);
     to.feature_b = in_c(contact.feature_b);
     to.flags = contact.flags;
@@ -63,6 +66,7 @@ cdprep_contact in_c(const Contact& contact) noexcept {
         store(contact.points[i].on_a, to.points[i].on_a);
         store(contact.points[i].on_b, to.points[i].on_b);
         to.points[i].distance = contact.points[i].distance;
+        to.points[i].id = contact.points[i].id;
     }
     return to;
 }
@@ -71,68 +75,49 @@ int read(Call& call, const cdprep_contact_options* given,
          cdprep_contact_options& options) noexcept {
     const Name name = {"options"};
     if (const int code = read_options(call, name, given, options)) return code;
-    if (options.manifold == 0 || options.manifold == kManifold) return CDPREP_OK;
-    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("manifold"), "is %u; it must be 0 or %u.",
-                       options.manifold, kManifold);
+    if (options.manifold != 0 && options.manifold != kManifold) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("manifold"),
+                           "is %u; it must be 0 or %u.", options.manifold, kManifold);
+    }
+    if (options.most == 0 || options.most > kMostListedContacts) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("most"), "is %u; it must be 1 to %u.",
+                           options.most, kMostListedContacts);
+    }
+    return CDPREP_OK;
 }
 
-/// Calls `take(contact)` for contacts in order, until it returns false or the work limit is
-/// reached. Returns whether all contacts were visited.
-template <class Take>
-bool visit_all(const AskedPair& asked, const cdprep_contact_options& options, Workspace& scratch,
-               Take&& take) noexcept {
-    const ContactOptions wanted = {options.tolerance,
-                                   options.manifold == 0 ? Manifold::none : Manifold::four};
-    std::uint64_t seen = 0;
-    const auto visit = [&](const Contact& contact) {
-        if (options.work != 0 && seen == options.work) return false;
-        ++seen;
-        return take(in_c(contact));
-    };
-    return visit_contacts(asked.pair(), scratch, visit, wanted);
+/// Refuses options that a visitor does not use.
+int refuse_unused(Call& call, const cdprep_contact_options& options) noexcept {
+    const Name name = {"options"};
+    if (options.most != Input<cdprep_contact_options>::kDefaultMost) {
+        return call.refuse(CDPREP_WHY_NO_MEANING, name.of("most"),
+                           "is %u, but the visitor ends the search; leave it at its default.",
+                           options.most);
+    }
+    if (options.cluster_angle != 0) {
+        return call.refuse(CDPREP_WHY_NO_MEANING, name.of("cluster_angle"),
+                           "is %g, but a visitor gets each contact; leave it at its default.",
+                           options.cluster_angle);
+    }
+    return CDPREP_OK;
 }
 
-/// Compares by depth, then by pieces. Visitors call it in the caller's floating-point environment.
-bool is_deeper(const cdprep_contact& x, const cdprep_contact& y) noexcept {
-    const format::FloatEnvironment environment;
-    return std::tie(x.lower, x.piece_a, x.piece_b) < std::tie(y.lower, y.piece_a, y.piece_b);
+ContactOptions in_cpp(const cdprep_contact_options& options) noexcept {
+    return {options.tolerance, options.manifold == 0 ? Manifold::none : Manifold::four,
+            options.most, options.work, options.cluster_angle};
 }
 
-/// The deepest contacts that there is room for: a heap with the shallowest contact first.
-class Deepest {
-public:
-    explicit Deepest(std::span<cdprep_contact> room) noexcept : room_(room) {}
-
-    void add(const cdprep_contact& contact) noexcept {
-        assert(kept_ <= room_.size() && kept_ <= count_);
-        ++count_;
-        if (kept_ < room_.size()) {
-            room_[kept_++] = contact;
-            std::push_heap(begin(), end(), is_deeper);
-        } else if (kept_ > 0 && is_deeper(contact, room_[0])) {
-            std::pop_heap(begin(), end(), is_deeper);
-            room_[kept_ - 1] = contact;
-            std::push_heap(begin(), end(), is_deeper);
-        }
-    }
-    void sort() noexcept {
-        std::sort_heap(begin(), end(), is_deeper);
-    }
-    [[nodiscard]] std::size_t count() const noexcept {
-        return count_;
-    }
-
-private:
-    cdprep_contact* begin() noexcept {
-        return room_.data();
-    }
-    cdprep_contact* end() noexcept {
-        return room_.data() + kept_;
-    }
-    std::span<cdprep_contact> room_;
-    std::size_t kept_ = 0;
-    std::size_t count_ = 0;  ///< that were added
-};
+void answer(const ListedContacts& listed, cdprep_contact_list& list) noexcept {
+    const ContactsVerdict& verdict = listed.verdict;
+    list.count = listed.contacts.size();
+    list.complete = word(verdict.complete);
+    list.searched = word(verdict.searched);
+    list.found = verdict.found;
+    list.computed = verdict.computed;
+    list.work = verdict.work;
+    const std::size_t stored = std::min(list.count, list.room);
+    for (std::size_t i = 0; i < stored; ++i) list.items[i] = in_c(listed.contacts[i]);
+}
 
 }  // namespace
 
@@ -155,8 +140,8 @@ int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_options* optio
                     cdprep_workspace* workspace, cdprep_contact_list* list, cdprep_error* error) {
     cdprep_contact_options given{};
     if (list != nullptr) {
-        list->complete = CDPREP_NO;
-        list->reserved = 0;
+        list->complete = list->searched = CDPREP_NO;
+        list->found = list->computed = list->work = 0;
     }
     return ask_pair(
         cdprep::c::kContacts, pair, workspace, list, "list", error,
@@ -165,16 +150,9 @@ int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_options* optio
             return cdprep::c::read(call, options, given);
         },
         [&](const AskedPair& asked, Workspace& scratch) {
-            const size_t room = std::min<size_t>(list->room, given.most);
-            cdprep::c::Deepest deepest({list->items, room});
-            const bool all =
-                cdprep::c::visit_all(asked, given, scratch, [&](const cdprep_contact& contact) {
-                    deepest.add(contact);
-                    return true;
-                });
-            deepest.sort();
-            list->count = std::min<size_t>(deepest.count(), given.most);
-            list->complete = cdprep::c::word(all && deepest.count() <= given.most);
+            const cdprep::format::FloatEnvironment environment;
+            cdprep::c::answer(
+                cdprep::list_contacts(asked.pair(), scratch, cdprep::c::in_cpp(given)), *list);
         });
 }
 
@@ -186,15 +164,13 @@ int cdprep_contacts_visit(const cdprep_pair* pair, const cdprep_contact_options*
         cdprep::c::kContacts, pair, workspace, visit, "visit", error,
         [&](Call& call) -> int {
             if (const int code = cdprep::c::read(call, options, given)) return code;
-            using Options = cdprep::c::Input<cdprep_contact_options>;
-            if (given.most == Options::kDefaultMost) return CDPREP_OK;
-            return call.refuse(CDPREP_WHY_NO_MEANING, cdprep::c::Name{"options"}.of("most"),
-                               "is %u, but the visitor ends the search; leave it at its default.",
-                               given.most);
+            return cdprep::c::refuse_unused(call, given);
         },
         [&](const AskedPair& asked, Workspace& scratch) {
-            cdprep::c::visit_all(asked, given, scratch, [&](const cdprep_contact& contact) {
-                return visit(context, &contact) != 0;
-            });
+            const auto take = [&](const cdprep::Contact& contact) {
+                const cdprep_contact told = cdprep::c::in_c(contact);
+                return visit(context, &told) != 0;
+            };
+            cdprep::visit_contacts(asked.pair(), scratch, take, cdprep::c::in_cpp(given));
         });
 }

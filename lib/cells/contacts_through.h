@@ -21,8 +21,8 @@ struct QuestionThrough {
 
 /// Calls `visit` once for every pair of triangles in contact, with numbers in tree order, until it
 /// returns false. Returns false when it did. Neither model is empty.
-using ContactVisitor = Visitor<TreePair>;
+using TreePairVisitor = Visitor<TreePair>;
 
-bool visit_contacts_through_trees(const QuestionThrough& question, ContactVisitor visit) noexcept;
+bool visit_contacts_through_trees(const QuestionThrough& question, TreePairVisitor visit) noexcept;
 
 }  // namespace cdprep

@@ -449,7 +449,7 @@ bool has_hashed_octree(const Model& model) noexcept {
 }
 
 /// Visits the contacts of B's boxes among A's cells.
-bool visit_repaired(const QuestionThrough& question, ContactVisitor visit) noexcept {
+bool visit_repaired(const QuestionThrough& question, TreePairVisitor visit) noexcept {
     const PlacedBoxes placed = place_boxes(question.a, question.b, question.placement);
     if (placed.apart) return true;
     Workspace::Storage& scratch = question.workspace.storage();
@@ -463,7 +463,7 @@ bool visit_repaired(const QuestionThrough& question, ContactVisitor visit) noexc
     return KeyedWalk(question, placed, contacts).walk();
 }
 
-bool visit_swapped(const QuestionThrough& question, ContactVisitor visit) noexcept {
+bool visit_swapped(const QuestionThrough& question, TreePairVisitor visit) noexcept {
     const Placement placement = swapped(question.placement);
     const auto swap_back = [&](const TreePair& pair) { return visit({pair.b, pair.a}); };
     return visit_repaired({question.through, question.b, question.a, placement, question.workspace,
@@ -473,7 +473,7 @@ bool visit_swapped(const QuestionThrough& question, ContactVisitor visit) noexce
 
 }  // namespace
 
-bool visit_contacts_through_keys(const QuestionThrough& question, ContactVisitor visit) noexcept {
+bool visit_contacts_through_keys(const QuestionThrough& question, TreePairVisitor visit) noexcept {
     if (!has_hashed_octree(question.a) || !has_hashed_octree(question.b)) return true;
     // Measured: the model with fewer triangles has fewer boxes to test against the other's cells,
     // up to 5 times. The cells are sized for the other's triangles.

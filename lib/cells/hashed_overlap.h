@@ -14,6 +14,6 @@ namespace cdprep {
 /// list. The model whose octree is used is chosen for speed; the choice does not change the result.
 ///
 /// Both models must serve Ask::hashed_octree.
-bool visit_contacts_through_keys(const QuestionThrough& question, ContactVisitor visit) noexcept;
+bool visit_contacts_through_keys(const QuestionThrough& question, TreePairVisitor visit) noexcept;
 
 }  // namespace cdprep

@@ -21,7 +21,7 @@ Pair with_structure(const Pair& pair, Structure structure) noexcept {
     return other;
 }
 
-bool visit_contacts_through(const QuestionThrough& question, ContactVisitor visit) noexcept {
+bool visit_contacts_through(const QuestionThrough& question, TreePairVisitor visit) noexcept {
     if (question.a.triangle_count() == 0 || question.b.triangle_count() == 0) return true;
     switch (question.through.structure) {
         case Structure::octree:

@@ -58,7 +58,7 @@ public:
          const TreeB& b) noexcept
         : question_(question), placed_(placed), a_(a), b_(b) {}
 
-    bool run(ContactVisitor visit) const noexcept {
+    bool run(TreePairVisitor visit) const noexcept {
         if (a_.is_empty() || b_.is_empty()) return true;
         Workspace::Storage& scratch = question_.workspace.storage();
         const auto found = [&](std::uint32_t at_a, std::uint32_t at_b) {
@@ -137,14 +137,14 @@ private:
 
 template <Search kSearch, class TreeA, class TreeB>
 bool walk_trees(const QuestionThrough& question, const PlacedBoxes& placed, const TreeA& a,
-                const TreeB& b, ContactVisitor visit) noexcept {
+                const TreeB& b, TreePairVisitor visit) noexcept {
     return Walk<kSearch, TreeA, TreeB>(question, placed, a, b).run(visit);
 }
 
 /// Walks two tetra-trees, and the triangles that hold either's centre: these touch every cone.
 template <Search kSearch>
 bool walk_tetra_trees(const QuestionThrough& question, const PlacedBoxes& placed,
-                      ContactVisitor visit) noexcept {
+                      TreePairVisitor visit) noexcept {
     const TetraTreeCells a(question.a);
     const TetraTreeCells b(question.b);
     const CentreCell centre_a(a.at_centre());
@@ -157,7 +157,7 @@ bool walk_tetra_trees(const QuestionThrough& question, const PlacedBoxes& placed
 
 template <Search kSearch>
 bool walk_structure(const QuestionThrough& question, const PlacedBoxes& placed,
-                    ContactVisitor visit) noexcept {
+                    TreePairVisitor visit) noexcept {
     switch (question.through.structure) {
         case Structure::octree:
             return walk_trees<kSearch>(question, placed, OctreeTree(question.a),
@@ -172,7 +172,7 @@ bool walk_structure(const QuestionThrough& question, const PlacedBoxes& placed,
 
 }  // namespace
 
-bool visit_contacts_through_trees(const QuestionThrough& question, ContactVisitor visit) noexcept {
+bool visit_contacts_through_trees(const QuestionThrough& question, TreePairVisitor visit) noexcept {
     const PlacedBoxes placed = place_boxes(question.a, question.b, question.placement);
     if (placed.apart) return true;
     CellStorage& cells = cells_of(question.workspace.storage());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hull/hull_edges.h"
+#include "pieces/choose_four.h"
 
 namespace cdprep {
 namespace {
@@ -14,14 +15,40 @@ constexpr std::size_t kMostOutline = 64;  ///< corners kept of a face
 /// neither that far.
 constexpr double kAcross = 1 - 1e-10;
 
+/// Returns a number for two others, in this order. Equal ones are rare (Steele, Lea and Flood
+/// 2014).
+std::uint64_t mixed(std::uint64_t x, std::uint64_t y) {
+    std::uint64_t z = x * 0x9e3779b97f4a7c15U + y;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebU;
+    return z ^ z >> 31;
+}
+
+/// A corner of a polygon.
+struct Corner {
+    Double3 at;
+    std::uint64_t id;    ///< of the vertex, or of the two sides that cross there
+    std::uint64_t side;  ///< of the side to the next corner
+};
+
 /// Corners of a convex polygon, counter-clockwise as seen from the tip of `normal`.
 struct Polygon {
-    std::array<Double3, 2 * kMostOutline> at;
+    std::array<Corner, 2 * kMostOutline> corner;
     std::size_t count = 0;
     Double3 normal{};
 
-    void add(const Double3& p) noexcept {
-        if (count < at.size()) at[count++] = p;
+    void add(const Corner& c) noexcept {
+        if (count < corner.size()) corner[count++] = c;
+    }
+    [[nodiscard]] const Corner& next(std::size_t i) const noexcept {
+        return corner[(i + 1) % count];
+    }
+    /// Numbers the sides by their ends, whichever comes first.
+    void name_sides() noexcept {
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::uint64_t p = corner[i].id, q = next(i).id;
+            corner[i].side = mixed(std::min(p, q), std::max(p, q));
+        }
     }
 };
 
@@ -30,11 +57,13 @@ Polygon triangle_polygon(const ContactSide& side, std::uint32_t triangle,
     const Corners t = side.model().corners(triangle);
     Polygon polygon;
     polygon.normal = unit_normal(t);
-    for (const Double3& p : t) polygon.add(p);
+    const auto& vertex = side.model().model->mesh().triangles[triangle].vertex;
+    for (std::size_t k = 0; k < 3; ++k) polygon.add({t[k], side.source_vertex(vertex[k]), 0});
     if (dot(polygon.normal, direction) < 0) {
         polygon.normal = -polygon.normal;
-        std::swap(polygon.at[1], polygon.at[2]);
+        std::swap(polygon.corner[1], polygon.corner[2]);
     }
+    polygon.name_sides();
     return polygon;
 }
 
@@ -50,16 +79,19 @@ Polygon face_polygon(const ContactSide& side, std::uint32_t first, const Double3
     std::size_t i = 0;
     edges.each_around_face(first, [&](const FacetPlace& p) {
         if (i == 0 || i * kept / all != (i - 1) * kept / all) {
-            polygon.add(side.corner(edges.start(p)));
+            const std::uint32_t corner = edges.start(p);
+            polygon.add(
+                {side.corner(corner), side.source_vertex(side.points().corners[corner]), 0});
         }
         ++i;
     });
     const auto& c = side.facets()[first].corner;
     const Corners front = {side.corner(c[0]), side.corner(c[1]), side.corner(c[2])};
     if (dot(unit_normal(front), normal) < 0) {
-        std::reverse(polygon.at.begin(),
-                     polygon.at.begin() + static_cast<std::ptrdiff_t>(polygon.count));
+        std::reverse(polygon.corner.begin(),
+                     polygon.corner.begin() + static_cast<std::ptrdiff_t>(polygon.count));
     }
+    polygon.name_sides();
     return polygon;
 }
 
@@ -85,16 +117,21 @@ Polygon facing(const ContactSide& side, const PieceFeature& feature, const Doubl
     return whole.count < 3 ? own : whole;  // flags of a damaged file may leave no outline
 }
 
-/// Returns the part of a polygon where dot(inward, p - on) >= 0.
-Polygon clipped(const Polygon& polygon, const Double3& on, const Double3& inward) {
+/// Returns the part of a polygon where dot(inward, p - on) >= 0. The new side has the number
+/// `side`.
+Polygon clipped(const Polygon& polygon, const Double3& on, const Double3& inward,
+                std::uint64_t side) {
     Polygon result;
     result.normal = polygon.normal;
     for (std::size_t i = 0; i < polygon.count; ++i) {
-        const Double3 &p = polygon.at[i], &q = polygon.at[(i + 1) % polygon.count];
-        const double at_p = dot(inward, p - on), at_q = dot(inward, q - on);
-        if (at_p >= 0) result.add(p);
+        const Corner &p = polygon.corner[i], &q = polygon.next(i);
+        const double at_p = dot(inward, p.at - on), at_q = dot(inward, q.at - on);
+        const bool leaves = at_p >= 0 && at_q < 0;
+        // Where the polygon leaves at a corner, the new side begins there.
+        if (at_p >= 0) result.add({p.at, p.id, leaves && at_p == 0 ? side : p.side});
         if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) {
-            result.add(p + at_p / (at_p - at_q) * (q - p));
+            const Double3 cut = p.at + at_p / (at_p - at_q) * (q.at - p.at);
+            result.add({cut, mixed(p.side, side), leaves ? side : p.side});
         }
     }
     return result;
@@ -103,8 +140,8 @@ Polygon clipped(const Polygon& polygon, const Double3& on, const Double3& inward
 /// Returns the part of a polygon that is over another one, seen along the other's normal.
 Polygon over(const Polygon& base, Polygon polygon) {
     for (std::size_t i = 0; i < base.count && polygon.count > 0; ++i) {
-        const Double3 &p = base.at[i], &q = base.at[(i + 1) % base.count];
-        polygon = clipped(polygon, p, cross(base.normal, q - p));
+        const Corner& p = base.corner[i];
+        polygon = clipped(polygon, p.at, cross(base.normal, base.next(i).at - p.at), p.side);
     }
     return polygon;
 }
@@ -115,46 +152,19 @@ public:
     void add(const ManifoldPoint& point) noexcept {
         if (count_ < point_.size()) point_[count_++] = point;
     }
-    [[nodiscard]] std::size_t count() const noexcept {
-        return count_;
+    /// Returns whether one is at a distance, or nearer, up to rounding.
+    [[nodiscard]] bool reach(double distance) const noexcept {
+        constexpr double kRounding = 1e-9;
+        return std::any_of(point_.begin(), point_.begin() + static_cast<std::ptrdiff_t>(count_),
+                           [&](const ManifoldPoint& p) {
+                               return p.distance <= distance + kRounding * std::fabs(distance);
+                           });
     }
-
-    /// Takes the deepest point, the one farthest from it, and those with the largest triangles on
-    /// either side of the line between. Of equal points it takes the first.
-    void choose(Contact& contact) const noexcept {
-        const std::size_t first = best([&](const ManifoldPoint& p) { return -p.distance; });
-        take(first, contact);
-        const Double3 origin = point_[first].on_a;
-        const std::size_t second = best([&](const ManifoldPoint& p) {
-            const Double3 d = p.on_a - origin;
-            return dot(d, d);
-        });
-        const Double3 line = point_[second].on_a - origin;
-        if (!(dot(line, line) > 0)) return;
-        take(second, contact);
-        for (const double side : {1.0, -1.0}) {
-            const auto area = [&](const ManifoldPoint& p) {
-                return side * dot(contact.normal, cross(line, p.on_a - origin));
-            };
-            const std::size_t third = best(area);
-            // A smaller area is rounding: no point is beside the line.
-            if (area(point_[third]) > 1e-12 * dot(line, line)) take(third, contact);
-        }
+    [[nodiscard]] std::span<const ManifoldPoint> all() const noexcept {
+        return std::span(point_).first(count_);
     }
 
 private:
-    template <class Score>
-    [[nodiscard]] std::size_t best(Score&& score) const noexcept {
-        std::size_t best = 0;
-        for (std::size_t i = 1; i < count_; ++i) {
-            if (score(point_[i]) > score(point_[best])) best = i;
-        }
-        return best;
-    }
-    void take(std::size_t i, Contact& contact) const noexcept {
-        contact.points[contact.point_count++] = point_[i];
-    }
-
     std::array<ManifoldPoint, 2 * kMostOutline> point_;
     std::size_t count_ = 0;
 };
@@ -172,20 +182,16 @@ void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature
         const Polygon& base = a_is_base ? of_a : of_b;
         const Polygon part = over(base, a_is_base ? of_b : of_a);
         for (std::size_t i = 0; i < part.count; ++i) {
-            const Double3& p = part.at[i];
-            const double height = dot(base.normal, p - base.at[0]);
-            const Double3 foot = p - height * base.normal;
+            const Corner& p = part.corner[i];
+            const double height = dot(base.normal, p.at - base.corner[0].at);
+            const Double3 foot = p.at - height * base.normal;
             if (height > tolerance) continue;
-            candidates.add(a_is_base ? ManifoldPoint{foot, p, height}
-                                     : ManifoldPoint{p, foot, height});
+            candidates.add(a_is_base ? ManifoldPoint{foot, p.at, height, p.id}
+                                     : ManifoldPoint{p.at, foot, height, p.id});
         }
     }
-    contact.point_count = 0;
-    if (candidates.count() == 0) {
-        candidates.add(
-            {contact.point_a, contact.point_b, dot(n, contact.point_b - contact.point_a)});
-    }
-    candidates.choose(contact);
+    if (!candidates.reach(contact.lower)) candidates.add(only_point(contact));
+    choose_four(candidates.all(), contact);
 }
 
 }  // namespace cdprep

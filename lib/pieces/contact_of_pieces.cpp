@@ -7,15 +7,20 @@
 #include <limits>
 
 #include "hull/hull_nearest.h"
+#include "pieces/way_points.h"
+#include "pieces/ways_out.h"
 
 namespace cdprep {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
-/// The maximum number of a piece's triangles whose normals are tried as ways out.
-constexpr std::size_t kMostWays = 256;
-/// The maximum number of ways out, the shortest first, that are examined for what lies beyond.
-constexpr std::size_t kMostExits = 16;
+/// The largest width of the interval of a depth, beside the rounding of moved corners: of the
+/// depth, and of the size of both hulls.
+constexpr double kRelative = 1e-12;
+constexpr double kOfSize = 1e-12;
+/// The maximum number of a piece's triangles whose normals are tried as ways out of a hull that is
+/// too large to try all.
+constexpr std::size_t kMostNormals = 128;
 /// How many times shorter an exit must be to be preferred to one that ends at both surfaces.
 constexpr double kMuchShorter = 2;
 
@@ -30,29 +35,32 @@ VertexSet vertices_of(const NearestSimplex& simplex, std::uint32_t Difference::*
     return set;
 }
 
-/// Two features and their nearest points.
+/// The features of two pieces at a contact.
 struct Meeting {
     PieceFeature a;
     PieceFeature b;
+};
+
+/// Two features and their nearest points.
+struct NearMeeting : Meeting {
     HullNearest nearest;
 };
 
 class PairOfPieces {
 public:
-    PairOfPieces(const ContactSide& a, const ContactSide& b, const NearPieces& near,
+    PairOfPieces(ContactSide& a, ContactSide& b, const NearPieces& near,
                  const ContactQuestion& question) noexcept
         : a_(a), b_(b), near_(near), question_(question) {}
 
-    [[nodiscard]] Contact answer() const noexcept {
+    [[nodiscard]] Contact answer() noexcept {
         Contact contact{};
         contact.piece_a = static_cast<std::uint32_t>(near_.key >> 32);
         contact.piece_b = static_cast<std::uint32_t>(near_.key);
-        const TwoHulls hulls = {a_.hull(), b_.hull()};
-        const auto nearest = hull_nearest(hulls.a, hulls.b, {}, nullptr, question_.counts);
-        const bool both_contained = a_.is_contained() && b_.is_contained();
-        const Meeting meeting = nearest->meet && (both_contained || near_.touch)
-                                    ? answer_overlap(hulls, nearest->simplex, contact)
-                                    : answer_apart(*nearest, contact);
+        contact.id = std::uint64_t{a_.source_triangle()} << 32 | b_.source_triangle();
+        contact.members = 1;
+        a_.place_triangles();
+        b_.place_triangles();
+        const Meeting meeting = find(contact);
         contact.feature_a = a_.in_source(meeting.a);
         contact.feature_b = b_.in_source(meeting.b);
         if (question_.options.manifold == Manifold::four) {
@@ -62,21 +70,39 @@ public:
     }
 
 private:
+    /// Fills in the distance, the normal and the points. If triangles touch, so do the hulls.
+    [[nodiscard]] Meeting find(Contact& contact) noexcept {
+        const bool both_contained = a_.is_contained() && b_.is_contained();
+        WaysOut ways;
+        if ((near_.touch || both_contained) && find_all(ways) &&
+            (near_.touch || ways.least() > 0)) {
+            return answer_overlap(ways, std::max(0.0, ways.least()), contact);
+        }
+        const TwoHulls hulls = {a_.hull(), b_.hull()};
+        const auto nearest = hull_nearest(hulls.a, hulls.b, {}, nullptr, question_.counts);
+        if (!nearest->meet || !(both_contained || near_.touch)) {
+            return answer_apart(*nearest, contact);
+        }
+        const Penetration depth = hull_depth(hulls, nearest->simplex, {}, question_.counts);
+        find_some(depth, ways);
+        return answer_overlap(ways, depth.lower, contact);
+    }
+
     // --- Apart ----------------------------------------------------------------------
 
     /// Returns the features of the hulls if triangles have them, otherwise those of the nearest
     /// triangles.
-    [[nodiscard]] Meeting nearest_features(const HullNearest& hulls) const noexcept {
+    [[nodiscard]] NearMeeting nearest_features(const HullNearest& hulls) const noexcept {
         if (!hulls.meet) {
             const auto a =
                 a_.find_feature(vertices_of(hulls.simplex, &Difference::a, a_.points().corners));
             const auto b =
                 b_.find_feature(vertices_of(hulls.simplex, &Difference::b, b_.points().corners));
-            if (a && b) return {*a, *b, hulls};
+            if (a && b) return {{*a, *b}, hulls};
         }
         return triangle_features();
     }
-    [[nodiscard]] Meeting triangle_features() const noexcept {
+    [[nodiscard]] NearMeeting triangle_features() const noexcept {
         const TreePair pair =
             near_.touch ? TreePair{near_.a, near_.b}
                         : nearest_triangles(a_, b_, {near_.a, near_.b}, question_.degenerate);
@@ -85,7 +111,7 @@ private:
         const auto nearest = hull_nearest(triangles.a, triangles.b, {}, nullptr, question_.counts);
         const VertexSet at_a = vertices_of(nearest->simplex, &Difference::a, of_a.corners);
         const VertexSet at_b = vertices_of(nearest->simplex, &Difference::b, of_b.corners);
-        return {feature_of(a_, pair.a, at_a), feature_of(b_, pair.b, at_b), *nearest};
+        return {{feature_of(a_, pair.a, at_a), feature_of(b_, pair.b, at_b)}, *nearest};
     }
     static PieceFeature feature_of(const ContactSide& side, std::uint32_t triangle,
                                    const VertexSet& set) noexcept {
@@ -102,7 +128,7 @@ private:
     }
 
     [[nodiscard]] Meeting answer_apart(const HullNearest& hulls, Contact& contact) const noexcept {
-        const Meeting meeting = nearest_features(hulls);
+        const NearMeeting meeting = nearest_features(hulls);
         contact.point_a = weighted_sum(meeting.nearest.simplex, &Difference::at_a);
         contact.point_b = weighted_sum(meeting.nearest.simplex, &Difference::at_b);
         contact.lower = meeting.nearest.bounds.lower;
@@ -121,7 +147,7 @@ private:
 
     /// Returns the contact normal. It is computed from a face or from two edges alone, so it is
     /// exact however small the gap is.
-    [[nodiscard]] Double3 normal_between(const Meeting& meeting,
+    [[nodiscard]] Double3 normal_between(const NearMeeting& meeting,
                                          const Contact& contact) const noexcept {
         const Double3 gap = nearest_direction(meeting.nearest.simplex);
         const Double3 towards = -gap;  // of A - B, and the normal leads to B
@@ -150,34 +176,51 @@ private:
     /// the shorter way out leads towards more of the other piece.
     [[nodiscard]] Double3 shorter_of_both_ways(const Double3& normal) const noexcept {
         if (a_.is_contained() && b_.is_contained()) return normal;
-        return way_out(-normal).length < way_out(normal).length ? -normal : normal;
+        return length_along(-normal) < length_along(normal) ? -normal : normal;
     }
 
     // --- Overlapping ----------------------------------------------------------------
 
-    [[nodiscard]] Meeting answer_overlap(const TwoHulls& hulls, const NearestSimplex& common,
+    /// Finds every way that may be the shortest. Returns false if that is too much work, or if the
+    /// bound of the shortest is too far from it.
+    [[nodiscard]] bool find_all(WaysOut& ways) noexcept {
+        const Double3 origin = a_.corner(0);
+        const PieceShape* shape_a = a_.shape(origin);
+        const PieceShape* shape_b = shape_a == nullptr ? nullptr : b_.shape(origin);
+        if (shape_b == nullptr || !ways.find(*shape_a, *shape_b, near_.touch)) return false;
+        if (question_.counts != nullptr) question_.counts->hull_pairs += 1;
+        const double shortest = ways.shortest()[0].length;
+        const double size = shape_a->reach() + shape_b->reach();
+        return shortest - ways.least() <=
+               kRelative * shortest + kOfSize * size + 4 * ways.position_error();
+    }
+    /// Takes the shortest way, and the normals of the triangles of both pieces.
+    void find_some(const Penetration& depth, WaysOut& ways) const noexcept {
+        ways.clear();
+        ways.add(depth.normal, depth.upper);
+        const auto add = [&](const Double3& normal) {
+            if (dot(normal, normal) > 0) ways.add(normal, about_way_out(normal));
+        };
+        for (const std::uint32_t t : first_triangles(a_)) add(a_.normal_of(t));
+        for (const std::uint32_t t : first_triangles(b_)) add(-b_.normal_of(t));
+    }
+    static std::span<const std::uint32_t> first_triangles(const ContactSide& side) noexcept {
+        return side.triangles().first(std::min(side.triangles().size(), kMostNormals));
+    }
+
+    /// `depth` is a lower bound of the length of every way out.
+    [[nodiscard]] Meeting answer_overlap(const WaysOut& ways, double depth,
                                          Contact& contact) const noexcept {
-        const Penetration depth = hull_depth(hulls, common, {}, question_.counts);
+        Exit exit = best_exit(ways.shortest());
+        put_points(exit);
         contact.flags |= contact_overlap;
-        contact.normal = depth.normal;
-        contact.point_a = depth.witness_a;
-        contact.point_b = depth.witness_b;
-        contact.lower = -depth.upper;
-        contact.upper = -depth.lower;
-        Meeting meeting{};
-        meeting.a = a_.feature_along(depth.normal, depth.witness_a);
-        meeting.b = b_.feature_along(-depth.normal, depth.witness_b);
-        const bool is_inside = leads_inside(meeting, depth.normal);
-        const auto upright = is_inside ? std::nullopt : upright_normal(meeting, depth.normal);
-        if (!is_inside && !upright) return meeting;
-        const std::optional<Exit> exit = shortest_exit(upright);
-        if (!exit) return meeting;
-        contact.flags |= contact_internal_edge;
-        contact.normal = exit->normal;
-        contact.point_a = exit->point_a;
-        contact.point_b = exit->point_b;
-        contact.lower = std::min(contact.lower, -exit->length);
-        return exit->meeting;
+        if (exit.rank > 0) contact.flags |= contact_internal_edge;
+        contact.normal = exit.way.normal;
+        contact.point_a = exit.point_a;
+        contact.point_b = exit.point_b;
+        contact.lower = -std::max(length_along(contact.normal), depth);
+        contact.upper = -depth;
+        return exit.meeting;
     }
 
     /// Returns whether B leaves A along a direction through a face that no triangle covers: deeper
@@ -187,116 +230,159 @@ private:
         return (a_.is_contained() && !a_.leads_out(meeting.a, direction)) ||
                (b_.is_contained() && !b_.leads_out(meeting.b, -direction));
     }
+    /// Returns whether a direction leans over an edge where a surface continues.
+    [[nodiscard]] bool leans(const Meeting& meeting, const Double3& direction) const noexcept {
+        return a_.leans_over_edge(meeting.a, direction) ||
+               b_.leans_over_edge(meeting.b, -direction);
+    }
     /// Returns whether B leaves A along a direction by the end of a plane that continues.
     [[nodiscard]] bool leaves_along_plane(const Meeting& meeting,
                                           const Double3& direction) const noexcept {
         return a_.leans_over_flat_edge(meeting.a, direction) ||
                b_.leans_over_flat_edge(meeting.b, -direction);
     }
-    /// Returns whether B leaves A along a direction where both surfaces end.
-    [[nodiscard]] bool exits_at_surface(const Meeting& meeting,
-                                        const Double3& direction) const noexcept {
-        return !leads_inside(meeting, direction) && !a_.upright(meeting.a, direction) &&
-               !b_.upright(meeting.b, -direction);
-    }
-
     /// A way in which B leaves A.
     struct Exit {
-        Double3 normal;
-        double length;  ///< an upper bound, rounding included
-        Double3 point_a;
-        Double3 point_b;
-        Meeting meeting;
+        WayOut way;
+        Meeting meeting;   ///< the features there, set by put_points()
+        std::size_t rank;  ///< the number of shorter ways
+        Double3 point_a{};
+        Double3 point_b{};
     };
 
-    /// Returns the shortest exit along the normal of a triangle of either piece. If a direction
-    /// leaned over an edge, `upright` is that direction without the lean. Then `upright` counts as
-    /// well, and exits along a plane do not. An exit that ends at both surfaces is preferred,
-    /// unless another is shorter by kMuchShorter.
-    [[nodiscard]] std::optional<Exit> shortest_exit(
-        const std::optional<Double3>& upright) const noexcept {
-        std::array<Way, 2 * kMostWays + 1> ways;
-        std::size_t count = 0;
-        const auto add = [&](const Double3& normal) {
-            if (!(dot(normal, normal) > 0)) return;
-            ways[count] = {about_way_out(normal), count, normal};
-            ++count;
-        };
-        if (upright) add(*upright);
-        for (const std::uint32_t t : first_triangles(a_)) add(a_.normal_of(t));
-        for (const std::uint32_t t : first_triangles(b_)) add(-b_.normal_of(t));
-        if (count == 0) return std::nullopt;
-        std::sort(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(count),
-                  [](const Way& x, const Way& y) {
-                      return x.length != y.length ? x.length < y.length : x.number < y.number;
-                  });
-        if (!upright) return exit_along(ways[0].normal);
-        std::optional<Exit> shortest;
-        for (std::size_t i = 0; i < std::min(count, kMostExits); ++i) {
-            if (shortest && ways[i].length > kMuchShorter * shortest->length) break;
-            const Exit exit = exit_along(ways[i].normal);
-            if (ways[i].number != 0 && leaves_along_plane(exit.meeting, exit.normal)) continue;
-            if (exits_at_surface(exit.meeting, exit.normal)) return exit;
-            if (!shortest) shortest = exit;
+    /// Returns the shortest exit that ends at both surfaces, unless another that does not lead
+    /// along a plane or deeper into a solid is shorter by kMuchShorter. Without either, returns the
+    /// direction of the shortest way, turned upright, or else the shortest way itself.
+    [[nodiscard]] Exit best_exit(std::span<const WayOut> ways) const noexcept {
+        std::optional<Exit> other, leaning;
+        for (std::size_t i = 0; i < ways.size(); ++i) {
+            const WayOut& way = ways[i];
+            if (other && way.length > kMuchShorter * other->way.length) break;
+            const std::optional<Meeting> meeting = features_across(way);
+            if (!meeting || leads_inside(*meeting, way.normal)) continue;
+            if (!leans(*meeting, way.normal)) return {way, *meeting, i};
+            if (!leaning) leaning = {way, *meeting, i};
+            if (!other && !leaves_along_plane(*meeting, way.normal)) other = {way, *meeting, i};
         }
-        return shortest ? shortest : exit_along(*upright);
-    }
-    struct Way {
-        double length;
-        std::size_t number;
-        Double3 normal;
-    };
-    static std::span<const std::uint32_t> first_triangles(const ContactSide& side) noexcept {
-        return side.triangles().first(std::min(side.triangles().size(), kMostWays));
+        if (other) return *other;
+        if (!leaning) return {ways[0], {}, 0};
+        const auto upright = upright_normal(leaning->meeting, leaning->way.normal);
+        return {{upright.value_or(ways[0].normal), 0, WayKind::other, 0, 0}, {}, ways.size()};
     }
 
-    /// Returns the exit along a unit direction. Its points are the farthest point of the piece
-    /// without a face there, and its foot on the other piece.
-    [[nodiscard]] Exit exit_along(const Double3& normal) const noexcept {
-        const WayOut way = way_out(normal);
-        Exit exit = {normal, way.length, way.on_a, way.on_b, {}};
-        exit.meeting.a = a_.feature_along(normal, way.on_b);
-        if (exit.meeting.a.kind == FeatureKind::face) {
-            exit.point_a = way.on_b + dot(normal, way.on_a - way.on_b) * normal;
+    /// Returns the features across which a way leads, with any triangle of a face. Returns nothing
+    /// if it leads through a face or an edge of a hull that no triangle has: deeper into the solid.
+    [[nodiscard]] std::optional<Meeting> features_across(const WayOut& way) const noexcept {
+        const auto a = way.kind == WayKind::edges    ? edge_of(a_, way.a)
+                       : way.kind == WayKind::face_a ? face_of(a_, way.a, way.normal)
+                                                     : farthest_of(a_, way.normal);
+        if (!a) return std::nullopt;
+        const auto b = way.kind == WayKind::edges    ? edge_of(b_, way.b)
+                       : way.kind == WayKind::face_b ? face_of(b_, way.b, -way.normal)
+                                                     : farthest_of(b_, -way.normal);
+        if (!b) return std::nullopt;
+        return Meeting{*a, *b};
+    }
+    static std::optional<PieceFeature> edge_of(const ContactSide& side,
+                                               std::uint8_t place) noexcept {
+        const PieceShape::Edge& edge = side.shape()->edges()[place];
+        VertexSet ends;
+        ends.add(side.points().corners[edge.from]);
+        ends.add(side.points().corners[edge.to]);
+        const auto feature = side.find_feature(ends);
+        if (feature || side.is_contained()) return feature;
+        return PieceFeature{FeatureKind::face, side.triangles()[0], 0};
+    }
+    static std::optional<PieceFeature> face_of(const ContactSide& side, std::uint8_t place,
+                                               const Double3& normal) noexcept {
+        if (const auto face = side.find_face(normal, nullptr)) return face;
+        const PieceShape::Face& face = side.shape()->faces()[place];
+        if (side.is_contained() && !face.is_covered) return std::nullopt;
+        return farthest_of(side, normal);
+    }
+    static std::optional<PieceFeature> farthest_of(const ContactSide& side,
+                                                   const Double3& direction) noexcept {
+        if (const auto face = side.find_face(direction, nullptr)) return face;
+        const auto feature = side.find_feature(side.farthest_vertices(direction));
+        if (feature || side.is_contained()) return feature;
+        return PieceFeature{FeatureKind::face, side.triangles()[0], 0};
+    }
+
+    /// Sets the points of an exit: where two edges cross, or where the farthest corners of both
+    /// pieces are over each other. Then faces are known by their triangles there.
+    void put_points(Exit& exit) const noexcept {
+        const Double3& normal = exit.way.normal;
+        if (exit.way.kind == WayKind::edges) {
+            put_on_edges(exit);
         } else {
-            exit.point_b = way.on_a + dot(normal, way.on_b - way.on_a) * normal;
+            const WayPoints points = way_points(a_, b_, normal, nullptr);
+            exit.point_a = points.on_a;
+            exit.point_b = points.on_b;
         }
+        exit.meeting.a = a_.feature_along(normal, exit.point_a);
         exit.meeting.b = b_.feature_along(-normal, exit.point_b);
-        return exit;
+    }
+    /// Puts the points of an exit where its edges are nearest to each other.
+    void put_on_edges(Exit& exit) const noexcept {
+        const WayOut& way = exit.way;
+        const PieceShape::Edge& a = a_.shape()->edges()[way.a];
+        const PieceShape::Edge& b = b_.shape()->edges()[way.b];
+        const Double3 from_a = a_.corner(a.from), from_b = b_.corner(b.from);
+        const Double3 along_a = a_.corner(a.to) - from_a, along_b = b_.corner(b.to) - from_b;
+        const Double3 gap = from_b - from_a;
+        const Double3 across_a = cross(way.normal, along_a);
+        const Double3 across_b = cross(way.normal, along_b);
+        const double at_a = dot(gap, across_b) / dot(along_a, across_b);
+        const double at_b = -dot(gap, across_a) / dot(along_b, across_a);
+        exit.point_a = from_a + std::clamp(at_a, 0.0, 1.0) * along_a;
+        exit.point_b = from_b + std::clamp(at_b, 0.0, 1.0) * along_b;
     }
 
-    /// The distance that B must move along a unit direction to be out of A: an upper bound,
-    /// rounding included.
-    struct WayOut {
-        double length;
-        Double3 on_a;
-        Double3 on_b;
-    };
     [[nodiscard]] double about_way_out(const Double3& direction) const noexcept {
         const MovedHull a = a_.hull(), b = b_.hull();
         return dot(direction,
                    a.point(a.farthest(direction, 0)) - b.point(b.farthest(-direction, 0)));
     }
-    [[nodiscard]] WayOut way_out(const Double3& direction) const noexcept {
+    /// Returns the distance that B must move along a unit direction to be out of A: an upper bound,
+    /// rounding included.
+    [[nodiscard]] double length_along(const Double3& direction) const noexcept {
         assert(dot(direction, direction) > 0);
-        const MovedHull a = a_.hull(), b = b_.hull();
-        const Double3 origin = a_.corner(0);
-        const auto of_a = a.proven(direction, origin, a.farthest(direction, 0));
-        const auto of_b = b.proven(-direction, origin, b.farthest(-direction, 0));
-        const double sum = std::max(0.0, of_a.bound + of_b.bound);
+        const Double3 origin = a_.corner(a_.hull().farthest(direction, 0));
+        const double sum =
+            std::max(0.0, a_.reach(direction, origin) + b_.reach(-direction, origin));
         const double shortest = std::sqrt(dot(direction, direction)) * (1 - 4 * kUnit);
-        return {sum / shortest * (1 + 4 * kUnit), a.point(of_a.number), b.point(of_b.number)};
+        return sum / shortest * (1 + 4 * kUnit);
     }
 
-    const ContactSide& a_;
-    const ContactSide& b_;
+    ContactSide& a_;
+    ContactSide& b_;
     const NearPieces& near_;
     const ContactQuestion& question_;
 };
 
 }  // namespace
 
-Contact contact_of_pieces(const ContactSide& a, const ContactSide& b, const NearPieces& near,
+double most_depth_of_pieces(const ContactSide& a, const ContactSide& b,
+                            const NearPieces& near) noexcept {
+    double most = std::numeric_limits<double>::infinity();
+    const auto look = [&](const Double3& normal, const Double3& from) {
+        const double squared = dot(normal, normal);
+        if (!(squared > 0)) return;
+        const double way = a.reach(normal, from) + b.reach(-normal, from);
+        // A bound of a positive length rounds up, and one of a distance down.
+        const double rounding = way > 0 ? 1 + 8 * kUnit : 1 - 8 * kUnit;
+        most = std::min(most, way / std::sqrt(squared) * rounding);
+    };
+    const Corners at_a = a.model().corners(near.a), at_b = b.model().corners(near.b);
+    const Double3 normal_a = unit_normal(at_a), normal_b = unit_normal(at_b);
+    look(normal_a, at_a[0]);
+    look(-normal_b, at_a[0]);
+    if (!a.is_contained()) look(-normal_a, at_a[0]);
+    if (!b.is_contained()) look(normal_b, at_a[0]);
+    return most;
+}
+
+Contact contact_of_pieces(ContactSide& a, ContactSide& b, const NearPieces& near,
                           const ContactQuestion& question) noexcept {
     return PairOfPieces(a, b, near, question).answer();
 }

@@ -24,15 +24,6 @@ constexpr double kLevel = 1e-9;
 /// The greatest lean of a unit direction that is rounding alone.
 constexpr double kNoLean = 1e-12;
 
-/// Returns whether a triangle's normal is far off a unit direction and its opposite. Costs a few
-/// products. Returns false on underflow or overflow.
-bool clearly_turns_from(const Corners& t, const Double3& direction) {
-    constexpr double kFar = 0.99;
-    const Double3 n = cross(t[1] - t[0], t[2] - t[0]);
-    const double along = dot(n, direction);
-    return along * along < kFar * dot(n, n);
-}
-
 unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
     unsigned k = 0;
     while (k < 3 && triangle.vertex[k] != vertex) ++k;
@@ -67,6 +58,25 @@ void ContactSide::place() noexcept {
     placed_points_.count = count;
 }
 
+double ContactSide::position_error() const noexcept {
+    if (model_->pose == nullptr) return 0;
+    const Double3& t = model_->pose->translation();
+    double most = 0;  // of the stored coordinates, as turned
+    for (std::uint32_t i = 0; i < points().count; ++i) {
+        most = std::max(most, largest_of(corner(i) - t));
+    }
+    // Each coordinate is off by 4 u of the sizes of its terms: three products, whose sum is at most
+    // 3 times the largest turned coordinate, and the translation.
+    constexpr double kError = 8 * 0x1p-53;
+    return kError * (3 * most + largest_of(t));
+}
+
+void ContactSide::place_triangles() noexcept {
+    if (placed_triangles_count_ > 0 || triangles_.size() > kMostPlacedTriangles) return;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) placed_triangle_[i] = placed(i);
+    placed_triangles_count_ = triangles_.size();
+}
+
 ConvexPoints ContactSide::points_of(std::uint32_t triangle) const noexcept {
     assert(triangle < model_->model->triangle_count());
     ConvexPoints points = hull_.points;
@@ -97,34 +107,40 @@ std::optional<PieceFeature> ContactSide::find_feature(const VertexSet& set) cons
 std::uint32_t ContactSide::nearest_triangle(const Double3& near) const noexcept {
     std::uint32_t best = triangles_[0];
     double least = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t t : triangles_) {
-        const Corners at = model_->corners(t);
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        const Corners at = placed(i).at;
         if (!(axis_gap({near, near}, box_around(at)) < least)) continue;
         const double distance = point_triangle_distance(near, at).computed;
-        if (distance < least) least = distance, best = t;
+        if (distance < least) least = distance, best = triangles_[i];
     }
     return best;
 }
 
 std::optional<PieceFeature> ContactSide::find_face(const Double3& direction,
-                                                   const Double3& near) const noexcept {
+                                                   const Double3* near) const noexcept {
     std::optional<PieceFeature> best;
     double least = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t t : triangles_) {
-        const Corners at = model_->corners(t);
-        if (clearly_turns_from(at, direction)) continue;
-        const double along = dot(unit_normal(at), direction);
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        const PlacedTriangle t = placed(i);
+        const double along = dot(t.normal, direction);
         // A surface that bounds no solid can be met from either side.
         if ((is_contained() ? along : std::fabs(along)) < kAligned) continue;
-        const double distance = point_triangle_distance(near, at).computed;
-        if (distance < least) least = distance, best = PieceFeature{FeatureKind::face, t, 0};
+        const PieceFeature face = {FeatureKind::face, triangles_[i], 0};
+        if (near == nullptr) return face;
+        const double distance = point_triangle_distance(*near, t.at).computed;
+        if (distance < least) least = distance, best = face;
     }
     return best;
 }
 
 PieceFeature ContactSide::feature_along(const Double3& direction,
                                         const Double3& near) const noexcept {
-    if (const auto face = find_face(direction, near)) return *face;
+    if (const auto face = find_face(direction, &near)) return *face;
+    if (const auto feature = find_feature(farthest_vertices(direction))) return *feature;
+    return {FeatureKind::face, nearest_triangle(near), 0};
+}
+
+VertexSet ContactSide::farthest_vertices(const Double3& direction) const noexcept {
     double most = -std::numeric_limits<double>::infinity(), least = -most;
     for (std::uint32_t i = 0; i < points().count; ++i) {
         const double height = dot(direction, corner(i));
@@ -137,44 +153,61 @@ PieceFeature ContactSide::feature_along(const Double3& direction,
             level.add(points().corners[i]);
         }
     }
-    if (const auto feature = find_feature(level)) return *feature;
-    return {FeatureKind::face, nearest_triangle(near), 0};
+    return level;
+}
+
+double ContactSide::reach(const Double3& direction, const Double3& from) const noexcept {
+    if (!is_placed()) return hull().proven_by_all(direction, from).bound;
+    constexpr double kError = 6 * 0x1p-53;  // a difference, three products and two sums
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < points().count; ++i) {
+        const Double3 p = corner(i) - from;
+        most = std::max(most, dot(p, direction) + kError * dot_size(p, direction));
+    }
+    return most;
 }
 
 // --- Edges inside the surface --------------------------------------------------------
 
-/// Calls visit(triangle, edges) for the piece's triangles that have the feature. `edges` has a bit
-/// for each of their edges that has it.
+/// Calls visit(i, edges) for the piece's triangles that have the feature, by their places in
+/// triangles_. `edges` has a bit for each of their edges that has it.
 template <class Visit>
 void ContactSide::each_around(const PieceFeature& feature, Visit&& visit) const noexcept {
     const format::Triangle& own = model_->model->mesh().triangles[feature.triangle];
     const std::uint32_t from = own.vertex[feature.corner];
     const std::uint32_t to = own.vertex[(feature.corner + 1) % 3];
-    for (const std::uint32_t t : triangles_) {
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
         if (feature.kind == FeatureKind::face) {
-            if (t == feature.triangle) visit(t, 0U);
+            if (triangles_[i] == feature.triangle) visit(i, 0U);
             continue;
         }
-        const format::Triangle& triangle = model_->model->mesh().triangles[t];
+        const format::Triangle& triangle = model_->model->mesh().triangles[triangles_[i]];
         const unsigned k = corner_of(triangle, from);
         if (k == 3) continue;
         const unsigned previous = (k + 2) % 3;
         if (feature.kind == FeatureKind::vertex) {
-            visit(t, 1U << k | 1U << previous);
+            visit(i, 1U << k | 1U << previous);
         } else if (triangle.vertex[(k + 1) % 3] == to) {
-            visit(t, 1U << k);
+            visit(i, 1U << k);
         } else if (triangle.vertex[previous] == to) {
-            visit(t, 1U << previous);
+            visit(i, 1U << previous);
         }
     }
 }
 
 double ContactSide::facing(const PieceFeature& feature, const Double3& direction) const noexcept {
     double most = -1;
-    each_around(feature, [&](std::uint32_t t, unsigned) {
-        most = std::max(most, dot(normal_of(t), direction));
+    each_around(feature, [&](std::size_t i, unsigned) {
+        most = std::max(most, dot(placed(i).normal, direction));
     });
     return most;
+}
+
+bool ContactSide::leads_out(const PieceFeature& feature, const Double3& direction) const noexcept {
+    const double most = facing(feature, direction);
+    if (most > 0) return true;
+    return most >= -kNoLean && feature.kind != FeatureKind::face &&
+           find_lean(feature, direction, kNoLean, Over::convex).has_value();
 }
 
 bool ContactSide::is_seen_from_behind(const PieceFeature& feature,
@@ -193,23 +226,31 @@ bool ContactSide::is_inner(std::uint32_t triangle, unsigned edge) const noexcept
     });
 }
 
+/// Returns whether an edge is one of those. Seen from outside, `inward` is reflex.
+bool ContactSide::is_among(EdgeConvexity edge, EdgeConvexity inward, Over over) noexcept {
+    if (edge == EdgeConvexity::unknown) return false;
+    if (over == Over::convex) return edge != EdgeConvexity::flat && edge != inward;
+    return edge == EdgeConvexity::flat || (edge == inward && over == Over::flat_or_reflex);
+}
+
 std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feature,
                                                         const Double3& direction, double least,
                                                         Over over) const noexcept {
     std::optional<Lean> most;
-    each_around(feature, [&](std::uint32_t t, unsigned edges) {
+    each_around(feature, [&](std::size_t i, unsigned edges) {
+        const std::uint32_t t = triangles_[i];
         const std::uint8_t bits = model_->model->mesh().edge_convexity[t];
-        const Corners at = model_->corners(t);
-        const Double3 front = unit_normal(at);
+        const auto [at, front] = placed(i);
         const bool from_front = is_contained() || dot(front, direction) >= 0;
         // Seen from behind, a convex edge is reflex.
         const EdgeConvexity inward = from_front ? EdgeConvexity::reflex : EdgeConvexity::convex;
         for (unsigned k = 0; k < 3; ++k) {
             const EdgeConvexity edge = format::edge_convexity(bits, k);
-            const bool goes_on =
-                edge == EdgeConvexity::flat || (edge == inward && over == Over::flat_or_reflex);
-            if ((edges >> k & 1) == 0 || !goes_on) continue;
-            const Double3 outward = cross(unit(at[(k + 1) % 3] - at[k]), front);
+            if ((edges >> k & 1) == 0 || !is_among(edge, inward, over)) continue;
+            // A sign decides most edges: a root takes as long as all else here.
+            const Double3 along = at[(k + 1) % 3] - at[k];
+            if (!(dot(cross(along, front), direction) > 0)) continue;
+            const Double3 outward = cross(unit(along), front);
             const double by = dot(outward, direction);
             if (!(by > least) || is_inner(t, k)) continue;
             least = by;
@@ -244,10 +285,9 @@ bool ContactSide::leans_over_flat_edge(const PieceFeature& feature,
 ContactFeature ContactSide::in_source(const PieceFeature& feature) const noexcept {
     const Model& model = *model_->model;
     const std::uint32_t vertex = model.mesh().triangles[feature.triangle].vertex[feature.corner];
-    const auto source = model.source().vertex;
     const bool is_edge = feature.kind == FeatureKind::edge;
     return {feature.kind, static_cast<std::uint8_t>(is_edge ? feature.corner : 0),
-            source_number(model, feature.triangle), source.empty() ? vertex : source[vertex]};
+            source_number(model, feature.triangle), source_vertex(vertex)};
 }
 
 }  // namespace cdprep

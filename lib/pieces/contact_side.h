@@ -9,7 +9,10 @@
 #include "cdprep/advanced/closest_features.h"
 #include "cdprep/contacts.h"
 #include "core/moved_model.h"
+#include "core/triangle_facts.h"
+#include "hull/hull_points.h"
 #include "hull/moved_hull.h"
+#include "pieces/piece_shape.h"
 
 namespace cdprep {
 
@@ -24,8 +27,18 @@ inline Double3 unit(const Double3& d) noexcept {
 /// Returns the normal of a triangle's front, of length 1 up to rounding, or 0, 0, 0 for one without
 /// area.
 inline Double3 unit_normal(const Corners& t) noexcept {
+    const Double3 n = cross(t[1] - t[0], t[2] - t[0]);
+    const double squared = dot(n, n);
+    constexpr double kLeast = 0x1p-800, kMost = 0x1p800;  // no term has left the range of double
+    if (squared > kLeast && squared < kMost) return (1 / std::sqrt(squared)) * n;
     return unit(cross(unit(t[1] - t[0]), unit(t[2] - t[0])));
 }
+
+/// A triangle as moved.
+struct PlacedTriangle {
+    Corners at;
+    Double3 normal;  ///< unit_normal()
+};
 
 /// A feature, given by a triangle in tree order.
 struct PieceFeature {
@@ -55,6 +68,9 @@ public:
     ContactSide& operator=(const ContactSide&) = delete;
     ~ContactSide() = default;
 
+    /// Moves the triangles, if they are few, so that what follows need not move them each time.
+    void place_triangles() noexcept;
+
     [[nodiscard]] const MovedModel& model() const noexcept {
         return *model_;
     }
@@ -81,8 +97,22 @@ public:
                            : MovedHull(hull_.points, model_->pose);
     }
     [[nodiscard]] Double3 corner(std::uint32_t number) const noexcept {
-        return is_placed() ? placed_points_.point(number)
+        return is_placed() ? hull_point(placed_points_, number)
                            : model_->position(hull_.points.corners[number]);
+    }
+    /// Returns the largest distance of a moved corner from where exact arithmetic would move it.
+    [[nodiscard]] double position_error() const noexcept;
+    /// Returns the faces and edges of the hull relative to a point, the same at each call. Null if
+    /// they cannot be tested (PieceShape::set()).
+    [[nodiscard]] const PieceShape* shape(const Double3& origin) noexcept {
+        if (has_shape_ == HasShape::unknown) {
+            has_shape_ = shape_.set(*this, origin) ? HasShape::yes : HasShape::no;
+        }
+        return has_shape_ == HasShape::yes ? &shape_ : nullptr;
+    }
+    /// Returns the shape that shape() returned before.
+    [[nodiscard]] const PieceShape* shape() const noexcept {
+        return has_shape_ == HasShape::yes ? &shape_ : nullptr;
     }
     [[nodiscard]] Double3 normal_of(std::uint32_t triangle) const noexcept {
         return unit_normal(model_->corners(triangle));
@@ -92,17 +122,26 @@ public:
     /// all. The first of several triangles counts.
     [[nodiscard]] std::optional<PieceFeature> find_feature(const VertexSet& set) const noexcept;
 
-    /// Returns the feature that is farthest along a unit direction, near a point of the hull's
-    /// border.
+    /// Returns a triangle of the piece that faces a unit direction squarely: the nearest to a point
+    /// or, if that is null, the first.
+    [[nodiscard]] std::optional<PieceFeature> find_face(const Double3& direction,
+                                                        const Double3* near) const noexcept;
+
+    /// Returns the feature that is farthest along a unit direction. Of several triangles in a face
+    /// there, it names the nearest to a point.
     [[nodiscard]] PieceFeature feature_along(const Double3& direction,
                                              const Double3& near) const noexcept;
+    /// Returns the vertices of the hull that are farthest along a unit direction, up to rounding.
+    [[nodiscard]] VertexSet farthest_vertices(const Double3& direction) const noexcept;
+
+    /// Returns a bound of how far any corner is from a point along a direction, rounding included.
+    [[nodiscard]] double reach(const Double3& direction, const Double3& from) const noexcept;
 
     /// Returns whether the way out of the piece along a unit direction leads away from the solid: a
-    /// triangle with the feature faces that direction.
+    /// triangle with the feature faces that direction, or the direction leads along such a triangle
+    /// over a convex edge, where the next triangle faces it.
     [[nodiscard]] bool leads_out(const PieceFeature& feature,
-                                 const Double3& direction) const noexcept {
-        return facing(feature, direction) > 0;
-    }
+                                 const Double3& direction) const noexcept;
     /// Returns whether the space in a unit direction is clearly inside the solid: the direction is
     /// behind all triangles with the feature.
     [[nodiscard]] bool is_seen_from_behind(const PieceFeature& feature,
@@ -113,11 +152,25 @@ public:
     [[nodiscard]] std::optional<Double3> upright(const PieceFeature& feature,
                                                  const Double3& direction) const noexcept;
 
+    /// Returns whether upright() would change a unit direction at a feature.
+    [[nodiscard]] bool leans_over_edge(const PieceFeature& feature,
+                                       const Double3& direction) const noexcept {
+        return feature.kind != FeatureKind::face &&
+               find_lean(feature, direction, 0, Over::flat_or_reflex).has_value();
+    }
     /// Returns whether a unit direction at a feature leans over an edge where the surface continues
     /// in the same plane.
     [[nodiscard]] bool leans_over_flat_edge(const PieceFeature& feature,
                                             const Double3& direction) const noexcept;
 
+    /// Returns the source number of a triangle of the piece, the same in each query.
+    [[nodiscard]] std::uint32_t source_triangle() const noexcept {
+        return source_number(*model_->model, triangles_[0]);
+    }
+    [[nodiscard]] std::uint32_t source_vertex(std::uint32_t vertex) const noexcept {
+        const auto source = model_->model->source().vertex;
+        return source.empty() ? vertex : source[vertex];
+    }
     /// Returns the feature with source numbers.
     [[nodiscard]] ContactFeature in_source(const PieceFeature& feature) const noexcept;
 
@@ -130,8 +183,12 @@ private:
         return placed_points_.count > 0;
     }
     void place() noexcept;
-    [[nodiscard]] std::optional<PieceFeature> find_face(const Double3& direction,
-                                                        const Double3& near) const noexcept;
+    /// Returns triangle triangles()[i] as moved.
+    [[nodiscard]] PlacedTriangle placed(std::size_t i) const noexcept {
+        if (i < placed_triangles_count_) return placed_triangle_[i];
+        const Corners at = model_->corners(triangles_[i]);
+        return {at, unit_normal(at)};
+    }
     /// Returns the greatest cosine of the angle between a unit direction and the normal of a
     /// triangle with the feature.
     [[nodiscard]] double facing(const PieceFeature& feature,
@@ -146,13 +203,14 @@ private:
         Double3 outward;
         Double3 face;
     };
-    /// The edges over which a surface continues.
-    enum class Over : std::uint8_t { flat, flat_or_reflex };
-    /// Returns the greatest lean above `least` over the edges at a feature where the surface
-    /// continues.
+    /// The edges over which a direction may lean; the surface continues over all but convex ones.
+    enum class Over : std::uint8_t { flat, flat_or_reflex, convex };
+    /// Returns the greatest lean above `least` over some of the edges at a feature.
     [[nodiscard]] std::optional<Lean> find_lean(const PieceFeature& feature,
                                                 const Double3& direction, double least,
                                                 Over over) const noexcept;
+    [[nodiscard]] static bool is_among(format::EdgeConvexity edge, format::EdgeConvexity inward,
+                                       Over over) noexcept;
     [[nodiscard]] bool is_inner(std::uint32_t triangle, unsigned edge) const noexcept;
 
     const MovedModel* model_;
@@ -161,6 +219,12 @@ private:
     FeatureHull hull_;
     ConvexPoints placed_points_;  ///< in placed_; empty for a hull that is too large
     std::array<format::HullBlock, kMostPlaced> placed_;
+    static constexpr std::size_t kMostPlacedTriangles = 32;
+    std::size_t placed_triangles_count_ = 0;
+    std::array<PlacedTriangle, kMostPlacedTriangles> placed_triangle_;
+    enum class HasShape : std::uint8_t { unknown, no, yes };
+    HasShape has_shape_ = HasShape::unknown;
+    PieceShape shape_;
 };
 
 }  // namespace cdprep

@@ -10,8 +10,8 @@ namespace cdprep {
 
 /// Fills in the manifold of a contact from its normal, features and points. The base is the face of
 /// one piece that is perpendicular to the normal. It clips the face of the other piece that faces
-/// it most. The manifold takes corners of the result within the tolerance. Where no face is
-/// perpendicular to the normal, it takes the contact's own points.
+/// it most. The manifold takes corners of the result within the tolerance, and the contact's own
+/// points if none of them is as deep.
 void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature& feature_a,
                   const PieceFeature& feature_b, double tolerance, Contact& contact) noexcept;
 
@@ -29,9 +29,13 @@ struct ContactQuestion {
     QueryCounts* counts;  ///< or null
 };
 
+/// Returns a bound of -Contact::upper: of the shortest translation that separates two pieces, or
+/// minus their distance. Costs little.
+[[nodiscard]] double most_depth_of_pieces(const ContactSide& a, const ContactSide& b,
+                                          const NearPieces& near) noexcept;
+
 /// Returns the contact of two pieces. Two of their triangles are within the tolerance.
-[[nodiscard]] Contact contact_of_pieces(const ContactSide& a, const ContactSide& b,
-                                        const NearPieces& near,
+[[nodiscard]] Contact contact_of_pieces(ContactSide& a, ContactSide& b, const NearPieces& near,
                                         const ContactQuestion& question) noexcept;
 
 }  // namespace cdprep

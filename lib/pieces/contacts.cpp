@@ -2,12 +2,16 @@
 #include "cdprep/contacts.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <optional>
 
 #include "cdprep/format/float_environment.h"
 #include "core/require.h"
+#include "pieces/cluster_contacts.h"
+#include "pieces/contact_choice.h"
 #include "pieces/contact_steps.h"
+#include "pieces/list_contacts.h"
 #include "walk/contact_pairs.h"
 #include "walk/near_triangles.h"
 
@@ -83,38 +87,134 @@ public:
           workspace_(workspace),
           gathered_(workspace.storage().near_pieces) {}
 
-    /// Calls `found` for each contact in order until it returns false; returns false when it did.
+    /// Calls found(contact) for each contact in order until it returns false or the work is done.
+    /// Returns false if either ended the search.
     template <class Found>
     bool run(Found&& found) noexcept {
-        const ContactQuestion question = {&pair_.placement, options_, pair_.options.degenerate,
-                                          workspace_.storage().counts};
-        std::optional<ContactSide> a;
-        std::optional<std::uint64_t> last;
-        do {
-            gather(last);
-            for (const NearPieces& near : gathered_.all()) {
-                const auto piece_a = static_cast<std::uint32_t>(near.key >> 32);
-                if (!a || !last || *last >> 32 != piece_a) a.emplace(moved_a_, piece_a);
-                const ContactSide b(moved_b_, static_cast<std::uint32_t>(near.key));
-                if (!found(contact_of_pieces(*a, b, near, question))) return false;
-                last = near.key;
+        Contacts contacts(*this, options_.manifold);
+        return each_page(
+            [&](const NearPieces& near) { return begin_contact() && found(contacts.of(near)); });
+    }
+    /// Counts the pairs of pieces within the tolerance.
+    void count() noexcept {
+        each_page([](const NearPieces&) { return true; });
+    }
+
+    /// Finds the contacts of a list with a limit, with their manifolds. Valid until the next query.
+    [[nodiscard]] std::span<Contact> list() noexcept {
+        Workspace::Storage& storage = workspace_.storage();
+        ContactChoice choice(storage.contact_candidates);
+        Contacts contacts(*this, options_.manifold);
+        each_page([&](const NearPieces& near) {
+            const Double3 at = moved_a_.corners(near.a)[0];
+            choice.add({contacts.most_depth(near), false, kNoSlot, at, near, 0});
+            return true;
+        });
+        std::uint32_t slots = 0;
+        const auto compute = [&](ContactCandidate& candidate) {
+            if (!begin_contact()) return false;
+            const Contact contact = contacts.of(candidate.near);
+            candidate.depth = -contact.upper;
+            if (slots < kMaxComputedContacts) {
+                storage.computed_contacts[slots] = contact;
+                candidate.slot = slots++;
             }
-        } while (gathered_.is_limited());
-        return true;
+            return candidate.is_exact = true;
+        };
+        const std::size_t most = std::min(options_.most, kMostListedContacts);
+        std::size_t count = 0;
+        for (const ContactCandidate& chosen : choice.choose(most, compute)) {
+            storage.listed_contacts[count++] = chosen.slot == kNoSlot
+                                                   ? contacts.of(chosen.near)
+                                                   : storage.computed_contacts[chosen.slot];
+        }
+        verdict_.complete = verdict_.searched && count == verdict_.found;
+        const auto listed = std::span(storage.listed_contacts).first(count);
+        if (!(options_.cluster_angle > 0)) return listed;
+        return listed.first(cluster_contacts(listed, options_.cluster_angle));
+    }
+
+    [[nodiscard]] ContactsVerdict& verdict() noexcept {
+        return verdict_;
     }
 
 private:
+    /// Calls visit(near) for each pair of pieces in order until it returns false. Returns false if
+    /// it did, or if the search ran out of work.
+    template <class Visit>
+    bool each_page(Visit&& visit) noexcept {
+        std::optional<std::uint64_t> last;
+        do {
+            gather(last);
+            const std::span<const NearPieces> all = gathered_.all();
+            verdict_.found += all.size();
+            for (const NearPieces& near : all) {
+                if (!visit(near)) return false;
+                last = near.key;
+            }
+        } while (gathered_.is_limited() && verdict_.searched);
+        return verdict_.searched;
+    }
+    /// Counts a contact. Returns false if there is no work left for it.
+    [[nodiscard]] bool begin_contact() noexcept {
+        if (is_out_of_work(options_.work)) return false;
+        verdict_.work += kWorkOfContact;
+        ++verdict_.computed;
+        return true;
+    }
+
+    /// The contacts of pairs of pieces. The piece of A stays moved for as long as it is the same.
+    class Contacts {
+    public:
+        Contacts(const ContactSearch& search, Manifold manifold) noexcept
+            : search_(search),
+              question_{&search.pair_.placement, search.options_, search.pair_.options.degenerate,
+                        search.workspace_.storage().counts} {
+            question_.options.manifold = manifold;
+        }
+
+        [[nodiscard]] Contact of(const NearPieces& near) noexcept {
+            ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key));
+            return contact_of_pieces(a_of(near), b, near, question_);
+        }
+        /// Returns a bound of how deep the contact is; negative if it is that far apart.
+        [[nodiscard]] double most_depth(const NearPieces& near) noexcept {
+            const ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key));
+            return most_depth_of_pieces(a_of(near), b, near);
+        }
+
+    private:
+        [[nodiscard]] ContactSide& a_of(const NearPieces& near) noexcept {
+            const auto piece_a = static_cast<std::uint32_t>(near.key >> 32);
+            if (!a_ || piece_a_ != piece_a) a_.emplace(search_.moved_a_, piece_a);
+            piece_a_ = piece_a;
+            return *a_;
+        }
+
+        const ContactSearch& search_;
+        ContactQuestion question_;
+        std::optional<ContactSide> a_;
+        std::uint32_t piece_a_ = 0;
+    };
+
+    [[nodiscard]] bool is_out_of_work(std::uint64_t limit) const noexcept {
+        return options_.work != 0 && verdict_.work >= limit;
+    }
+
     void gather(const std::optional<std::uint64_t>& last) noexcept {
         gathered_.begin_after(last);
         const std::span<const std::uint32_t> piece_a = moved_a_.model->pieces().of_triangle;
         const std::span<const std::uint32_t> piece_b = moved_b_.model->pieces().of_triangle;
         const auto visit = [&](const NearTriangles& near) {
+            if (is_out_of_work((options_.work + 1) / 2)) return false;
+            ++verdict_.work;
             const std::uint64_t key = std::uint64_t{piece_a[near.a]} << 32 | piece_b[near.b];
             if (gathered_.takes(key)) gathered_.add({key, near.a, near.b, touch(near)});
             return true;
         };
-        visit_near_triangles(pair_.options.through, pair_.a, pair_.b, pair_.placement,
-                             options_.tolerance, workspace_, visit, pair_.options);
+        verdict_.searched =
+            visit_near_triangles(pair_.options.through, pair_.a, pair_.b, pair_.placement,
+                                 options_.tolerance, workspace_, visit, pair_.options);
     }
     [[nodiscard]] bool touch(const NearTriangles& near) const noexcept {
         if (near.touch != Touch::unknown) return near.touch == Touch::yes;
@@ -128,28 +228,51 @@ private:
     ContactOptions options_;
     Workspace& workspace_;
     Gathered gathered_;
+    ContactsVerdict verdict_{0, 0, 0, 0, true, false};
 };
 
 }  // namespace
 
-std::size_t contacts(const Pair& pair, Workspace& workspace, std::span<Contact> room,
-                     const ContactOptions& options) noexcept {
+ListedContacts list_contacts(const Pair& pair, Workspace& workspace,
+                             const ContactOptions& options) noexcept {
+    assert(options.most > 0);
+    ContactSearch search(pair, workspace, options);
+    const std::span<const Contact> listed = search.list();
+    return {listed, search.verdict()};
+}
+
+ContactsVerdict contacts(const Pair& pair, Workspace& workspace, std::span<Contact> room,
+                         const ContactOptions& options) noexcept {
     const format::FloatEnvironment environment;
     require(pair.a, pair.b, Ask::contacts | ask_of(pair.options.through));
-    std::size_t count = 0;
-    ContactSearch(pair, workspace, options).run([&](const Contact& contact) {
-        if (count < room.size()) room[count] = contact;
-        ++count;
+    if (options.most > 0) {
+        auto [listed, verdict] = list_contacts(pair, workspace, options);
+        verdict.count = std::min(listed.size(), room.size());
+        std::copy_n(listed.begin(), verdict.count, room.begin());
+        verdict.complete = verdict.complete && verdict.count == listed.size();
+        return verdict;
+    }
+    ContactSearch search(pair, workspace, options);
+    ContactsVerdict& verdict = search.verdict();
+    if (room.empty()) {
+        search.count();
+        verdict.complete = verdict.found == 0 && verdict.searched;
+        return verdict;
+    }
+    const bool all = search.run([&](const Contact& contact) {
+        if (verdict.count < room.size()) room[verdict.count++] = contact;
         return true;
     });
-    return count;
+    verdict.complete = all && verdict.count == verdict.found;
+    return verdict;
 }
 
 bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options) noexcept {
     format::FloatEnvironment environment;
     require(pair.a, pair.b, Ask::contacts | ask_of(pair.options.through));
-    return ContactSearch(pair, workspace, options).run([&](const Contact& contact) {
+    ContactSearch search(pair, workspace, options);
+    return search.run([&](const Contact& contact) {
         return environment.outside([&] { return visit(contact); });
     });
 }

@@ -8,6 +8,7 @@
 
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/contacts.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/limits.h"
 #include "cdprep/workspace.h"
@@ -86,6 +87,24 @@ struct NearPieces {
 /// The most pairs of pieces that one walk gathers; twice as many as it keeps.
 inline constexpr std::size_t kMaxNearPieces = 4096;
 
+/// A pair of pieces whose contact may be listed.
+struct ContactCandidate {
+    double depth;   ///< minus Contact::upper, or at least that
+    bool is_exact;  ///< the contact was computed
+    /// Its place in Storage::computed_contacts, or kNoSlot.
+    std::uint32_t slot;
+    Double3 at;  ///< a corner of a triangle there
+    NearPieces near;
+    double squared_gap;  ///< to the nearest one that was chosen
+};
+
+/// The most contacts among which a list is chosen: the deepest.
+inline constexpr std::size_t kMaxContactCandidates = 1024;
+/// The number of computed contacts that are kept until a list is complete; others are computed
+/// again.
+inline constexpr std::size_t kMaxComputedContacts = 64;
+inline constexpr std::uint32_t kNoSlot = 0xffffffffU;
+
 struct Workspace::Storage {
     // Members aligned to cache lines come first, so no padding is lost between them.
     kernels::LeafScratch leaf_scratch;
@@ -103,6 +122,9 @@ struct Workspace::Storage {
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
     SortScratch sort_scratch;
     std::array<NearPieces, kMaxNearPieces> near_pieces;
+    std::array<ContactCandidate, kMaxContactCandidates> contact_candidates;
+    std::array<Contact, kMaxComputedContacts> computed_contacts;
+    std::array<Contact, kMostListedContacts> listed_contacts;
     std::array<std::uint16_t, kFrontRoom + 2 * kernels::kLanes> weak_planes;  ///< for a PairFront
     QueryCounts* counts = nullptr;        ///< or null: no counts are wanted
     const CellSearches* cells = nullptr;  ///< or null: no searches through octrees and tetra-trees

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// How fast two models tell how they touch: contacts() through the hierarchies of boxes and
-// through those over the pieces, without a manifold and with one; beside what was found at
-// configure time of FCL (a point and a normal for every pair of triangles that touches: no
-// pieces, no tolerance) and Bullet (a compound of the hulls of the same pieces, in float, as
-// Debian builds it: the nearest points of every pair of them, or, for the manifold, faces
-// clipped by each other). Contenders take turns, several rounds; the time of a pose is the
-// median of its rounds, warm. Processor time, one thread.
+// The time of contacts() through the BVHs and through those over the pieces, without a manifold and
+// with one, and with a limit of 16: the deepest, and others spread over the surface.
+//
+// Beside it, if found at configure time: FCL, with a point and a normal for every pair of triangles
+// that touches (no pieces, no tolerance), and with a limit of 16, which are the first 16 it meets;
+// and Bullet, as Debian builds it in float, with a compound of the hulls of the same pieces: the
+// nearest points of every pair of them or, for the manifold, faces clipped by each other.
+// Contenders take turns, several rounds; the time of a pose is the median of its rounds, warm.
+// Processor time, one thread.
 //
 // Usage: contacts_bench BAKES POSES [ROUNDS [PAIR...]]
 // as pair_queries_bench: models normalised, baked with --effects contacts; line i of a file is
@@ -44,6 +46,7 @@ namespace cdprep {
 namespace {
 
 constexpr std::size_t kMostContacts = 1U << 18;
+constexpr std::uint32_t kFew = 16;  ///< contacts of a list with a limit
 constexpr double kNearTolerance = 0.012;
 constexpr double kStep = 0.001;  ///< of a walk
 constexpr std::size_t kSteps = 50;
@@ -75,16 +78,19 @@ public:
 
 class Ours final : public Contender {
 public:
-    Ours(const Model& a, const Model& b, Structure structure)
-        : a_(a), b_(b), structure_(structure), contacts_(kMostContacts) {}
+    Ours(const Model& a, const Model& b, Structure structure, std::uint32_t most = 0)
+        : a_(a), b_(b), structure_(structure), most_(most), contacts_(kMostContacts) {}
     [[nodiscard]] const char* name() const override {
+        if (most_ > 0) return "boxes_16";
         return structure_ == Structure::pieces ? "pieces" : "boxes";
     }
     Found ask(const Question& question, const Pose& pose) override {
         Found found;
         found.contacts =
-            contacts({a_, b_, Placement::b_moves(pose), {.through = structure_}}, workspace_,
-                     contacts_, {.tolerance = question.tolerance, .manifold = question.manifold});
+            contacts(
+                {a_, b_, Placement::b_moves(pose), {.through = structure_}}, workspace_, contacts_,
+                {.tolerance = question.tolerance, .manifold = question.manifold, .most = most_})
+                .count;
         for (std::size_t i = 0; i < std::min(found.contacts, kMostContacts); ++i) {
             found.points += contacts_[i].point_count;
         }
@@ -102,6 +108,7 @@ private:
     const Model& a_;
     const Model& b_;
     Structure structure_;
+    std::uint32_t most_;  ///< 0: all
     Workspace workspace_;
     std::vector<Contact> contacts_;
 };
@@ -109,10 +116,10 @@ private:
 #ifdef CDPREP_HAVE_FCL
 class Fcl final : public Contender {
 public:
-    Fcl(const Model& a, const Model& b)
-        : a_(fcl_model<fcl::OBBd>(a)), b_(fcl_model<fcl::OBBd>(b)) {}
+    Fcl(const Model& a, const Model& b, std::size_t most)
+        : a_(fcl_model<fcl::OBBd>(a)), b_(fcl_model<fcl::OBBd>(b)), most_(most) {}
     [[nodiscard]] const char* name() const override {
-        return "fcl";
+        return most_ == kMostContacts ? "fcl" : "fcl_16";
     }
     [[nodiscard]] bool can_ask(const Question& question) const override {
         return question.tolerance == 0 && question.manifold == Manifold::none;
@@ -120,13 +127,14 @@ public:
     Found ask(const Question& /*question*/, const Pose& pose) override {
         fcl::CollisionResultd result;
         fcl::collide(&a_, fcl::Transform3d::Identity(), &b_, fcl_transform(pose),
-                     fcl::CollisionRequestd(kMostContacts, true), result);
+                     fcl::CollisionRequestd(most_, true), result);
         return {result.numContacts(), result.numContacts()};
     }
 
 private:
     fcl::BVHModel<fcl::OBBd> a_;
     fcl::BVHModel<fcl::OBBd> b_;
+    std::size_t most_;
 };
 #endif
 
@@ -320,8 +328,10 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
         std::vector<std::unique_ptr<Contender>> contenders;
         contenders.push_back(std::make_unique<Ours>(a, b, Structure::bvh));
         contenders.push_back(std::make_unique<Ours>(a, b, Structure::pieces));
+        contenders.push_back(std::make_unique<Ours>(a, b, Structure::bvh, kFew));
 #ifdef CDPREP_HAVE_FCL
-        contenders.push_back(std::make_unique<Fcl>(a, b));
+        contenders.push_back(std::make_unique<Fcl>(a, b, kMostContacts));
+        contenders.push_back(std::make_unique<Fcl>(a, b, kFew));
 #endif
 #ifdef CDPREP_HAVE_BULLET
         contenders.push_back(std::make_unique<Bullet>(a, b));

@@ -365,11 +365,12 @@ private:
         given.value.tolerance = draw_.number();
         if (draw_.one_in(2)) given.value.manifold = 4;
         if (draw_.one_in(8)) given.value.manifold = draw_.word();
-        if (draw_.one_in(4)) given.value.most = draw_.word();
+        if (draw_.one_in(4)) given.value.most = draw_.below(300);
+        if (draw_.one_in(4)) given.value.cluster_angle = draw_.number();
         if (draw_.one_in(4)) given.value.work = draw_.word();
         given.spoil(draw_);
         std::array<cdprep_contact, 8> items{};
-        cdprep_contact_list list = {items.data(), draw_.below(9), 99, 99, 99};
+        cdprep_contact_list list = {items.data(), draw_.below(9), 99, 99, 99, 99, 99, 99};
         const int code = cdprep_contacts(pair(), &given.value, workspace(), &list, &error_);
         if (!is_answered(code)) MUST(list.count == 0 && list.complete == CDPREP_NO);
         for (std::size_t i = 0; i < std::min(list.count, list.room); ++i) {

@@ -109,6 +109,8 @@ public:
     void add(const Contact& c) {
         add(c.piece_a);
         add(c.piece_b);
+        add(c.id);
+        add(c.members);
         add(c.point_a);
         add(c.point_b);
         add(c.normal);
@@ -118,6 +120,15 @@ public:
         for (std::uint32_t i = 0; i < c.point_count; ++i) add(c.points[i].on_a);
         for (std::uint32_t i = 0; i < c.point_count; ++i) add(c.points[i].on_b);
         for (std::uint32_t i = 0; i < c.point_count; ++i) add(c.points[i].distance);
+        for (std::uint32_t i = 0; i < c.point_count; ++i) add(c.points[i].id);
+    }
+    void add(const ContactsVerdict& v) {
+        add(v.count);
+        add(v.found);
+        add(v.computed);
+        add(v.work);
+        add(v.searched);
+        add(v.complete);
     }
     void add(const Pose& pose) {
         for (const double number : pose.rotation()) add(number);

@@ -198,7 +198,8 @@ inline const std::vector<Question>& questions() {
          [](const Scene& scene) {
              return told_list<Contact>([&](std::span<Contact> room) {
                  return contacts(scene.pair(), scene.workspace, room,
-                                 {.tolerance = 0.5, .manifold = Manifold::four});
+                                 {.tolerance = 0.5, .manifold = Manifold::four})
+                     .found;
              });
          }},
         {"visit_contacts", Ask::contacts,

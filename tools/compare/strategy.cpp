@@ -127,7 +127,7 @@ bool StrategyPair::is_within(const Placement& placement, double tolerance) {
 
 std::size_t StrategyPair::contacts(const Placement& placement, double tolerance,
                                    std::span<Contact> room) {
-    return cdprep::contacts({a_, b_, placement}, workspace_, room, {.tolerance = tolerance});
+    return cdprep::contacts({a_, b_, placement}, workspace_, room, {.tolerance = tolerance}).found;
 }
 
 }  // namespace cdprep::study

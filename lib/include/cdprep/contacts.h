@@ -25,6 +25,10 @@ struct ManifoldPoint {
     Double3 on_a;
     Double3 on_b;
     double distance;  ///< from on_a to on_b along the normal, rounded; negative: overlap
+    /// The same for the same point of the same contact after a small motion: made of the source
+    /// numbers of the vertex, or of the two edges that cross there. 0 for the only point of a
+    /// contact.
+    std::uint64_t id;
 };
 
 /// Bits of Contact::flags.
@@ -49,6 +53,9 @@ inline constexpr std::size_t kMostManifoldPoints = 4;
 struct Contact {
     std::uint32_t piece_a;  ///< an index into Model::pieces().pieces
     std::uint32_t piece_b;
+    /// The same as long as the two pieces are in contact, whatever moves: the source number of a
+    /// triangle of A's piece in the high 32 bits, and of B's in the low ones.
+    std::uint64_t id;
     ContactFeature feature_a;
     ContactFeature feature_b;
     Double3 point_a;  ///< on A, up to rounding
@@ -60,6 +67,7 @@ struct Contact {
     double lower;
     double upper;
     std::uint32_t flags;        ///< ContactFlags
+    std::uint32_t members;      ///< the number of contacts in this cluster; 1 without clusters
     std::uint32_t point_count;  ///< in `points`; 0 if no manifold was requested
     std::array<ManifoldPoint, kMostManifoldPoints> points;  ///< the deepest first
 };
@@ -67,33 +75,74 @@ struct Contact {
 /// The number of points of a contact.
 enum class Manifold : std::uint8_t { none, four };
 
+/// The largest ContactOptions::most.
+inline constexpr std::uint32_t kMostListedContacts = 256;
+
 struct ContactOptions {
     double tolerance = 0;  ///< model units; inclusive
     Manifold manifold = Manifold::none;
+    /// The maximum number of contacts, at most kMostListedContacts: the deepest, and others spread
+    /// over the surface. 0: all contacts, in the order of their pieces.
+    std::uint32_t most = 0;
+    /// The maximum work, 0 for no limit: each pair of near triangles counts 1, and each contact
+    /// kWorkOfContact. The search for near triangles takes at most half of it.
+    std::uint64_t work = 0;
+    /// Contacts whose normals are at most this far apart, radians, and which are linked by common
+    /// pieces, become one with at most four points. 0: none do. Needs `most`.
+    double cluster_angle = 0;
+};
+
+inline constexpr std::uint64_t kWorkOfContact = 32;
+
+/// The extent of a list of contacts, and what limits left out.
+struct ContactsVerdict {
+    std::size_t count;       ///< contacts stored in `room`
+    std::uint64_t found;     ///< pairs of pieces within the tolerance, as far as was searched
+    std::uint64_t computed;  ///< those of them whose contact was computed
+    std::uint64_t work;      ///< as ContactOptions::work counts it
+    bool searched;           ///< the whole surface was searched: `work` ended nothing
+    bool complete;           ///< all contacts are in `room`, or in the clusters there
 };
 
 /// Finds the contacts of two surfaces: one for each pair of convex pieces with triangles at most
-/// options.tolerance apart, exactly as pairs_within() decides.
+/// options.tolerance apart, exactly as pairs_within() decides. A negative tolerance or NaN gives no
+/// contacts.
 ///
-/// Returns the number of contacts. Stores the first of them in `room`, in the order of (piece_a,
-/// piece_b). With an empty span it only counts. A negative tolerance or NaN gives no contacts.
+/// Without options.most, stores the first contacts in `room`, in the order of (piece_a, piece_b).
+/// With an empty span it only counts them (`found`). With options.most, stores at most so many, the
+/// deepest first (by `upper`, then by pieces). If there are more, every second contact is the
+/// deepest that is left, and the others are those farthest from all that were taken. Then only
+/// contacts that may be listed are computed.
+///
+/// The number to use: `lower` is minus the distance by which a solver must move B along `normal`.
+///
+///     +---+                 +---+                    +---+
+///     | B |                 | B |                    | B |
+///     +---+             ----|   |----  A        -----|   |-+-----  A: two faces in one plane
+///       | lower             +---+ | -lower           +---+ | -lower
+///     ---------  A                                   --> -upper: shorter, but sideways
+///     apart             shallow                 at an edge inside a surface
 ///
 /// If two pieces are apart, their contact has the nearest features of the mesh. The interval of the
 /// distance is no wider than that of convex_distance(). If their hulls overlap, and both are
-/// contained or their triangles touch, it has the shortest separating translation
-/// (convex_penetration()). A piece is contained if its hull lies within the solid. For other
-/// overlapping hulls, the contact has the distance of the triangles. If triangles do not cover a
-/// face of a hull, the triangles decide. If several pairs of points are nearest, as between
-/// parallel faces, the contact has one of them.
+/// contained or their triangles touch, the normal is the shortest way out that does not snag: among
+/// the normals of both hulls' faces and the directions across two of their edges. A piece is
+/// contained if its hull lies within the solid. For other overlapping hulls, the contact has the
+/// distance of the triangles. If triangles do not cover a face of a hull, the triangles decide. If
+/// several pairs of points are nearest, as between parallel faces, the contact has one of them.
+///
+/// A way snags if it leans over a flat or reflex edge, where the surface continues, or leads
+/// through a part of the hull that no triangle covers. Then the shortest way that ends at both
+/// surfaces is taken (contact_internal_edge), unless one that leads neither along a plane nor
+/// deeper into a solid is less than half as long. `upper` still tells the shortest way of all. For
+/// shallow contacts away from such edges, `lower` and `upper` are equal up to rounding. Where
+/// bodies overlap by more than the size of a piece, a contact separates its two pieces only, not
+/// the bodies: push by the deepest, and query again. Inside a solid, the inner side of a wall may
+/// be near (contact_from_behind); such a contact should not push.
 ///
 /// The manifold spans the nearest pairs. Its points are corners of one face, clipped by the other,
-/// within the tolerance. The deepest point is first, then those that span the largest area.
-///
-/// Normals do not catch on edges inside a surface. At a flat or reflex edge, or a vertex between
-/// two such edges, the normal is that of a face (contact_internal_edge). If pieces overlap, the
-/// shortest way out decides, along a face of either piece. A way that ends at both surfaces is
-/// preferred, unless another is less than half as long. Inside a solid, the inner side of a wall
-/// may be near (contact_from_behind); such a contact should not push.
+/// and each distance is between the two faces there. The deepest point is first, then those that
+/// span the largest area.
 ///
 /// The answer is the same on every processor. A piece inside another's hull makes no contact if it
 /// is farther than the tolerance from the other's triangles. collide() with Body::solid detects it.
@@ -101,15 +150,17 @@ struct ContactOptions {
 /// Reads pair.options.degenerate and pair.options.through. The only structure beside the BVH is
 /// Structure::pieces, which is slower (1.7 times for near poses, 1.1 times for others). Needs
 /// Ask::contacts of both models, and options.through its ask_of(). Takes the time of
-/// pairs_within(), plus 5 to 9 microseconds per pair of pieces and 1 more with a manifold
+/// pairs_within(), plus 2 to 9 microseconds per pair of pieces and 1 more with a manifold
 /// (tests/bench/results, contacts.csv). Never allocates.
-[[nodiscard]] std::size_t contacts(const Pair& pair, Workspace& workspace, std::span<Contact> room,
-                                   const ContactOptions& options = {}) noexcept;
+[[nodiscard]] ContactsVerdict contacts(const Pair& pair, Workspace& workspace,
+                                       std::span<Contact> room,
+                                       const ContactOptions& options = {}) noexcept;
 
 using ContactVisitor = Visitor<Contact>;
 
-/// Calls `visit` with every contact that contacts() finds, each once and in the same order. Returns
-/// false if `visit` ended the search. Needs Ask::contacts of both models, and options.through its
+/// Calls `visit` with every contact that contacts() finds without options.most and
+/// options.cluster_angle, each once and in the same order. Returns false if `visit` or
+/// options.work ended the search. Needs Ask::contacts of both models, and options.through its
 /// ask_of().
 bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options = {}) noexcept;

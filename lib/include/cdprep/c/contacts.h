@@ -19,6 +19,7 @@ typedef struct cdprep_feature {
 typedef struct cdprep_contact_point {
     double on_a[3], on_b[3];
     double distance; /* from on_a to on_b along the normal; negative: overlap */
+    uint64_t id;     /* the same for the same point after a small motion; 0 for an only point */
 } cdprep_contact_point;
 
 /* Bits of cdprep_contact.flags. */
@@ -33,31 +34,44 @@ enum {
 /* A contact of two convex pieces. Points are in the frame into which the models move. */
 typedef struct cdprep_contact {
     uint32_t piece_a, piece_b;
+    /* The same as long as the two pieces are in contact: the source number of a triangle of A's
+     * piece in the high 32 bits, and of B's in the low ones. */
+    uint64_t id;
     cdprep_feature feature_a, feature_b; /* for an edge or face, only vertex[0] is known */
     uint32_t flags;
     uint32_t point_count; /* in `points`; 0 without a manifold */
+    uint32_t members;     /* the number of contacts in this cluster; 1 without clusters */
+    uint32_t reserved;    /* 0 */
     double on_a[3], on_b[3];
-    double normal[3];               /* from A to B, of length 1 up to rounding */
-    double lower, upper;            /* bounds of the exact distance; negative: overlap */
+    double normal[3]; /* from A to B, of length 1 up to rounding */
+    /* Bounds of the exact distance; negative: overlap. No translation shorter than -upper separates
+     * the pieces, and one by -lower along the normal does. */
+    double lower, upper;
     cdprep_contact_point points[4]; /* the deepest first */
 } cdprep_contact;
 
 typedef struct cdprep_contact_list {
     cdprep_contact* items;
     size_t room;       /* input */
-    size_t count;      /* output: contacts, at most cdprep_contact_options.most */
+    size_t count;      /* output: contacts or clusters, at most cdprep_contact_options.most */
     uint32_t complete; /* output: CDPREP_NO if `most` or `work` left some out */
-    uint32_t reserved; /* 0 */
+    uint32_t searched; /* output: CDPREP_NO if `work` ended the search for near triangles */
+    uint64_t found;    /* output: pairs of pieces within the tolerance, as far as was searched */
+    uint64_t computed; /* output: those of them whose contact was computed */
+    uint64_t work;     /* output: as cdprep_contact_options.work counts it */
 } cdprep_contact_list;
 
 typedef struct cdprep_contact_options {
     cdprep_head head;
     double tolerance;  /* 0: pieces at most this far apart are in contact */
     uint32_t manifold; /* 0: none; 4: contacts come with up to four points */
-    uint32_t most;     /* 256: the maximum length of a list; it keeps the deepest */
-    /* 0: no limit; otherwise the maximum number of contacts to compute. The search for near
-     * triangles is not limited. */
+    uint32_t most;     /* 256: the maximum length of a list, 1 to 256 */
+    /* 0: no limit; otherwise the maximum work: each pair of near triangles counts 1, and each
+     * contact 32. The search for near triangles takes at most half of it. */
     uint64_t work;
+    /* 0: no clusters. Otherwise contacts whose normals are at most this far apart, radians, and
+     * which are linked by common pieces, become one with at most four points. */
+    double cluster_angle;
 } cdprep_contact_options;
 
 typedef int (*cdprep_contact_visitor)(void* context, const cdprep_contact* contact);
@@ -65,20 +79,19 @@ typedef int (*cdprep_contact_visitor)(void* context, const cdprep_contact* conta
 CDPREP_API void cdprep_contact_options_init(cdprep_contact_options* options, size_t size);
 
 /* Finds the contacts of two surfaces: one for each pair of convex pieces with triangles at most
- * `tolerance` apart, exactly as cdprep_pairs_within() decides. The list is sorted by `lower`, the
- * deepest first, then by piece_a and piece_b. If there is too little room, it keeps the deepest.
- * Pairs of pieces are visited in the order of (piece_a, piece_b), so a limit of `work` leaves out
- * the last ones. `options` may be null.
+ * `tolerance` apart, exactly as cdprep_pairs_within() decides. The list is sorted by `upper`, the
+ * deepest first, then by piece_a and piece_b. If there are more than `most`, every second one is
+ * the deepest that is left, and the others are those farthest from all that were taken. `items`
+ * get the first ones. `options` may be null.
  * Uses degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
- * Takes the time of cdprep_pairs_within(), plus 5 to 9 microseconds and O(log room) per pair of
- * pieces.
+ * Takes the time of cdprep_pairs_within(), plus 2 to 9 microseconds per pair of pieces.
  * Needs: CDPREP_ASK_CONTACTS */
 CDPREP_API int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_options* options,
                                cdprep_workspace* workspace, cdprep_contact_list* list,
                                cdprep_error* error);
 
-/* Calls `visit` with all contacts in the order of (piece_a, piece_b). `most` has no meaning,
- * because the visitor ends the search.
+/* Calls `visit` with all contacts in the order of (piece_a, piece_b). `most` and `cluster_angle`
+ * have no meaning, because the visitor ends the search.
  * Needs: CDPREP_ASK_CONTACTS */
 CDPREP_API int cdprep_contacts_visit(const cdprep_pair* pair, const cdprep_contact_options* options,
                                      cdprep_workspace* workspace, cdprep_contact_visitor visit,

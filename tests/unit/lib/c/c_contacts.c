@@ -43,7 +43,7 @@ static int see(void* context, const cdprep_contact* contact) {
 static const char* ask_at(const cdprep_model* cube, cdprep_workspace* scratch, double x) {
     const cdprep_pair pair = moved_by(cube, cube, x);
     cdprep_contact contact;
-    cdprep_contact_list list = {&contact, 1, 9, 9, 9};
+    cdprep_contact_list list = {&contact, 1, 9, 9, 9, 9, 9, 9};
     cdprep_contact_options options;
     cdprep_contact_options_init(&options, sizeof options);
     options.tolerance = 0.25;
@@ -63,8 +63,13 @@ static const char* ask_at(const cdprep_model* cube, cdprep_workspace* scratch, d
     seen.count = 0;
     MUST(cdprep_contacts_visit(&pair, &options, scratch, see, &seen, NULL) == CDPREP_OK);
     MUST(seen.count == 1);
-    options.most = 0;
+    options.work = 1; /* the one pair of near triangles, and no contact */
     MUST(cdprep_contacts(&pair, &options, scratch, &list, NULL) == CDPREP_OK);
+    MUST(list.count == 0 && list.complete == CDPREP_NO && list.searched == CDPREP_NO);
+    MUST(list.found == 1 && list.computed == 0 && list.work == 1);
+    options.work = 0;
+    options.most = 0;
+    MUST(cdprep_contacts(&pair, &options, scratch, &list, NULL) == CDPREP_BAD_ARGUMENT);
     MUST(list.count == 0 && list.complete == CDPREP_NO);
     return check_contact(&seen.last, x, 1);
 }

@@ -616,6 +616,12 @@ TEST_F(CHostile, ContactOptionsAreCheckedFieldByField) {
     for (const auto& [number, why] : bad_numbers()) {
         const double bad = number;
         all.push_back({"tolerance", [bad](O& o) { o.tolerance = bad; }, why, "options.tolerance"});
+        all.push_back(
+            {"cluster", [bad](O& o) { o.cluster_angle = bad; }, why, "options.cluster_angle"});
+    }
+    for (const std::uint32_t most : {0U, 257U}) {
+        all.push_back(
+            {"most", [most](O& o) { o.most = most; }, CDPREP_WHY_OUT_OF_RANGE, "options.most"});
     }
     for (const std::uint32_t points : {1U, 3U, 77U}) {
         all.push_back({"manifold", [points](O& o) { o.manifold = points; }, CDPREP_WHY_OUT_OF_RANGE,
@@ -623,10 +629,12 @@ TEST_F(CHostile, ContactOptionsAreCheckedFieldByField) {
     }
     const cdprep_pair given = pair();
     expect_refused(right, all, [&](const O* options) {
-        cdprep_contact_list list = {nullptr, 0, 77, CDPREP_YES, 0};
+        cdprep_contact_list list = {nullptr, 0, 77, CDPREP_YES, CDPREP_YES, 77, 77, 77};
         cdprep_error error;
         const int code = cdprep_contacts(&given, options, workspace_.get(), &list, &error);
-        Outcome told = outcome(code, error, list.count == 0 && list.complete == CDPREP_NO);
+        Outcome told = outcome(code, error,
+                               list.count == 0 && list.complete == CDPREP_NO &&
+                                   list.searched == CDPREP_NO && list.found == 0);
         if (options == nullptr) told.why = CDPREP_WHY_NULL;  // null stands for the defaults
         return told;
     });
@@ -1251,7 +1259,7 @@ TEST_F(CHostile, NoQuestionAllocates) {
         cdprep_collision collision;
         cdprep_nearest nearest;
         cdprep_overlap_list list = {overlaps.data(), overlaps.size(), 0};
-        cdprep_contact_list found = {contacts.data(), contacts.size(), 0, 0, 0};
+        cdprep_contact_list found = {contacts.data(), contacts.size(), 0, 0, 0, 0, 0, 0};
         cdprep_crossing_list crossed = {crossings.data(), crossings.size(), 0};
         cdprep_corners corners;
         cdprep_workspace* const scratch = workspace_.get();

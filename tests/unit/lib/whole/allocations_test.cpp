@@ -325,7 +325,8 @@ TEST(Allocations, NoContactAllocates) {
     const std::vector<Placement> placements = some_placements();
     Workspace workspace(cells());
     std::vector<Contact> room(20);
-    std::size_t found = 0, most = 0, overlapping = 0;
+    std::size_t found = 0, overlapping = 0;
+    std::uint64_t most = 0;
     const auto visit = [&](const Contact& contact) {
         ++found;
         overlapping += contact.flags & contact_overlap;
@@ -335,8 +336,13 @@ TEST(Allocations, NoContactAllocates) {
     for (const Placement& placement : placements) {
         for (const Manifold manifold : {Manifold::none, Manifold::four}) {
             for (const OpenModel* other : {&a, &b}) {
-                most = std::max(most, contacts({other->model, b.model, placement}, workspace, room,
-                                               {.tolerance = 0.25, .manifold = manifold}));
+                const Pair pair = {other->model, b.model, placement};
+                const ContactOptions all = {.tolerance = 0.25, .manifold = manifold};
+                most = std::max(most, contacts(pair, workspace, room, all).found);
+                ContactOptions some = all;
+                some.most = 12;
+                some.cluster_angle = 0.25;
+                EXPECT_LE(contacts(pair, workspace, room, some).count, 12U);
                 visit_contacts({b.model, other->model, placement}, workspace, visit,
                                {.tolerance = 0.25, .manifold = manifold});
             }

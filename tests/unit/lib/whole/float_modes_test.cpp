@@ -373,7 +373,13 @@ TEST(FloatModes, ChangeNoContact) {
                 return true;
             };
             const Pair pair = {a.model, b.model, placement};
-            out.bytes.add(room, contacts(pair, workspace, room, options));
+            out.bytes.add(room, contacts(pair, workspace, room, options).count);
+            ContactOptions few = options;
+            few.most = 12;
+            few.cluster_angle = 0.25;
+            const ContactsVerdict verdict = contacts(pair, workspace, room, few);
+            out.bytes.add(verdict);
+            out.bytes.add(room, verdict.count);
             out.bytes.add(visit_contacts(pair, workspace, visit, options));
         });
         const FeatureHull hull_a = feature_hull(a.model, 0), hull_b = feature_hull(b.model, 3);

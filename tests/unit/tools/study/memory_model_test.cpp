@@ -50,7 +50,7 @@ TEST(MemoryModel, AnswersAsAFileDoesThroughEveryPart) {
     EXPECT_EQ(bytes_of(made.value(), {SectionId::triangles}), mesh.triangles.size() * 12);
     EXPECT_EQ(bytes_of(made.value(), {SectionId::triangle_piece}), mesh.triangles.size() * 4);
     Workspace workspace(cells());
-    EXPECT_GT(contacts({model, model, placement}, workspace, {}, {.tolerance = 0.01}), 0U);
+    EXPECT_GT(contacts({model, model, placement}, workspace, {}, {.tolerance = 0.01}).found, 0U);
 }
 
 TEST(MemoryModel, IsAMeshAgain) {

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "cdprep/contacts.h"
+#include "exact/vectors.h"
+
+namespace cdprep {
+
+/// Returns the points of a contact without a manifold as one of a manifold.
+[[nodiscard]] inline ManifoldPoint only_point(const Contact& contact) noexcept {
+    return {contact.point_a, contact.point_b,
+            dot(contact.normal, contact.point_b - contact.point_a), 0};
+}
+
+/// Sets the points of a contact to at most four of `points`, of which there is at least one: the
+/// deepest (of several, the outermost), the one farthest from it, and those with the largest
+/// triangles on either side of the line between. Of equal points it takes the first. `points` are
+/// not those of the contact.
+inline void choose_four(std::span<const ManifoldPoint> points, Contact& contact) noexcept {
+    const auto best = [&](auto&& score) {
+        std::size_t top = 0;
+        for (std::size_t i = 1; i < points.size(); ++i) {
+            if (score(points[i]) > score(points[top])) top = i;
+        }
+        return top;
+    };
+    contact.point_count = 0;
+    const auto take = [&](std::size_t i) { contact.points[contact.point_count++] = points[i]; };
+    // Points that lie in a plane are equally deep up to rounding: then the outermost is first.
+    constexpr double kLevel = 1e-6;  // of their extent
+    Double3 middle{};
+    for (const ManifoldPoint& p : points) middle = middle + p.on_a;
+    middle = (1 / static_cast<double>(points.size())) * middle;
+    const auto squared_way = [&](const ManifoldPoint& p) {
+        return dot(p.on_a - middle, p.on_a - middle);
+    };
+    const double deepest =
+        points[best([](const ManifoldPoint& p) { return -p.distance; })].distance;
+    const double level = deepest + kLevel * std::sqrt(squared_way(points[best(squared_way)]));
+    const std::size_t first =
+        best([&](const ManifoldPoint& p) { return p.distance <= level ? squared_way(p) : -1.0; });
+    take(first);
+    const Double3 origin = points[first].on_a;
+    const std::size_t second = best([&](const ManifoldPoint& p) {
+        const Double3 d = p.on_a - origin;
+        return dot(d, d);
+    });
+    const Double3 line = points[second].on_a - origin;
+    if (!(dot(line, line) > 0)) return;
+    take(second);
+    for (const double side : {1.0, -1.0}) {
+        const auto area = [&](const ManifoldPoint& p) {
+            return side * dot(contact.normal, cross(line, p.on_a - origin));
+        };
+        const std::size_t third = best(area);
+        // A smaller area is rounding: no point is beside the line.
+        if (area(points[third]) > 1e-12 * dot(line, line)) take(third);
+    }
+}
+
+}  // namespace cdprep
