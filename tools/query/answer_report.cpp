@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <cstdio>
 #include <ostream>
 
 // This file writes JSON by hand. There may be millions of pairs, and scripts may rely on the blank
@@ -252,10 +253,18 @@ std::string as_json(const ContactFeature& feature) {
     return text + "}";
 }
 
+std::string hex(std::uint64_t id) {
+    std::array<char, 17> text{};
+    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(id));
+    return text.data();
+}
+
 std::string as_json(const Contact& contact) {
     std::string text =
-        "{\"piece_a\": " + number(contact.piece_a) + ", \"piece_b\": " + number(contact.piece_b) +
-        ", \"lower\": " + number(contact.lower) + ", \"upper\": " + number(contact.upper) +
+        "{\"id\": [" + number(contact.id >> 32) + ", " + number(contact.id & 0xffffffffU) +
+        "], \"piece_a\": " + number(contact.piece_a) + ", \"piece_b\": " + number(contact.piece_b) +
+        ", \"members\": " + number(contact.members) + ", \"lower\": " + number(contact.lower) +
+        ", \"upper\": " + number(contact.upper) +
         ", \"overlap\": " + word((contact.flags & contact_overlap) != 0) +
         ", \"internal_edge\": " + word((contact.flags & contact_internal_edge) != 0) +
         ", \"from_behind\": " + word((contact.flags & contact_from_behind) != 0) +
@@ -269,14 +278,20 @@ std::string as_json(const Contact& contact) {
         const ManifoldPoint& point = contact.points[i];
         text += std::string(i > 0 ? ", " : "") + "{\"on_a\": [" + place(point.on_a, ", ") +
                 "], \"on_b\": [" + place(point.on_b, ", ") +
-                "], \"distance\": " + number(point.distance) + "}";
+                "], \"distance\": " + number(point.distance) + ", \"id\": \"" + hex(point.id) +
+                "\"}";
     }
     return text + "]}";
 }
 
 std::string as_json(const ContactsAnswer& answer) {
     std::string text = "{\"pose\": " + number(answer.pose) +
-                       ", \"count\": " + number(answer.contacts.size()) + ", \"contacts\": [";
+                       ", \"count\": " + number(answer.contacts.size()) +
+                       ", \"found\": " + number(answer.verdict.found) +
+                       ", \"computed\": " + number(answer.verdict.computed) +
+                       ", \"work\": " + number(answer.verdict.work) +
+                       ", \"searched\": " + word(answer.verdict.searched) +
+                       ", \"complete\": " + word(answer.verdict.complete) + ", \"contacts\": [";
     for (std::size_t i = 0; i < answer.contacts.size(); ++i) {
         text += (i > 0 ? ", " : "") + as_json(answer.contacts[i]);
     }
@@ -299,12 +314,17 @@ std::string as_text(const ContactFeature& feature) {
 std::string as_text(const ContactsAnswer& answer) {
     std::string text =
         "pose " + number(answer.pose) + ": " + number(answer.contacts.size()) + " contacts";
+    if (!answer.verdict.complete) {
+        text += " of " + number(answer.verdict.found) +
+                (answer.verdict.searched ? " found" : " found before the budget ended the search");
+    }
     for (const Contact& contact : answer.contacts) {
         text += "\n  pieces " + number(contact.piece_a) + " and " + number(contact.piece_b) +
                 ": distance " + number(contact.lower) + " to " + number(contact.upper) +
                 ", normal " + place(contact.normal, " ") + ", " + as_text(contact.feature_a) +
                 " and " + as_text(contact.feature_b) + ", at " + place(contact.point_a, " ") +
-                " and " + place(contact.point_b, " ");
+                " and " + place(contact.point_b, " ") +
+                (contact.members > 1 ? ", " + number(contact.members) + " joined" : "");
         for (std::uint32_t i = 0; i < contact.point_count; ++i) {
             const ManifoldPoint& point = contact.points[i];
             text += "\n    " + number(point.distance) + " from " + place(point.on_a, " ") + " to " +

@@ -63,6 +63,7 @@ struct WithinAnswer {
 struct ContactsAnswer {
     std::size_t pose = 0;
     std::span<const Contact> contacts;
+    ContactsVerdict verdict{};
 };
 
 /// The inclusion of point number `point` in the model.

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 #include "cdprep/cells/overlap_through.h"
@@ -25,24 +26,28 @@ struct Arguments {
     StructureWords structure;
     double tolerance = 0;
     bool manifold = false;
+    std::uint32_t most = 0;
+    std::uint64_t budget = 0;
+    double cluster_deg = 0;
     bool skip_degenerate = false;
     std::string format = "text";
 };
 
 constexpr std::array kServing = {Structure::bvh, Structure::pieces};
 
-std::vector<Contact> find_contacts(const Model& a, const Model& b, const Placement& placement,
-                                   const Arguments& arguments, Structure through,
-                                   Workspace& workspace) {
-    std::vector<Contact> found;
-    const auto keep = [&](const Contact& contact) {
-        found.push_back(contact);
-        return true;
-    };
-    const Degenerate degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
-    visit_contacts({a, b, placement, {.degenerate = degenerate, .through = through}}, workspace,
-                   keep,
-                   {arguments.tolerance, arguments.manifold ? Manifold::four : Manifold::none});
+ContactOptions options_of(const Arguments& arguments) {
+    return {arguments.tolerance, arguments.manifold ? Manifold::four : Manifold::none,
+            arguments.most, arguments.budget, arguments.cluster_deg * std::numbers::pi / 180};
+}
+
+/// Finds the contacts of a list with a limit, or all of them.
+std::vector<Contact> find_contacts(const Pair& pair, const ContactOptions& options,
+                                   Workspace& workspace, ContactsVerdict& verdict) {
+    // The number of all is only known once they were found, and a budget may end that earlier.
+    std::vector<Contact> found(options.most > 0 ? options.most
+                                                : contacts(pair, workspace, {}, options).found);
+    verdict = contacts(pair, workspace, found, options);
+    found.resize(verdict.count);
     return found;
 }
 
@@ -58,12 +63,18 @@ Exit run(const Arguments& arguments) {
     const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
     if (!placements) return fail("query", placements.error());
 
+    const Degenerate degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
     Workspace workspace;
     report::Answers answers(std::cout, parse_answer_format(arguments.format));
     for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
-        const std::vector<Contact> found = find_contacts(
-            a.value(), b.value(), placements.value()[i], arguments, through, workspace);
-        answers.add(report::ContactsAnswer{i, found});
+        const Pair pair = {a.value(),
+                           b.value(),
+                           placements.value()[i],
+                           {.degenerate = degenerate, .through = through}};
+        ContactsVerdict verdict{};
+        const std::vector<Contact> found =
+            find_contacts(pair, options_of(arguments), workspace, verdict);
+        answers.add(report::ContactsAnswer{i, found, verdict});
     }
     answers.finish();
     return Exit::success;
@@ -76,7 +87,18 @@ void add_contacts(const Command& query, Exit& exit) {
     const Command command =
         query.add_command("contacts", "Compute contact points, normals and depths of two models");
     command.set_notes(
-        "", {"cdprep query contacts arm.cdp.h5 part.cdp.h5 --poses poses.txt --tolerance 0.01"});
+        "Each line of ndjson is a pose: 'found' pairs of pieces within the tolerance, 'computed' "
+        "contacts, 'searched' and 'complete', which a limit makes false, and 'contacts'. A contact "
+        "has 'id', the same as long as its two pieces touch; 'normal', of length 1, from A to B; "
+        "'lower' and 'upper', bounds of the distance, negative where the pieces overlap: moving B "
+        "by "
+        "-lower along the normal separates them; features of both models in numbers of the "
+        "imported "
+        "files; 'members', the contacts joined in it; and with --manifold its 'points', the "
+        "deepest "
+        "first.",
+        {"cdprep query contacts arm.cdp.h5 part.cdp.h5 --poses poses.txt --tolerance 0.01",
+         "cdprep query contacts a.cdp.h5 b.cdp.h5 --tolerance 0.01 --most 16 --cluster-deg 15"});
     command.add_option("a", arguments->a, "A file baked with --effects contacts").required();
     command.add_option("b", arguments->b, "A file baked with --effects contacts").required();
     add_placements(command, arguments->placement);
@@ -88,6 +110,29 @@ void add_contacts(const Command& query, Exit& exit) {
         .required()
         .group("Query");
     command.add_flag("--manifold", arguments->manifold, "List up to four points per pair of pieces")
+        .group("Query");
+    const Option most =
+        command
+            .add_option("--most", arguments->most,
+                        "List at most N contacts: the deepest, and others spread over the surface. "
+                        "Default: all")
+            .type_name("N")
+            .check(whole_from(1, kMostListedContacts))
+            .group("Query");
+    command
+        .add_option("--budget", arguments->budget,
+                    "Stop after this much work: 1 for each pair of near triangles, 32 for each "
+                    "contact. Default: no limit")
+        .type_name("N")
+        .check(whole_from(1))
+        .group("Query");
+    command
+        .add_option("--cluster-deg", arguments->cluster_deg,
+                    "Join contacts whose normals differ by at most this angle, with at most four "
+                    "points each. Needs --most")
+        .type_name("DEGREES")
+        .check(zero_or_more("degrees"))
+        .needs(most)
         .group("Query");
     command
         .add_flag("--skip-degenerate", arguments->skip_degenerate,
