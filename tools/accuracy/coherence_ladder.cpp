@@ -78,8 +78,8 @@ private:
     std::vector<unsigned char> bytes_;
 };
 
-enum class Way : std::uint8_t { cold, warm, coherent };
-constexpr std::array<const char*, 3> kWays = {"cold", "warm", "coherent"};
+enum class CacheState : std::uint8_t { cold, warm, coherent };
+constexpr std::array<const char*, 3> kCacheStates = {"cold", "warm", "coherent"};
 constexpr std::array<const char*, 3> kHow = {"the models are not in the processor's caches",
                                              "the same query again at once",
                                              "frame after frame with a PairCache"};
@@ -128,7 +128,7 @@ private:
 };
 
 /// Runs the queries of all walks once in one way, and adds a round to `timings`.
-std::vector<Said> ask_walks(Asker& asker, Way way, const std::vector<Walk>& walks,
+std::vector<Said> ask_walks(Asker& asker, CacheState way, const std::vector<Walk>& walks,
                             Eviction& eviction, Timings& timings,
                             const std::function<bool()>& stop) {
     std::vector<Said> said;
@@ -136,10 +136,10 @@ std::vector<Said> ask_walks(Asker& asker, Way way, const std::vector<Walk>& walk
         PairCache cache;
         for (std::size_t i = 0; i < walk.size(); ++i) {
             if (stop && stop()) return said;
-            if (way == Way::cold) eviction.empty_caches();
-            if (way == Way::warm) static_cast<void>(asker.ask(walk[i], nullptr));
+            if (way == CacheState::cold) eviction.empty_caches();
+            if (way == CacheState::warm) static_cast<void>(asker.ask(walk[i], nullptr));
             const double begun = thread_seconds();
-            said.push_back(asker.ask(walk[i], way == Way::coherent ? &cache : nullptr));
+            said.push_back(asker.ask(walk[i], way == CacheState::coherent ? &cache : nullptr));
             const double taken = thread_seconds() - begun;
             if (timings.seconds.size() < said.size()) {
                 timings.seconds.emplace_back();
@@ -173,23 +173,24 @@ Ladder climb_coherence(const Climb& climb, std::uint64_t last_cache, Broken& bro
     Eviction eviction(last_cache);
     for (const bool is_distance : {false, true}) {
         Asker asker(climb, is_distance);
-        std::array<Timings, kWays.size()> timings;
-        std::array<std::vector<Said>, kWays.size()> said;
+        std::array<Timings, kCacheStates.size()> timings;
+        std::array<std::vector<Said>, kCacheStates.size()> said;
         for (std::size_t round = 0; round < climb.timing.rounds; ++round) {
-            for (std::size_t w = 0; w < kWays.size(); ++w) {
-                said[w] =
-                    ask_walks(asker, static_cast<Way>(w), walks, eviction, timings[w], climb.stop);
+            for (std::size_t w = 0; w < kCacheStates.size(); ++w) {
+                said[w] = ask_walks(asker, static_cast<CacheState>(w), walks, eviction, timings[w],
+                                    climb.stop);
                 if (climb.must_stop()) return ladder;
             }
         }
-        const std::vector<Said>& truth = said[static_cast<std::size_t>(Way::warm)];
-        for (std::size_t w = 0; w < kWays.size(); ++w) {
+        const std::vector<Said>& truth = said[static_cast<std::size_t>(CacheState::warm)];
+        for (std::size_t w = 0; w < kCacheStates.size(); ++w) {
             Rung rung;
-            rung.name = std::string(is_distance ? "distance, " : "collide, ") + kWays[w];
+            rung.name = std::string(is_distance ? "distance, " : "collide, ") + kCacheStates[w];
             rung.how = kHow[w];
             rung.question = is_distance ? "how far apart" : "do they touch";
             rung.promise = Promise::exact;
-            rung.touched = asker.bytes_read(walks, static_cast<Way>(w) == Way::coherent);
+            rung.touched =
+                asker.bytes_read(walks, static_cast<CacheState>(w) == CacheState::coherent);
             rung.time = timing_of(timings[w]);
             for (std::size_t i = 0; i < truth.size(); ++i) {
                 rung.seconds.push_back(seconds_of(timings[w], i));

@@ -22,7 +22,7 @@ struct Interval {
     double upper;
 };
 
-struct Contender {
+struct DistanceContender {
     Rung rung;
     std::function<Interval(std::size_t pose)> ask;
     bool is_bound = false;  ///< `lower` is the estimate, else `upper`
@@ -46,7 +46,7 @@ bool holds(const StudyPose& truth, const Interval& found) {
     return found.lower <= truth.gap_upper && truth.gap_lower <= found.upper;
 }
 
-void judge(const Climb& climb, const std::vector<std::size_t>& poses, Contender& contender,
+void judge(const Climb& climb, const std::vector<std::size_t>& poses, DistanceContender& contender,
            Broken& broken) {
     Rung& rung = contender.rung;
     std::vector<double> errors;
@@ -80,11 +80,11 @@ void judge(const Climb& climb, const std::vector<std::size_t>& poses, Contender&
     rung.error_high = found.worst;
 }
 
-class Contenders {
+class DistanceContenders {
 public:
-    explicit Contenders(const Climb& climb) : climb_(climb) {}
+    explicit DistanceContenders(const Climb& climb) : climb_(climb) {}
 
-    [[nodiscard]] std::vector<Contender>& all() {
+    [[nodiscard]] std::vector<DistanceContender>& all() {
         return contenders_;
     }
 
@@ -121,7 +121,7 @@ public:
         }
     }
 
-    [[nodiscard]] double bytes_read(const Contender& contender,
+    [[nodiscard]] double bytes_read(const DistanceContender& contender,
                                     const std::vector<std::size_t>& poses) {
         return mean_bytes_read(climb_.a.model, climb_.b.model, workspace_, poses.size(),
                                [&](std::size_t k) { contender.ask(poses[k]); });
@@ -142,7 +142,7 @@ private:
 
     void add(const std::string& name, const std::string& how,
              std::function<Interval(std::size_t)> ask) {
-        Contender contender;
+        DistanceContender contender;
         contender.rung.name = name;
         contender.rung.how = how;
         contender.rung.promise = Promise::interval;
@@ -154,7 +154,7 @@ private:
     Workspace workspace_;
     ConvexPoints hull_a_;
     ConvexPoints hull_b_;
-    std::vector<Contender> contenders_;
+    std::vector<DistanceContender> contenders_;
 };
 
 /// Sets the rung's times, in total and by stratum. The timings are indexed as `poses`.
@@ -183,7 +183,7 @@ Ladder climb_distance(const Climb& climb, Broken& broken) {
         "Bytes read by the hull's rung are missing: the vertices that its search visits are not "
         "counted.");
     climb.begins("distance: asking");
-    Contenders contenders(climb);
+    DistanceContenders contenders(climb);
     contenders.add_hull();
     contenders.add_errors();
     std::vector<std::size_t> poses;
@@ -191,7 +191,7 @@ Ladder climb_distance(const Climb& climb, Broken& broken) {
         if (!climb.set.poses[i].hit) poses.push_back(i);
     }
     std::vector<Question> questions;
-    for (Contender& contender : contenders.all()) {
+    for (DistanceContender& contender : contenders.all()) {
         judge(climb, poses, contender, broken);
         if (!contender.is_bound) contender.rung.touched = contenders.bytes_read(contender, poses);
         questions.push_back(question_of([&contender, &poses](std::size_t k) {
@@ -201,7 +201,7 @@ Ladder climb_distance(const Climb& climb, Broken& broken) {
     const std::vector<Timings> timings = time_questions(poses.size(), questions, climb.timing);
     if (climb.must_stop()) return ladder;
     std::size_t number = 0;
-    for (Contender& contender : contenders.all()) {
+    for (DistanceContender& contender : contenders.all()) {
         keep_time_of(climb, poses, timings[number++], contender.rung);
         ladder.rungs.push_back(std::move(contender.rung));
     }

@@ -43,7 +43,7 @@ constexpr std::uint32_t kTetraThreshold = 4;
 constexpr format::SectionSet kTreeSections = {SectionId::bvh_nodes, SectionId::bvh_leaves,
                                               SectionId::oriented_nodes};
 
-struct Contender {
+struct ShapeContender {
     Rung rung;
     std::function<Answer(std::size_t pose)> ask;
 };
@@ -139,9 +139,9 @@ std::vector<Double3> corners_around(const BoundingSphere& sphere) {
 }
 
 /// The rungs and the structures behind them, at stable addresses.
-class Contenders {
+class ShapeContenders {
 public:
-    Contenders(const Climb& climb, Ladder& ladder)
+    ShapeContenders(const Climb& climb, Ladder& ladder)
         : climb_(climb), ladder_(ladder), outside_(climb) {}
 
     void add_all() {
@@ -153,7 +153,7 @@ public:
         add_hierarchies();
     }
 
-    [[nodiscard]] std::deque<Contender>& all() {
+    [[nodiscard]] std::deque<ShapeContender>& all() {
         return contenders_;
     }
 
@@ -167,7 +167,7 @@ private:
 
     Rung& add(const std::string& name, const std::string& how, Promise promise,
               std::function<Answer(std::size_t)> ask) {
-        Contender contender;
+        ShapeContender contender;
         contender.rung.name = name;
         contender.rung.how = how;
         contender.rung.promise = promise;
@@ -464,7 +464,7 @@ private:
     const Climb& climb_;
     Ladder& ladder_;
     Outside outside_;
-    std::deque<Contender> contenders_;
+    std::deque<ShapeContender> contenders_;
     Workspace workspace_{cells()};
     BoundingSphere sphere_a_;
     BoundingSphere sphere_b_;
@@ -499,14 +499,14 @@ Ladder climb_geometry(const Climb& climb, Broken& broken) {
     ladder.left_out.emplace_back(
         "Level E3 is not a rung: queries answer at E1; columns count the poses at which the answer "
         "is proved at E3.");
-    Contenders contenders(climb, ladder);
+    ShapeContenders contenders(climb, ladder);
     contenders.add_all();
     if (climb.must_stop()) return ladder;
 
     climb.begins("geometry: asking");
     const std::size_t poses = climb.set.poses.size();
     std::vector<Question> questions;
-    for (Contender& contender : contenders.all()) {
+    for (ShapeContender& contender : contenders.all()) {
         for (std::size_t i = 0; i < poses && !climb.must_stop(); ++i) {
             contender.rung.answers.push_back(contender.ask(i));
         }
@@ -516,7 +516,7 @@ Ladder climb_geometry(const Climb& climb, Broken& broken) {
     const std::vector<Timings> timings = time_questions(poses, questions, climb.timing);
     if (climb.must_stop()) return ladder;
     std::size_t number = 0;
-    for (Contender& contender : contenders.all()) {
+    for (ShapeContender& contender : contenders.all()) {
         keep_time(climb.set, timings[number++], contender.rung);
         judge_answers(ladder.name, climb.set, contender.rung, broken);
         judge_pairs(ladder.name, contender.rung, broken);

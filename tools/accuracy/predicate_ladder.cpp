@@ -58,7 +58,7 @@ std::vector<Candidate> find_candidates(const Climb& climb) {
     return candidates;
 }
 
-struct Contender {
+struct PredicateContender {
     Rung rung;
     std::function<bool(const Candidate&)> ask;
 };
@@ -71,11 +71,11 @@ std::function<bool(const Candidate&)> naive(Number tolerance) {
     };
 }
 
-std::vector<Contender> all_contenders(bool has_float) {
-    std::vector<Contender> contenders;
+std::vector<PredicateContender> all_contenders(bool has_float) {
+    std::vector<PredicateContender> contenders;
     const auto add = [&](const char* name, const char* how, Promise promise,
                          std::function<bool(const Candidate&)> ask) {
-        Contender contender;
+        PredicateContender contender;
         contender.rung.name = name;
         contender.rung.how = how;
         contender.rung.promise = promise;
@@ -116,7 +116,7 @@ void keep_wrong_share(const RightAnswers& right, Rung& rung) {
                rung);
 }
 
-void judge(const Climb& climb, const std::vector<Candidate>& pairs, Contender& contender,
+void judge(const Climb& climb, const std::vector<Candidate>& pairs, PredicateContender& contender,
            Broken& broken) {
     Rung& rung = contender.rung;
     rung.pair_counts.resize(climb.set.poses.size());
@@ -161,11 +161,11 @@ Ladder climb_predicates(const Climb& climb, Broken& broken) {
     }
     const bool has_float = fits_float(climb.mesh_a) && fits_float(climb.mesh_b);
     if (!has_float) ladder.left_out.emplace_back("float: coordinates are beyond its range.");
-    std::vector<Contender> contenders = all_contenders(has_float);
+    std::vector<PredicateContender> contenders = all_contenders(has_float);
     std::vector<Question> questions;
     // The cases are spread over all poses.
     const std::size_t stride = pairs.size() / kPairsACase / cases * kPairsACase;
-    for (Contender& contender : contenders) {
+    for (PredicateContender& contender : contenders) {
         judge(climb, pairs, contender, broken);
         questions.push_back(question_of([&contender, &pairs, stride](std::size_t number) {
             std::uint64_t hits = 0;

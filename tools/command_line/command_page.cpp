@@ -64,7 +64,7 @@ bool explains_all(const OptionEntry& option) {
 }
 
 /// Returns "a, b or c".
-std::string listed(const std::vector<std::string>& words) {
+std::string words_text(const std::vector<std::string>& words) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i) {
         text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
@@ -157,7 +157,7 @@ std::string full_text(const OptionEntry& option) {
     if (!text.empty() && !text.ends_with('.')) text += '.';
     const bool is_input = !option.names.front().starts_with('-');
     std::vector<std::string> limits;
-    if (!explains_all(option)) limits.push_back(listed(option.words));
+    if (!explains_all(option)) limits.push_back(words_text(option.words));
     if (!option.range.empty()) limits.push_back(option.range);
     if (!option.preset.empty()) limits.push_back("default " + option.preset);
     if (option.is_required && !is_input) limits.emplace_back("required");

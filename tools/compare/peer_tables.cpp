@@ -26,20 +26,20 @@ constexpr std::array<Library, 8> kLibraries = {{{"fcl", "FCL"},
                                                 {"qhull", "qhull"}}};
 
 /// A structure that a library builds.
-struct Structure {
+struct PeerStructure {
     const char* key;      ///< of PeerBuild
     const char* library;  ///< in kLibraries
     const char* title;
 };
-constexpr std::array<Structure, 9> kStructures = {{{"qhull", "qhull", "qhull, hull"},
-                                                   {"fcl_swept", "fcl", "FCL, swept"},
-                                                   {"fcl", "fcl", "FCL, oriented"},
-                                                   {"ode", "ode", "ODE"},
-                                                   {"bullet", "bullet", "Bullet"},
-                                                   {"cgal", "cgal", "CGAL"},
-                                                   {"embree", "embree", "Embree"},
-                                                   {"pqp", "pqp", "PQP"},
-                                                   {"swift", "swift", "SWIFT++"}}};
+constexpr std::array<PeerStructure, 9> kPeerStructures = {{{"qhull", "qhull", "qhull, hull"},
+                                                           {"fcl_swept", "fcl", "FCL, swept"},
+                                                           {"fcl", "fcl", "FCL, oriented"},
+                                                           {"ode", "ode", "ODE"},
+                                                           {"bullet", "bullet", "Bullet"},
+                                                           {"cgal", "cgal", "CGAL"},
+                                                           {"embree", "embree", "Embree"},
+                                                           {"pqp", "pqp", "PQP"},
+                                                           {"swift", "swift", "SWIFT++"}}};
 
 /// The queries about two meshes that a library answers.
 struct Answering {
@@ -94,7 +94,7 @@ Table peer_build_table(const std::vector<StudyMesh>& meshes, const std::vector<P
                    {"One thread, in a program of its own; FCL's swept rectangles are those of PQP, "
                     "of which it descends.",
                     "qhull: a hull in floating point, with triangles; ours is exact (Table 3)."}};
-    for (const Structure& structure : kStructures) {
+    for (const PeerStructure& structure : kPeerStructures) {
         table.columns.push_back(
             {std::string(structure.key) + "_s", structure.title, Unit::seconds});
     }
@@ -103,7 +103,7 @@ Table peer_build_table(const std::vector<StudyMesh>& meshes, const std::vector<P
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const PeerRun* const run = runs.empty() ? nullptr : &runs[i];
         Row row{meshes[i].name, {}};
-        for (const Structure& structure : kStructures) {
+        for (const PeerStructure& structure : kPeerStructures) {
             const PeerBuild* const build = find_build(run, structure.key);
             row.cells.push_back(build != nullptr ? build_cell(*build)
                                                  : without(reason_of(reasons, structure.library)));

@@ -19,11 +19,6 @@ namespace {
 constexpr std::size_t kHub = 512;
 constexpr std::size_t kTrianglesPerTask = 4096;
 
-Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
-    const auto& v = mesh.triangles[triangle].vertex;
-    return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
-}
-
 Box box_of(const Corners& corners) {
     Box box;
     for (const Double3& p : corners) box.add(p);

@@ -18,11 +18,6 @@
 namespace cdprep::mesh {
 namespace {
 
-Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
-    const auto& v = mesh.triangles[triangle].vertex;
-    return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
-}
-
 /// Returns smaller positions if the mesh's own are too large for a BVH; else none. The boxes
 /// need not be exact, and shrinking loses nothing that they would show.
 std::vector<Double3> shrunk_if_too_large(const Mesh& mesh) {

@@ -8,6 +8,11 @@
 
 namespace cdprep::mesh {
 
+[[nodiscard]] inline Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
+    const auto& v = mesh.triangles[triangle].vertex;
+    return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
+}
+
 /// Returns the meeting of two triangles without a common vertex, or nothing. Both must have
 /// area.
 [[nodiscard]] std::optional<Meeting> meeting_apart(const Corners& a, const Corners& b) noexcept;

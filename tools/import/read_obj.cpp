@@ -21,11 +21,6 @@ constexpr std::array<std::string_view, 28> kStatements = {
     "surf", "parm", "trim",   "hole",   "scrv",   "sp",     "end",    "con"};
 
 /// An error that stops the reading of a line.
-struct Fault {
-    const char* at;
-    std::string what;
-};
-
 /// Returns true if a backslash precedes the line end at `feed`, so that the line continues.
 bool is_continued(const char* begin, const char* feed) noexcept {
     if (feed > begin && feed[-1] == '\r') --feed;

@@ -15,11 +15,6 @@
 namespace cdprep::import {
 namespace {
 
-struct Fault {
-    const char* at;
-    std::string what;
-};
-
 struct Header {
     std::string_view prefix;  ///< before OFF
     std::uint64_t vertices = 0;

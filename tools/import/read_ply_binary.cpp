@@ -16,7 +16,7 @@
 namespace cdprep::import {
 namespace {
 
-constexpr std::size_t kBlock = 16384;  // records that one parallel step reads
+constexpr std::size_t kRecordsPerBlock = 16384;  // records that one parallel step reads
 
 /// Returns the number at `at` in the file, converted to this machine's byte order if `swap`.
 template <class T>
@@ -129,21 +129,23 @@ private:
         PolygonChunk& chunk = chunks_.front();
         resize_large(chunk.positions, element.count);
         std::atomic<bool> single = true;
-        options_.parallel_for((element.count + kBlock - 1) / kBlock, [&](std::size_t block) {
-            const std::size_t last = std::min<std::size_t>((block + 1) * kBlock, element.count);
-            bool all_single = true;
-            for (std::size_t i = block * kBlock; i < last; ++i) {
-                std::array<double, 3> x{};
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    const char* const at = at_ + i * stride + offsets[places[axis]];
-                    const PlyType type = element.properties[places[axis]].type;
-                    x[axis] = load_number(type, at, swap_);
-                    all_single = all_single && counts_as_single(type, x[axis]);
+        options_.parallel_for(
+            (element.count + kRecordsPerBlock - 1) / kRecordsPerBlock, [&](std::size_t block) {
+                const std::size_t last =
+                    std::min<std::size_t>((block + 1) * kRecordsPerBlock, element.count);
+                bool all_single = true;
+                for (std::size_t i = block * kRecordsPerBlock; i < last; ++i) {
+                    std::array<double, 3> x{};
+                    for (std::size_t axis = 0; axis < 3; ++axis) {
+                        const char* const at = at_ + i * stride + offsets[places[axis]];
+                        const PlyType type = element.properties[places[axis]].type;
+                        x[axis] = load_number(type, at, swap_);
+                        all_single = all_single && counts_as_single(type, x[axis]);
+                    }
+                    chunk.positions[i] = {x[0], x[1], x[2]};
                 }
-                chunk.positions[i] = {x[0], x[1], x[2]};
-            }
-            if (!all_single) single = false;
-        });
+                if (!all_single) single = false;
+            });
         chunk.single_precision = single;
         at_ += element.count * stride;
         return true;
@@ -171,13 +173,14 @@ private:
             if (i < element.indices) before += bytes;
         }
         if (element.count > bytes_left() / stride) return false;
-        std::vector<PolygonChunk> parts((element.count + kBlock - 1) / kBlock);
+        std::vector<PolygonChunk> parts((element.count + kRecordsPerBlock - 1) / kRecordsPerBlock);
         std::atomic<bool> all_triangles = true;
         options_.parallel_for(parts.size(), [&](std::size_t block) {
-            const std::size_t last = std::min<std::size_t>((block + 1) * kBlock, element.count);
-            const char* at = at_ + block * kBlock * stride + before;
-            parts[block].corners.reserve(3 * (last - block * kBlock));
-            for (std::size_t i = block * kBlock; i < last; ++i, at += stride) {
+            const std::size_t last =
+                std::min<std::size_t>((block + 1) * kRecordsPerBlock, element.count);
+            const char* at = at_ + block * kRecordsPerBlock * stride + before;
+            parts[block].corners.reserve(3 * (last - block * kRecordsPerBlock));
+            for (std::size_t i = block * kRecordsPerBlock; i < last; ++i, at += stride) {
                 if (load_whole(list.count_type, at, swap_) != 3) {
                     all_triangles = false;
                     return;
@@ -208,7 +211,8 @@ private:
     bool read_records(const PlyElement& element) {
         std::vector<const char*> places(element.properties.size());
         for (std::uint64_t i = 0; i < element.count; ++i) {
-            if (i % kBlock == 0 && element.role != PlyRole::vertices) chunks_.emplace_back();
+            if (i % kRecordsPerBlock == 0 && element.role != PlyRole::vertices)
+                chunks_.emplace_back();
             for (std::size_t p = 0; p < places.size(); ++p) {
                 places[p] = at_;
                 if (!skip(element, i, element.properties[p])) return false;

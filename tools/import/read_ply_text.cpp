@@ -12,11 +12,6 @@
 namespace cdprep::import {
 namespace {
 
-struct Fault {
-    const char* at;
-    std::string what;
-};
-
 /// Reads the rows of one chunk, whichever elements they belong to.
 class PlyRowReader {
 public:

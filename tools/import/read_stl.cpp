@@ -63,11 +63,6 @@ Result<mesh::TriangleSoup> read_binary(const SourceFile& file, const ImportOptio
     return soup;
 }
 
-struct Fault {
-    const char* at;
-    std::string what;
-};
-
 /// Returns true if a word of a file, in upper or lower case, equals a lower-case word.
 bool is_word(std::string_view word, std::string_view lower) noexcept {
     return word.size() == lower.size() &&

@@ -14,9 +14,9 @@
 namespace cdprep::import {
 namespace {
 
-struct Descriptor {
+struct OpenFile {
     int number;
-    ~Descriptor() {
+    ~OpenFile() {
         if (number >= 0) ::close(number);
     }
 };
@@ -30,7 +30,7 @@ std::string reason(int error) {
 Result<SourceFile> SourceFile::open(const std::filesystem::path& path, std::uint64_t max_bytes) {
     SourceFile file(path.string(), {});
     // Without O_NONBLOCK, opening a pipe would wait for its writer.
-    const Descriptor descriptor{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+    const OpenFile descriptor{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
     struct stat status {};
     if (descriptor.number < 0 || ::fstat(descriptor.number, &status) != 0) {
         return file.unreadable("cannot be opened: " + reason(errno));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -54,6 +55,12 @@ template <class MayStart>
     }
     return chunks;
 }
+
+/// What cannot be read, and where it stands in the text.
+struct Fault {
+    const char* at;
+    std::string what;
+};
 
 /// A chunk of lines with one element each, and the number of its first element.
 struct RowChunk {

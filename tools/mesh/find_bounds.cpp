@@ -7,12 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/eigen_vector.h"
+
 namespace cdprep::convex {
 namespace {
-
-Eigen::Vector3d vector_of(const mesh::Double3& p) {
-    return {p.x, p.y, p.z};
-}
 
 mesh::Double3 double3(const Eigen::Vector3d& v) {
     return {v.x(), v.y(), v.z()};

@@ -4,12 +4,10 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "mesh/eigen_vector.h"
+
 namespace cdprep::convex {
 namespace {
-
-Eigen::Vector3d vector_of(const mesh::Double3& p) {
-    return {p.x, p.y, p.z};
-}
 
 Eigen::Vector3d box_centre(const mesh::Mesh& mesh) {
     Eigen::AlignedBox3d box;

@@ -10,12 +10,11 @@
 #include <utility>
 
 #include "cdprep/exact/winding.h"
+#include "mesh/half_edges.h"
 #include "mesh/point_tree.h"
 
 namespace cdprep::mesh {
 namespace {
-
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 /// Returns the origin of a ray through q in direction +x. It is as far before the box as the box
 /// is wide, which keeps the numbers in range. If q.x is the lowest double, the ray runs in

@@ -8,14 +8,14 @@
 namespace cdprep::mesh {
 namespace {
 
-struct Box {
+struct UsedBox {
     Double3 lower;
     Double3 upper;
 };
 
-Box box_of_used(const TriangleSoup& soup) {
+UsedBox box_of_used(const TriangleSoup& soup) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+    UsedBox box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
     for (const Triangle& triangle : soup.triangles) {
         for (const std::uint32_t vertex : triangle.vertex) {
             const Double3& p = soup.positions[vertex];
@@ -30,7 +30,7 @@ Box box_of_used(const TriangleSoup& soup) {
 
 /// Returns the diagonal by the plain formula, since the shared poses were made with it. If its
 /// squares leave the range of double, uses std::hypot().
-double diagonal_of(const Box& box) {
+double diagonal_of(const UsedBox& box) {
     const double x = box.upper.x - box.lower.x;
     const double y = box.upper.y - box.lower.y;
     const double z = box.upper.z - box.lower.z;
@@ -42,7 +42,7 @@ double diagonal_of(const Box& box) {
 
 Normalization normalize(TriangleSoup& soup) {
     if (soup.triangles.empty()) return {};
-    const Box box = box_of_used(soup);
+    const UsedBox box = box_of_used(soup);
     const double length = diagonal_of(box);
     const double diagonal = length > 0 && std::isfinite(1 / length) ? length : 1;
     const Double3 offset = {0.5 * (box.lower.x + box.upper.x), 0.5 * (box.lower.y + box.upper.y),

@@ -92,16 +92,16 @@ bool is_between(const Double2& a, const Double2& b, const Double2& c) {
     return (less(a, b) && less(b, c)) || (less(c, b) && less(b, a));
 }
 
-struct Box {
+struct FlatBox {
     Double2 lower;
     Double2 upper;
 };
 
-Box box_of(const Double2& a, const Double2& b) {
+FlatBox box_of(const Double2& a, const Double2& b) {
     return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
 }
 
-bool overlap(const Box& a, const Box& b) {
+bool overlap(const FlatBox& a, const FlatBox& b) {
     return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
            b.lower.y <= a.upper.y;
 }
@@ -198,9 +198,9 @@ private:
         ++steps_;
         if (turn(i) <= 0) return false;
         const Ear ear{flat_[previous_[i]], flat_[i], flat_[next_[i]]};
-        const Box first = box_of(ear.a, ear.b);
-        const Box box{{std::min(first.lower.x, ear.c.x), std::min(first.lower.y, ear.c.y)},
-                      {std::max(first.upper.x, ear.c.x), std::max(first.upper.y, ear.c.y)}};
+        const FlatBox first = box_of(ear.a, ear.b);
+        const FlatBox box{{std::min(first.lower.x, ear.c.x), std::min(first.lower.y, ear.c.y)},
+                          {std::max(first.upper.x, ear.c.x), std::max(first.upper.y, ear.c.y)}};
         for (std::uint32_t p = next_[i]; p != previous_[i]; p = next_[p]) {
             ++steps_;
             const Double2& from = flat_[p];

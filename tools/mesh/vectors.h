@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "cdprep/format/geometry.h"
 
@@ -30,6 +31,22 @@ using format::Double3;
 /// Returns the middle of two points. Does not overflow.
 [[nodiscard]] inline Double3 middle_of(const Double3& a, const Double3& b) {
     return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
+}
+[[nodiscard]] inline double squared_distance(const Double3& a, const Double3& b) {
+    const Double3 ab = minus(a, b);
+    return dot(ab, ab);
+}
+[[nodiscard]] inline double distance_between(const Double3& a, const Double3& b) {
+    return std::sqrt(squared_distance(a, b));
+}
+/// Returns the mean of one or more points.
+[[nodiscard]] inline Double3 mean_of(std::span<const Double3> points) {
+    const double share = 1.0 / static_cast<double>(points.size());
+    Double3 sum = {0, 0, 0};
+    for (const Double3& p : points) {
+        sum = {sum.x + p.x * share, sum.y + p.y * share, sum.z + p.z * share};
+    }
+    return sum;
 }
 [[nodiscard]] inline double largest_of(const Double3& a) {
     return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});

@@ -2,12 +2,11 @@
 #include "mesh/weld.h"
 
 #include "mesh/close_groups.h"
+#include "mesh/half_edges.h"
 #include "mesh/point_table.h"
 
 namespace cdprep::mesh {
 namespace {
-
-constexpr std::uint32_t kNone = PointTable::kNone;
 
 std::vector<bool> used_vertices(const TriangleSoup& soup) {
     std::vector<bool> used(soup.positions.size(), false);
@@ -32,10 +31,6 @@ void keep_representatives(Mesh& mesh, const std::vector<std::uint32_t>& represen
     for (Triangle& triangle : mesh.triangles) {
         for (std::uint32_t& vertex : triangle.vertex) vertex = renamed[representative[vertex]];
     }
-}
-
-bool repeats_corner(const Triangle& t) {
-    return t.vertex[0] == t.vertex[1] || t.vertex[1] == t.vertex[2] || t.vertex[2] == t.vertex[0];
 }
 
 /// Joins equal points and drops unused ones.

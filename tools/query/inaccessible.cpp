@@ -9,7 +9,7 @@
 namespace cdprep::mesh {
 namespace {
 
-constexpr std::size_t kTrianglesPerTask = 256;
+constexpr std::size_t kViewedPerTask = 256;
 
 }  // namespace
 
@@ -20,8 +20,8 @@ Inaccessible find_inaccessible(const Double3& centre, std::span<const Double3> p
     std::vector<std::uint8_t> hidden(triangles.size());
     const auto task = [&](std::size_t number) {
         std::vector<std::uint32_t> others;
-        const std::size_t first = number * kTrianglesPerTask;
-        const std::size_t last = std::min(first + kTrianglesPerTask, triangles.size());
+        const std::size_t first = number * kViewedPerTask;
+        const std::size_t last = std::min(first + kViewedPerTask, triangles.size());
         for (std::size_t i = first; i < last; ++i) {
             const auto triangle = static_cast<std::uint32_t>(i);
             if (cover.is_edge_on(triangle)) continue;
@@ -29,7 +29,7 @@ Inaccessible find_inaccessible(const Double3& centre, std::span<const Double3> p
             hidden[i] = cover.is_hidden(triangle, others) ? 1 : 0;
         }
     };
-    parallel_for((triangles.size() + kTrianglesPerTask - 1) / kTrianglesPerTask, task);
+    parallel_for((triangles.size() + kViewedPerTask - 1) / kViewedPerTask, task);
     Inaccessible result;
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         if (hidden[i] != 0) result.triangles.push_back(i);

@@ -19,7 +19,7 @@
 namespace cdprep::cli {
 namespace {
 
-struct Arguments {
+struct ContactArguments {
     std::filesystem::path a;
     std::filesystem::path b;
     PlacementWords placement;
@@ -35,7 +35,7 @@ struct Arguments {
 
 constexpr std::array kServing = {Structure::bvh, Structure::pieces};
 
-ContactOptions options_of(const Arguments& arguments) {
+ContactOptions options_of(const ContactArguments& arguments) {
     return {arguments.tolerance, arguments.manifold ? Manifold::four : Manifold::none,
             arguments.most, arguments.budget, arguments.cluster_deg * std::numbers::pi / 180};
 }
@@ -51,7 +51,7 @@ std::vector<Contact> find_contacts(const Pair& pair, const ContactOptions& optio
     return found;
 }
 
-Exit run(const Arguments& arguments) {
+Exit run(const ContactArguments& arguments) {
     const Result<StructureOptions> options =
         parse_structure(arguments.structure, "contacts", kServing);
     if (!options) return fail("query", options.error());
@@ -83,7 +83,7 @@ Exit run(const Arguments& arguments) {
 }  // namespace
 
 void add_contacts(const Command& query, Exit& exit) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ContactArguments>();
     const Command command =
         query.add_command("contacts", "Compute contact points, normals and depths of two models");
     command.set_notes(

@@ -16,7 +16,7 @@
 namespace cdprep::cli {
 namespace {
 
-struct Arguments {
+struct InaccessibleArguments {
     std::filesystem::path model;
     std::filesystem::path coloured;  ///< empty: none
     std::string format = "text";
@@ -44,7 +44,7 @@ Result<Done> write_coloured(const std::filesystem::path& path, const Model& mode
         shade_of);
 }
 
-Exit run(const Arguments& arguments) {
+Exit run(const InaccessibleArguments& arguments) {
     const Result<Model> opened = open_for(arguments.model, Ask::inaccessible);
     if (!opened) return fail("query", opened.error());
     const Model& model = opened.value();
@@ -74,7 +74,7 @@ Exit run(const Arguments& arguments) {
 }  // namespace
 
 void add_inaccessible(const Command& query, Exit& exit) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<InaccessibleArguments>();
     const Command command = query.add_command(
         "inaccessible", "List triangles occluded along every ray to the tetra-tree's centre");
     command.set_notes("", {"cdprep query inaccessible arm.cdp.h5 --export occluded.ply"});

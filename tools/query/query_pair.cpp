@@ -35,10 +35,10 @@
 namespace cdprep::cli {
 namespace {
 
-enum class Question : std::uint8_t { collide, overlap, distance, within };
+enum class PairQuestion : std::uint8_t { collide, overlap, distance, within };
 
-struct Arguments {
-    Question question = Question::collide;
+struct PairArguments {
+    PairQuestion question = PairQuestion::collide;
     std::filesystem::path a;
     std::filesystem::path b;
     PlacementWords placement;
@@ -101,14 +101,14 @@ constexpr const char* kLiteral = "hashed-octree-literal";
 
 /// Returns whether the search of Ponce Atencio's talk ("Some techniques to speed up collision
 /// detection") answers. It misses pairs.
-bool asks_literally(const Arguments& arguments) {
-    return arguments.question == Question::overlap && arguments.structure.structure == kLiteral;
+bool asks_literally(const PairArguments& arguments) {
+    return arguments.question == PairQuestion::overlap && arguments.structure.structure == kLiteral;
 }
 
 /// Answers one placement after the other and reuses its buffers.
 class Asker {
 public:
-    Asker(const Arguments& arguments, const StructureOptions& through, const Model& a,
+    Asker(const PairArguments& arguments, const StructureOptions& through, const Model& a,
           const Model& b)
         : arguments_(arguments),
           through_(through),
@@ -128,13 +128,13 @@ public:
     void answer(std::size_t number, const Placement& placement, report::Answers& answers) {
         const PieceCache before = cache_;
         switch (arguments_.question) {
-            case Question::distance:
+            case PairQuestion::distance:
                 return answers.add(timed([&] {
                     cache_ = before;
                     return report::DistanceAnswer{number,
                                                   distance(pair(placement), workspace_, errors_)};
                 }));
-            case Question::within:
+            case PairQuestion::within:
                 return answers.add(timed([&] {
                     cache_ = before;
                     return ask_within(number, placement);
@@ -188,7 +188,7 @@ private:
         report::PairAnswer answer;
         answer.pose = number;
         answer.is_approximate = is_literal_;
-        if (arguments_.question == Question::overlap) {
+        if (arguments_.question == PairQuestion::overlap) {
             const std::size_t count =
                 arguments_.segments ? find_crossings(placement) : find_pairs(placement);
             answer.hit = count > 0;
@@ -284,7 +284,7 @@ private:
         return crossings_.size();
     }
 
-    const Arguments& arguments_;
+    const PairArguments& arguments_;
     const StructureOptions through_;
     const bool is_literal_;
     const Model& a_;
@@ -299,13 +299,14 @@ private:
     Stopwatch stopwatch_;
 };
 
-bool asks_hulls(const Arguments& arguments) {
+bool asks_hulls(const PairArguments& arguments) {
     return arguments.structure.structure == "hull" &&
-           (arguments.question == Question::collide || arguments.question == Question::distance);
+           (arguments.question == PairQuestion::collide ||
+            arguments.question == PairQuestion::distance);
 }
 
 /// Returns an error if an option is given that queries on convex hulls do not support.
-std::optional<Error> find_idle_for_hulls(const Arguments& arguments) {
+std::optional<Error> find_idle_for_hulls(const PairArguments& arguments) {
     const std::array<std::pair<const char*, bool>, 6> options = {
         {{"--leaf-test", !arguments.structure.leaf_test.empty()},
          {"--descent", !arguments.structure.descent.empty()},
@@ -341,7 +342,7 @@ std::string hull_counts(const QueryCounts& counts) {
 }
 
 /// Queries the convex hulls of the whole models, always as solids.
-Exit run_hulls(const Arguments& arguments) {
+Exit run_hulls(const PairArguments& arguments) {
     if (const auto error = find_idle_for_hulls(arguments)) return fail("query", *error);
     const Result<Model> a = open_hulls(arguments.a);
     if (!a) return fail("query", a.error());
@@ -368,7 +369,7 @@ Exit run_hulls(const Arguments& arguments) {
                 return ask();
             });
         };
-        if (arguments.question == Question::collide) {
+        if (arguments.question == PairQuestion::collide) {
             answers.add(report::HullCollideAnswer{
                 i, timed([&] { return convex_collide(of_a, of_b, placement, &cache, counted); })});
         } else {
@@ -385,28 +386,28 @@ Exit run_hulls(const Arguments& arguments) {
 }
 
 /// Returns the queries that both models must serve.
-Ask asks_of(const Arguments& arguments) {
+Ask asks_of(const PairArguments& arguments) {
     const bool is_solid = arguments.as == "solid";
     const Ask solid = is_solid ? Ask::solid : Ask::nothing;
     switch (arguments.question) {
-        case Question::collide:
+        case PairQuestion::collide:
             return Ask::collide | solid;
-        case Question::overlap:  // collide() decides whether solids overlap
+        case PairQuestion::overlap:  // collide() decides whether solids overlap
             return is_solid ? Ask::overlap | Ask::collide | Ask::solid : Ask::overlap;
-        case Question::distance:
+        case PairQuestion::distance:
             return Ask::distance | solid;
         default:
             return Ask::within;
     }
 }
 
-const char* name_of(Question question) {
+const char* name_of(PairQuestion question) {
     switch (question) {
-        case Question::collide:
+        case PairQuestion::collide:
             return "collide";
-        case Question::overlap:
+        case PairQuestion::overlap:
             return "overlap";
-        case Question::distance:
+        case PairQuestion::distance:
             return "distance";
         default:
             return "within";
@@ -414,18 +415,18 @@ const char* name_of(Question question) {
 }
 
 /// Returns the structures that serve a query.
-std::span<const Structure> structures_serving(Question question) {
+std::span<const Structure> structures_serving(PairQuestion question) {
     static constexpr std::array<Structure, 6> kAll = {
         Structure::bvh,           Structure::pieces,
         Structure::octree,        Structure::adaptive_octree,
         Structure::hashed_octree, Structure::tetra_tree};
     const std::span<const Structure> all = kAll;
-    const bool finds_pairs = question == Question::overlap || question == Question::collide;
+    const bool finds_pairs = question == PairQuestion::overlap || question == PairQuestion::collide;
     return finds_pairs ? all : all.first(2);
 }
 
 /// Returns an error if an option is given that the search of Ponce Atencio's talk does not support.
-std::optional<Error> find_idle_for_literal(const Arguments& arguments) {
+std::optional<Error> find_idle_for_literal(const PairArguments& arguments) {
     if (arguments.as == "solid") {
         return Error{ErrorCode::bad_argument,
                      "--as solid has to know that no triangles touch, and hashed-octree-literal "
@@ -438,7 +439,7 @@ std::optional<Error> find_idle_for_literal(const Arguments& arguments) {
 }
 
 /// Returns the structure and its options. Fails if another option is for a different structure.
-Result<StructureOptions> structure_of(const Arguments& arguments) {
+Result<StructureOptions> structure_of(const PairArguments& arguments) {
     StructureWords words = arguments.structure;
     if (asks_literally(arguments)) {
         if (const auto error = find_idle_for_literal(arguments)) return *error;
@@ -460,7 +461,7 @@ Result<StructureOptions> structure_of(const Arguments& arguments) {
     return through;
 }
 
-Exit run(const Arguments& arguments) {
+Exit run(const PairArguments& arguments) {
     if (asks_hulls(arguments)) return run_hulls(arguments);
     const Result<StructureOptions> through = structure_of(arguments);
     if (!through) return fail("query", through.error());
@@ -483,7 +484,7 @@ Exit run(const Arguments& arguments) {
     return Exit::success;
 }
 
-void add_as(const Command& command, Arguments& arguments) {
+void add_as(const Command& command, PairArguments& arguments) {
     command
         .add_option("--as", arguments.as, "Meaning of a model: its triangles, or also the inside")
         .type_name("BODY")
@@ -492,7 +493,7 @@ void add_as(const Command& command, Arguments& arguments) {
         .group("Query");
 }
 
-void add_contact_options(const Command& command, Arguments& arguments) {
+void add_contact_options(const Command& command, PairArguments& arguments) {
     add_as(command, arguments);
     command
         .add_option("--contact", arguments.contact,
@@ -507,8 +508,8 @@ void add_contact_options(const Command& command, Arguments& arguments) {
         .group("Query");
 }
 
-void add_distance_options(const Command& command, Arguments& arguments) {
-    if (arguments.question == Question::within) {
+void add_distance_options(const Command& command, PairArguments& arguments) {
+    if (arguments.question == PairQuestion::within) {
         command
             .add_option("--tolerance", arguments.tolerance,
                         "Largest distance that counts, in model units")
@@ -549,17 +550,17 @@ void add_distance_options(const Command& command, Arguments& arguments) {
 }
 
 /// Returns the help text on the structures that serve a query.
-const char* structure_text(Question question) {
+const char* structure_text(PairQuestion question) {
     switch (question) {
-        case Question::collide:
+        case PairQuestion::collide:
             return "Structure of both files to search: bvh; octree, octree-adaptive, hashed-octree "
                    "or tetra-tree (bake --structures); or pieces (bake --effects pieces). All give "
                    "the same answers. hull: test the convex hulls instead";
-        case Question::overlap:
+        case PairQuestion::overlap:
             return "Structure of both files to search: bvh; octree, octree-adaptive, hashed-octree "
                    "or tetra-tree (bake --structures); or pieces (bake --effects pieces). All give "
                    "the same answers. hashed-octree-literal: a published search that misses pairs";
-        case Question::distance:
+        case PairQuestion::distance:
             return "Structure of both files to search: bvh, or pieces (bake --effects pieces). "
                    "Both "
                    "give the same answers. hull: distance of the convex hulls (bake --structures "
@@ -571,19 +572,19 @@ const char* structure_text(Question question) {
     }
 }
 
-void add_question(const Command& query, Question question, const char* name,
+void add_question(const Command& query, PairQuestion question, const char* name,
                   const char* description, Exit& exit) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<PairArguments>();
     arguments->question = question;
     const Command command = query.add_command(name, description);
     command.set_notes("", {"cdprep query " + std::string(name) + " arm.cdp.h5 part.cdp.h5 --pose " +
                            "'1 0 0 0 1 0 0 0 1 0.1 0 0'" +
-                           (question == Question::within ? " --tolerance 0.5" : "")});
+                           (question == PairQuestion::within ? " --tolerance 0.5" : "")});
     command.add_option("a", arguments->a, "The first baked model").required();
     command.add_option("b", arguments->b, "The second baked model").required();
     add_placements(command, arguments->placement);
     add_structure(command, arguments->structure, structure_text(question));
-    if (question == Question::collide || question == Question::overlap) {
+    if (question == PairQuestion::collide || question == PairQuestion::overlap) {
         add_structure_steps(command, arguments->structure);
     }
     add_answer_format(command, arguments->format);
@@ -599,12 +600,12 @@ void add_question(const Command& query, Question question, const char* name,
             "Print to stderr how many boxes, triangles and hulls were tested, and which stage "
             "decided")
         .group("Report");
-    if (question == Question::collide || question == Question::overlap) {
+    if (question == PairQuestion::collide || question == PairQuestion::overlap) {
         add_contact_options(command, *arguments);
     } else {
         add_distance_options(command, *arguments);
     }
-    if (question == Question::collide) {
+    if (question == PairQuestion::collide) {
         command
             .add_option("--level-of-detail", arguments->level_of_detail,
                         "Test the facets of this level of both tetra-trees instead. The answer is "
@@ -613,7 +614,7 @@ void add_question(const Command& query, Question question, const char* name,
             .check(whole_from(0U, format::kMaxTetraLevel))
             .group("Structure");
     }
-    if (question == Question::overlap) {
+    if (question == PairQuestion::overlap) {
         const Option count =
             command.add_flag("--count", arguments->count, "Count the pairs, do not list them")
                 .group("Query");
@@ -629,12 +630,13 @@ void add_question(const Command& query, Question question, const char* name,
 }  // namespace
 
 void add_pair_questions(const Command& query, Exit& exit) {
-    add_question(query, Question::collide, "collide", "Test whether two models collide", exit);
-    add_question(query, Question::overlap, "overlap",
+    add_question(query, PairQuestion::collide, "collide", "Test whether two models collide", exit);
+    add_question(query, PairQuestion::overlap, "overlap",
                  "List the overlapping triangles of two models", exit);
-    add_question(query, Question::distance, "distance", "Compute the distance of two models", exit);
-    add_question(query, Question::within, "within", "Test whether two models are within a distance",
+    add_question(query, PairQuestion::distance, "distance", "Compute the distance of two models",
                  exit);
+    add_question(query, PairQuestion::within, "within",
+                 "Test whether two models are within a distance", exit);
 }
 
 }  // namespace cdprep::cli

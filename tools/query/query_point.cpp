@@ -21,7 +21,7 @@
 namespace cdprep::cli {
 namespace {
 
-struct Arguments {
+struct PointArguments {
     std::filesystem::path model;
     std::filesystem::path places;  ///< file of points or rays
     std::string format = "text";
@@ -43,7 +43,7 @@ std::uint8_t shade_of(const Inclusion& inclusion) {
 
 /// One query about one model, for many points or rays.
 template <class Place>
-struct Question {
+struct PointQuestion {
     const char* name;
     Ask ask_of_model;
     const char* description;
@@ -88,39 +88,39 @@ constexpr const char* kThroughInside =
     "--structures). All give the same answers";
 constexpr const char* kThroughBvh = "Structure to search: bvh, the only one for this query";
 
-constexpr Question<Double3> kInside = {"inside",
-                                       Ask::inside,
-                                       "Test whether points are inside a model",
-                                       "--points",
-                                       "A file with points: 3 numbers per line",
-                                       read_points,
-                                       kServingInside,
-                                       kThroughInside,
-                                       "cdprep query inside arm.cdp.h5 --points points.txt",
-                                       true,
-                                       ask_inside};
-constexpr Question<Double3> kClosest = {"closest",
-                                        Ask::closest,
-                                        "Find the closest point of a model to each point",
-                                        "--points",
-                                        "A file with points: 3 numbers per line",
-                                        read_points,
-                                        kBvhAlone,
-                                        kThroughBvh,
-                                        "cdprep query closest arm.cdp.h5 --points points.txt",
-                                        false,
-                                        ask_closest};
-constexpr Question<Ray> kRay = {"ray",
-                                Ask::ray,
-                                "Find the first triangle that each ray hits",
-                                "--rays",
-                                "A file with rays: 6 numbers per line, origin and direction",
-                                read_rays,
-                                kBvhAlone,
-                                kThroughBvh,
-                                "cdprep query ray arm.cdp.h5 --rays rays.txt",
-                                false,
-                                ask_ray};
+constexpr PointQuestion<Double3> kInside = {"inside",
+                                            Ask::inside,
+                                            "Test whether points are inside a model",
+                                            "--points",
+                                            "A file with points: 3 numbers per line",
+                                            read_points,
+                                            kServingInside,
+                                            kThroughInside,
+                                            "cdprep query inside arm.cdp.h5 --points points.txt",
+                                            true,
+                                            ask_inside};
+constexpr PointQuestion<Double3> kClosest = {"closest",
+                                             Ask::closest,
+                                             "Find the closest point of a model to each point",
+                                             "--points",
+                                             "A file with points: 3 numbers per line",
+                                             read_points,
+                                             kBvhAlone,
+                                             kThroughBvh,
+                                             "cdprep query closest arm.cdp.h5 --points points.txt",
+                                             false,
+                                             ask_closest};
+constexpr PointQuestion<Ray> kRay = {"ray",
+                                     Ask::ray,
+                                     "Find the first triangle that each ray hits",
+                                     "--rays",
+                                     "A file with rays: 6 numbers per line, origin and direction",
+                                     read_rays,
+                                     kBvhAlone,
+                                     kThroughBvh,
+                                     "cdprep query ray arm.cdp.h5 --rays rays.txt",
+                                     false,
+                                     ask_ray};
 
 /// Does nothing: rays are not exported.
 Exit export_places(const std::filesystem::path& /*path*/, const std::vector<Ray>& /*rays*/,
@@ -138,7 +138,7 @@ Exit export_places(const std::filesystem::path& path, const std::vector<Double3>
 }
 
 template <class Place>
-Exit run(const Arguments& arguments, const Question<Place>& question) {
+Exit run(const PointArguments& arguments, const PointQuestion<Place>& question) {
     const Result<StructureOptions> through =
         parse_structure(arguments.structure, question.name, question.serving);
     if (!through) return fail("query", through.error());
@@ -159,8 +159,8 @@ Exit run(const Arguments& arguments, const Question<Place>& question) {
 }
 
 template <class Place>
-void add_question(const Command& query, const Question<Place>& question, Exit& exit) {
-    auto arguments = std::make_shared<Arguments>();
+void add_question(const Command& query, const PointQuestion<Place>& question, Exit& exit) {
+    auto arguments = std::make_shared<PointArguments>();
     const Command command = query.add_command(question.name, question.description);
     command.add_option("model", arguments->model, "A baked model").required();
     command.set_notes("", {question.example});

@@ -21,21 +21,21 @@
 namespace cdprep::mesh {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Point = Kernel::Point_3;
-using Flat = Kernel::Point_2;
+using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Point = ExactKernel::Point_3;
+using Flat = ExactKernel::Point_2;
 
 /// The number of the exact point that a vertex of a flat triangulation represents.
 struct Number {
     std::uint32_t value = kNone;
 };
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Number, Kernel>;
-using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Number, ExactKernel>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<ExactKernel>;
 using Flattened = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+    ExactKernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
     CGAL::Exact_intersections_tag>;
 
-constexpr int kMostRounds = 12;
+constexpr int kMostCuts = 12;
 
 Point exact(const Double3& p) {
     return {p.x, p.y, p.z};
@@ -114,14 +114,14 @@ public:
 
     void cut_along(const Corners& other) {
         const auto common = CGAL::intersection(
-            Kernel::Triangle_3(corner_[0], corner_[1], corner_[2]),
-            Kernel::Triangle_3(exact(other[0]), exact(other[1]), exact(other[2])));
+            ExactKernel::Triangle_3(corner_[0], corner_[1], corner_[2]),
+            ExactKernel::Triangle_3(exact(other[0]), exact(other[1]), exact(other[2])));
         if (!common) return;
         if (const auto* point = boost::get<Point>(&*common)) {
             insert(*point);
-        } else if (const auto* segment = boost::get<Kernel::Segment_3>(&*common)) {
+        } else if (const auto* segment = boost::get<ExactKernel::Segment_3>(&*common)) {
             cut(segment->source(), segment->target());
-        } else if (const auto* whole = boost::get<Kernel::Triangle_3>(&*common)) {
+        } else if (const auto* whole = boost::get<ExactKernel::Triangle_3>(&*common)) {
             for (int k = 0; k < 3; ++k) cut(whole->vertex(k), whole->vertex(k + 1));
         } else if (const auto* polygon = boost::get<std::vector<Point>>(&*common)) {
             for (std::size_t k = 0; k < polygon->size(); ++k) {
@@ -161,9 +161,9 @@ private:
     [[nodiscard]] Point lifted(const Flat& p) const {
         const Flat a = flat(corner_[0], axis_), b = flat(corner_[1], axis_),
                    c = flat(corner_[2], axis_);
-        const Kernel::FT whole = CGAL::determinant(b - a, c - a);
-        const Kernel::FT along_b = CGAL::determinant(p - a, c - a) / whole;
-        const Kernel::FT along_c = CGAL::determinant(b - a, p - a) / whole;
+        const ExactKernel::FT whole = CGAL::determinant(b - a, c - a);
+        const ExactKernel::FT along_b = CGAL::determinant(p - a, c - a) / whole;
+        const ExactKernel::FT along_c = CGAL::determinant(b - a, p - a) / whole;
         return corner_[0] + along_b * (corner_[1] - corner_[0]) +
                along_c * (corner_[2] - corner_[0]);
     }
@@ -243,7 +243,7 @@ CutMesh cut_crossings(RepairMesh mesh, const SearchOptions& search, const StopCh
     CutMesh cut;
     std::size_t before = std::numeric_limits<std::size_t>::max();
     try {
-        for (int round = 0; round <= kMostRounds; ++round) {
+        for (int round = 0; round <= kMostCuts; ++round) {
             const auto [meetings, is_complete] = find_meetings(mesh, search);
             if (!is_complete) {
                 cut.failed = "a limit ended the search for what their cuts cross";
@@ -254,7 +254,7 @@ CutMesh cut_crossings(RepairMesh mesh, const SearchOptions& search, const StopCh
             if (worst == meetings.end()) break;
             cut.left = *worst;
             // Rounded cuts that create as many meetings as they remove would continue forever.
-            if (round == kMostRounds || meetings.size() >= before) break;
+            if (round == kMostCuts || meetings.size() >= before) break;
             before = meetings.size();
             std::optional<RepairMesh> pieces = cut_once(std::move(mesh), meetings, stop);
             if (!pieces) {

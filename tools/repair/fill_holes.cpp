@@ -15,7 +15,7 @@
 namespace cdprep::mesh {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using HoleKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 constexpr std::size_t kMostForCubic = 500;  ///< vertices; the full search of CGAL takes n^3 steps
@@ -54,7 +54,7 @@ std::vector<Loop> find_loops(const RepairMesh& mesh, const EdgeUses& edges) {
 
 /// Returns the triangles that CGAL proposes, as indices into the loop; none if it fails.
 std::vector<Triangle> propose(const RepairMesh& mesh, const Loop& loop) {
-    std::vector<Kernel::Point_3> points;
+    std::vector<HoleKernel::Point_3> points;
     for (const std::uint32_t vertex : loop) {
         const Double3& p = mesh.positions[vertex];
         points.emplace_back(p.x, p.y, p.z);
@@ -89,7 +89,7 @@ double diagonal_of(const RepairMesh& mesh, const Loop& loop) {
     return std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
 }
 
-Double3 middle_of(const RepairMesh& mesh, const Loop& loop) {
+Double3 middle_of_loop(const RepairMesh& mesh, const Loop& loop) {
     Double3 sum{};
     const auto count = static_cast<double>(loop.size());
     for (const std::uint32_t vertex : loop) {
@@ -215,7 +215,7 @@ private:
 
     void fill_around_middle(std::uint32_t number) {
         const Loop& loop = loops_[number];
-        const std::uint32_t middle = add_vertex(mesh_, middle_of(mesh_, loop), report_.step);
+        const std::uint32_t middle = add_vertex(mesh_, middle_of_loop(mesh_, loop), report_.step);
         ++report_.added_vertices;
         for (std::size_t i = 0; i < loop.size(); ++i) {
             add({{loop[i], loop[(i + 1) % loop.size()], middle}}, number);

@@ -21,15 +21,16 @@
 namespace cdprep::mesh {
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using FloatKernel = CGAL::Simple_cartesian<double>;
+using Primitive =
+    CGAL::AABB_triangle_primitive<FloatKernel, std::vector<FloatKernel::Triangle_3>::iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<FloatKernel, Primitive>>;
 
 constexpr double kRelative = 1e-4;
 constexpr double kOfModel = 1e-9;
 constexpr std::size_t kMostPieces = 200'000;  ///< for all triangles of one direction
 
-Kernel::Point_3 point(const Double3& p) {
+FloatKernel::Point_3 point(const Double3& p) {
     return {p.x, p.y, p.z};
 }
 
@@ -56,7 +57,7 @@ public:
     }
 
 private:
-    using Hint = std::pair<Kernel::Point_3, Primitive::Id>;
+    using Hint = std::pair<FloatKernel::Point_3, Primitive::Id>;
 
     /// Returns one first corner per position. CGAL's own hints, one per triangle, are split in
     /// two recursively; many at one point overflow the stack.
@@ -72,7 +73,7 @@ private:
     }
 
     std::vector<Corners> triangles_;
-    mutable std::vector<Kernel::Triangle_3> shapes_;
+    mutable std::vector<FloatKernel::Triangle_3> shapes_;
     Tree tree_;
 };
 
@@ -278,20 +279,20 @@ private:
 /// Returns the outline: the edges, by position, that an odd number of pieces has. It starts at
 /// the first corner of the triangle that was cut. Empty if the edges are not one loop.
 std::vector<Double3> find_outline(const std::vector<Corners>& pieces, const Double3& first) {
-    using Edge = std::array<Double3, 2>;
-    const auto less = [](const Edge& a, const Edge& b) {
+    using OutlineEdge = std::array<Double3, 2>;
+    const auto less = [](const OutlineEdge& a, const OutlineEdge& b) {
         return a[0] == b[0] ? lexicographically_less(a[1], b[1])
                             : lexicographically_less(a[0], b[0]);
     };
-    std::vector<Edge> edges;
+    std::vector<OutlineEdge> edges;
     for (const Corners& piece : pieces) {
         const Corners c = ordered(piece);
         edges.insert(edges.end(), {{c[0], c[1]}, {c[1], c[2]}, {c[0], c[2]}});
     }
     std::sort(edges.begin(), edges.end(), less);
-    std::vector<Edge> outline;  // in both directions
-    for (const Edge& edge : edges) {
-        if (!outline.empty() && outline.back() == Edge{edge[1], edge[0]}) {
+    std::vector<OutlineEdge> outline;  // in both directions
+    for (const OutlineEdge& edge : edges) {
+        if (!outline.empty() && outline.back() == OutlineEdge{edge[1], edge[0]}) {
             outline.resize(outline.size() - 2);
         } else {
             outline.push_back(edge);
@@ -304,7 +305,7 @@ std::vector<Double3> find_outline(const std::vector<Corners>& pieces, const Doub
     do {
         const auto next = std::partition_point(
             outline.begin(), outline.end(),
-            [&](const Edge& edge) { return lexicographically_less(edge[0], at); });
+            [&](const OutlineEdge& edge) { return lexicographically_less(edge[0], at); });
         if (outline.end() - next < 2 || !(next[0][0] == at) || !(next[1][0] == at)) return {};
         if (outline.end() - next > 2 && next[2][0] == at) return {};
         const bool back = !loop.empty() && next[0][1] == before;

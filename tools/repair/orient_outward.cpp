@@ -10,14 +10,14 @@
 namespace cdprep::mesh {
 namespace {
 
-struct Box {
+struct ComponentBox {
     Double3 lower{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                   std::numeric_limits<double>::infinity()};
     Double3 upper{-lower.x, -lower.y, -lower.z};
 };
 
-Box box_of(const RepairMesh& mesh, const StoredComponent& component) {
-    Box box;
+ComponentBox box_of(const RepairMesh& mesh, const StoredComponent& component) {
+    ComponentBox box;
     for (const std::uint32_t t : component.triangles) {
         for (const std::uint32_t vertex : mesh.triangles[t].vertex) {
             const Double3& p = mesh.positions[vertex];
@@ -30,7 +30,7 @@ Box box_of(const RepairMesh& mesh, const StoredComponent& component) {
     return box;
 }
 
-bool contains(const Box& outer, const Box& inner) {
+bool contains(const ComponentBox& outer, const ComponentBox& inner) {
     return outer.lower.x < inner.lower.x && outer.lower.y < inner.lower.y &&
            outer.lower.z < inner.lower.z && outer.upper.x > inner.upper.x &&
            outer.upper.y > inner.upper.y && outer.upper.z > inner.upper.z;
@@ -55,7 +55,7 @@ Stepped orient_outward(RepairMesh mesh) {
     StepReport report(RepairStep::orient_outward);
     const std::vector<StoredComponent> components =
         find_stored_components(mesh.positions, mesh.triangles);
-    std::vector<Box> boxes;
+    std::vector<ComponentBox> boxes;
     boxes.reserve(components.size());
     for (const StoredComponent& component : components) boxes.push_back(box_of(mesh, component));
     std::vector<std::size_t> turned;

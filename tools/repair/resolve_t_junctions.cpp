@@ -11,9 +11,9 @@
 namespace cdprep::mesh {
 namespace {
 
-constexpr int kMostPasses = 16;  ///< a pass cuts each triangle along one edge
+constexpr int kMostCutPasses = 16;  ///< a pass cuts each triangle along one edge
 
-using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const std::uint32_t*>;
+using HandledBox = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const std::uint32_t*>;
 
 double along(const Double3& a, const Double3& b, const Double3& p) {
     return (p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y) + (p.z - a.z) * (b.z - a.z);
@@ -72,7 +72,7 @@ private:
     }
 
     std::map<HalfEdge, std::vector<std::uint32_t>> find_cuts() {
-        std::vector<Box> of_edges, of_vertices;
+        std::vector<HandledBox> of_edges, of_vertices;
         for (const HalfEdge& h : edges_) {
             const Double3& a = mesh_.positions[start_of(mesh_.triangles, h)];
             const Double3& b = mesh_.positions[end_of(mesh_.triangles, h)];
@@ -89,7 +89,8 @@ private:
         }
         std::map<HalfEdge, std::vector<std::uint32_t>> cuts;
         CGAL::box_intersection_d(of_edges.begin(), of_edges.end(), of_vertices.begin(),
-                                 of_vertices.end(), [&](const Box& edge, const Box& vertex) {
+                                 of_vertices.end(),
+                                 [&](const HandledBox& edge, const HandledBox& vertex) {
                                      if (lies_on(*vertex.handle(), *edge.handle())) {
                                          cuts[*edge.handle()].push_back(*vertex.handle());
                                      }
@@ -138,7 +139,7 @@ private:
 Stepped resolve_t_junctions(RepairMesh mesh, double width) {
     StepReport report(RepairStep::resolve_t_junctions);
     TJunctions junctions(mesh, width, report);
-    for (int pass = 0; pass < kMostPasses && junctions.run_pass(); ++pass) {
+    for (int pass = 0; pass < kMostCutPasses && junctions.run_pass(); ++pass) {
     }
     return {std::move(mesh), std::move(report)};
 }

@@ -9,7 +9,8 @@
 namespace cdprep::mesh {
 namespace {
 
-constexpr std::size_t kMostPasses = 64;  ///< over edges that pairs share; two suffice in practice
+constexpr std::size_t kMostSplitPasses =
+    64;  ///< over edges that pairs share; two suffice in practice
 
 /// Pairs uses around the edge like brackets. Each opening use pairs with the next closing one
 /// that no use in between takes.
@@ -180,7 +181,7 @@ Stepped split_non_manifold(RepairMesh mesh) {
     // If no fan was split, the edges have not changed.
     if (report.parted.empty() && are_edges_sound(mesh, edges, twins))
         return {std::move(mesh), std::move(report)};
-    for (std::size_t pass = 0; pass < kMostPasses; ++pass) {
+    for (std::size_t pass = 0; pass < kMostSplitPasses; ++pass) {
         if (!cut_shared_edges(mesh, twins, report)) break;
     }
     cut_twin_triangles(mesh, report);

@@ -43,7 +43,7 @@ const std::map<std::string, ValidationFormat> kFormats = {{"text", ValidationFor
                                                           {"sarif", ValidationFormat::sarif},
                                                           {"junit", ValidationFormat::junit}};
 
-struct Arguments {
+struct ValidateArguments {
     std::vector<std::string> inputs;
     std::string files_from;
     fs::path output;
@@ -66,7 +66,7 @@ fs::path spelled_out(const fs::path& path) {
     return fs::absolute(path).lexically_normal();
 }
 
-Result<std::vector<Input>> inputs_for(const Arguments& arguments) {
+Result<std::vector<Input>> inputs_for(const ValidateArguments& arguments) {
     if (arguments.inputs.empty() && arguments.files_from.empty()) {
         return Error{ErrorCode::bad_argument,
                      "no input. Name files, folders or patterns, or a list with --files-from."};
@@ -81,7 +81,7 @@ Result<std::vector<Input>> inputs_for(const Arguments& arguments) {
 }
 
 /// Fails if an output would replace an input, the baseline or another output.
-Result<Done> check_output(const Arguments& arguments, const std::vector<Input>& inputs) {
+Result<Done> check_output(const ValidateArguments& arguments, const std::vector<Input>& inputs) {
     std::set<fs::path> taken;
     for (const Input& input : inputs) taken.insert(spelled_out(input.path));
     if (!arguments.baseline.empty()) taken.insert(spelled_out(arguments.baseline));
@@ -220,7 +220,7 @@ std::size_t default_places(ValidationFormat format) {
 }
 
 /// Checks the arguments and fills the options, without reading any file.
-Result<Done> settle(Arguments& arguments) {
+Result<Done> settle(ValidateArguments& arguments) {
     const auto rules = report::RuleSettings::parse(arguments.rules, arguments.fail_on);
     if (!rules) return rules.error();
     mesh::DefectOptions& defects = arguments.options.defects;
@@ -245,7 +245,7 @@ Result<Done> settle(Arguments& arguments) {
     return Done{};
 }
 
-Exit run(Arguments& arguments) {
+Exit run(ValidateArguments& arguments) {
     const Result<Done> settled = settle(arguments);
     if (!settled) return fail("validate", settled.error());
     const Result<ProgressStyle> style = parse_progress(arguments.progress);
@@ -276,7 +276,7 @@ Exit run(Arguments& arguments) {
         .all(inputs.value(), threads);
 }
 
-void add_judging_options(const Command& command, Arguments& arguments) {
+void add_judging_options(const Command& command, ValidateArguments& arguments) {
     const char* const group = "Rules";
     command
         .add_option("--fail-on", arguments.fail_on,
@@ -329,7 +329,7 @@ void add_judging_options(const Command& command, Arguments& arguments) {
 }  // namespace
 
 void add_validate(const Command& app, Exit& exit) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ValidateArguments>();
     const Command command = app.add_command("validate", "Report defects of meshes");
     command.set_notes(
         "Triangles and vertices are numbered from 0, as in the file. Without --fail-on the "

@@ -11,12 +11,12 @@
 namespace cdprep::cli {
 namespace {
 
-struct Arguments {
+struct ExplainArguments {
     std::string rule;
     std::string format = "text";
 };
 
-Exit run(const Arguments& arguments) {
+Exit run(const ExplainArguments& arguments) {
     const bool is_json = arguments.format == "json";
     if (arguments.rule.empty()) {
         std::cout << (is_json ? report::explain_json(mesh::all_rules())
@@ -35,7 +35,7 @@ Exit run(const Arguments& arguments) {
 }  // namespace
 
 void add_explain(const Command& app, Exit& exit) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ExplainArguments>();
     const Command command = app.add_command("explain", "Explain a rule of validate");
     command.set_notes("", {"cdprep explain", "cdprep explain CDP0203"});
     command.add_option("rule", arguments->rule,

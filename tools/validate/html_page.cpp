@@ -23,14 +23,14 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kLeastPlaces = 10;      // per finding, on any page
-constexpr std::size_t kMostPlaces = 1000;     // per finding
-constexpr std::size_t kPlaceNumbers = 100;    // triangles or vertices listed per place
-constexpr std::size_t kPartsAPlace = 20;      // segments or triangles drawn per place, on average
-constexpr std::size_t kComponents = 5000;     // on the page; each mesh has at least 5
-constexpr std::size_t kMostComponents = 200;  // per mesh
-constexpr std::size_t kLongestName = 300;     // bytes of a file's or node's name
-constexpr double kGhostTriangles = 400'000;   // about; triangles of coarse surfaces, on the page
+constexpr std::size_t kLeastPlaces = 10;       // per finding, on any page
+constexpr std::size_t kMostPagePlaces = 1000;  // per finding
+constexpr std::size_t kPlaceNumbers = 100;     // triangles or vertices listed per place
+constexpr std::size_t kPartsAPlace = 20;       // segments or triangles drawn per place, on average
+constexpr std::size_t kComponents = 5000;      // on the page; each mesh has at least 5
+constexpr std::size_t kMostComponents = 200;   // per mesh
+constexpr std::size_t kLongestName = 300;      // bytes of a file's or node's name
+constexpr double kGhostTriangles = 400'000;    // about; triangles of coarse surfaces, on the page
 
 /// The limits per mesh and finding, so that the page stays bounded.
 struct Limits {
@@ -64,7 +64,8 @@ Limits limits_of(std::span<const PageMesh> meshes, const PageOptions& options) {
         if (shares[i] < meshes[i].triangles.size()) ++ghosts;
     }
     const double cells = std::sqrt(kGhostTriangles / (6.0 * static_cast<double>(ghosts)));
-    return {std::move(shares), std::clamp(options.max_places / findings, kLeastPlaces, kMostPlaces),
+    return {std::move(shares),
+            std::clamp(options.max_places / findings, kLeastPlaces, kMostPagePlaces),
             std::clamp<std::size_t>(kComponents / std::max<std::size_t>(1, meshes.size()), 5,
                                     kMostComponents),
             static_cast<std::uint32_t>(std::max(4.0, cells))};
@@ -167,7 +168,7 @@ json finding_json(const PageMesh& mesh, std::size_t index, const std::optional<P
     Marks marks;
     if (frame) {
         marks = make_marks(mesh.positions, mesh.triangles, *frame, finding.rule, places,
-                           count * kPartsAPlace + kMostPlaces);
+                           count * kPartsAPlace + kMostPagePlaces);
     }
     return {{"rule", mesh::id_of(finding.rule)},
             {"severity", severity_word(severity_of(mesh, index))},

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kSchema =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
 constexpr const char* kFingerprint = "cdprepPlace/v1";
-constexpr std::size_t kMostNumbers = 8;  ///< logical locations per kind; numbers per message
+constexpr std::size_t kMostSarifNumbers = 8;  ///< logical locations per kind; numbers per message
 
 /// Returns the SARIF level. SARIF calls a rule that is off "none", and not enabled.
 const char* level_of(mesh::Severity severity) {
@@ -66,7 +66,7 @@ Json artifact_location(const std::string& uri, std::size_t index) {
 
 void add_elements(Json& locations, const char* kind, const std::string& node,
                   const std::vector<std::uint32_t>& numbers) {
-    const std::size_t shown = std::min(numbers.size(), kMostNumbers);
+    const std::size_t shown = std::min(numbers.size(), kMostSarifNumbers);
     const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(shown);
     const std::string above = node.empty() ? "" : node + "/";
     for (auto at = numbers.begin(); at != end; ++at) {
@@ -101,7 +101,7 @@ Json place_json(const ValidationReport& report, std::size_t i, std::size_t k,
     const mesh::Finding& finding = report.defects.findings[i];
     const mesh::Place& place = finding.places[k];
     Json result =
-        result_json(report, i, place_text(report, finding.rule, place, kMostNumbers) + ".");
+        result_json(report, i, place_text(report, finding.rule, place, kMostSarifNumbers) + ".");
     Json location = {{"physicalLocation", {{"artifactLocation", artifact}}}};
     const Json logical = logical_locations(report, place);
     if (!logical.empty()) location["logicalLocations"] = logical;

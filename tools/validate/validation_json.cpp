@@ -52,21 +52,21 @@ constexpr std::array<CountName, 25> kCounts = {{
 static_assert(sizeof(mesh::DefectCounts) == kCounts.size() * sizeof(std::uint64_t));
 
 /// A hole may have a million vertices; its report lists only the first.
-constexpr std::size_t kMostNumbers = 100;
+constexpr std::size_t kMostJsonNumbers = 100;
 
 /// Adds the first numbers under `name`. If there are more, adds their full count under
 /// `count_name`.
 void add_numbers(Json& json, const char* name, const char* count_name,
                  const std::vector<std::uint32_t>& numbers) {
-    const auto shown = static_cast<std::ptrdiff_t>(std::min(numbers.size(), kMostNumbers));
+    const auto shown = static_cast<std::ptrdiff_t>(std::min(numbers.size(), kMostJsonNumbers));
     json[name] = std::vector<std::uint32_t>(numbers.begin(), numbers.begin() + shown);
-    if (numbers.size() > kMostNumbers) json[count_name] = numbers.size();
+    if (numbers.size() > kMostJsonNumbers) json[count_name] = numbers.size();
 }
 
 /// Returns the paths of the nodes of a place's triangles, each once, in triangle order.
 std::vector<std::string> nodes_of(const ValidationReport& report, const mesh::Place& place) {
     std::vector<std::string> nodes;
-    const std::size_t shown = std::min(place.triangles.size(), kMostNumbers);
+    const std::size_t shown = std::min(place.triangles.size(), kMostJsonNumbers);
     for (std::size_t i = 0; i < shown; ++i) {
         std::string node = node_of(report, place.triangles[i]);
         const bool is_new = std::find(nodes.begin(), nodes.end(), node) == nodes.end();

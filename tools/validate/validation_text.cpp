@@ -13,7 +13,7 @@
 namespace cdprep::report {
 namespace {
 
-constexpr std::size_t kMostNumbers = 8;  ///< triangles or vertices per line
+constexpr std::size_t kMostTextNumbers = 8;  ///< triangles or vertices per line
 
 enum class Colour : std::uint8_t { red = 31, green = 32, yellow = 33, cyan = 36 };
 
@@ -107,7 +107,7 @@ std::string places_text(const ValidationReport& report, std::size_t finding, std
     std::string text;
     const std::size_t shown = std::min(found.places.size(), most);
     for (std::size_t i = 0; i < shown; ++i) {
-        text += indent + place_text(report, found.rule, found.places[i], kMostNumbers) + "\n";
+        text += indent + place_text(report, found.rule, found.places[i], kMostTextNumbers) + "\n";
     }
     const std::uint64_t all = report.judgements[finding].fresh;
     if (all <= shown) return text;

@@ -21,7 +21,6 @@ namespace {
 
 using build::TreeLimits;
 
-constexpr double kMebibyte = 1 << 20;
 constexpr std::array<SpatialKind, 5> kKinds = {
     SpatialKind::tetra_tree, SpatialKind::octree, SpatialKind::hashed_octree,
     SpatialKind::adaptive_median, SpatialKind::adaptive_area};

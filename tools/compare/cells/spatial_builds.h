@@ -14,6 +14,8 @@
 
 namespace cdprep::study {
 
+inline constexpr double kMebibyte = 1 << 20;  ///< bytes
+
 enum class SpatialKind : std::uint8_t {
     tetra_tree,
     octree,

@@ -13,7 +13,6 @@
 namespace cdprep::study {
 namespace {
 
-constexpr double kMebibyte = 1 << 20;
 constexpr std::array<const char*, 5> kKindNames = {"tetra-tree", "octree", "hashed octree",
                                                    "adaptive, median", "adaptive, area"};
 

@@ -55,7 +55,6 @@ constexpr std::size_t kWorkOfCell = 2'000;        ///< one cell that is cut out
 constexpr std::size_t kWorkOfErrorCell = 150;     ///< one cell examined by find_hull_error()
 constexpr std::size_t kEstimatesAtOnce = 32;      ///< hulls estimated in parallel
 constexpr std::size_t kTestsOfWork = 4;           ///< plane tests of find_hull_error() per unit
-constexpr std::size_t kWorkOfSample = 10;         ///< one sample of a field
 constexpr std::size_t kFewestNodes = 100'000;     ///< least for a field, whatever work is left
 constexpr std::size_t kFewestCells = 500;         ///< least to cut, whatever work is left
 constexpr std::size_t kFewestFragments = 4;       ///< least, per triangle on average

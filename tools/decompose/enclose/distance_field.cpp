@@ -24,13 +24,8 @@ constexpr std::size_t kGroup = 4;  ///< nodes along each axis of a group of kept
 constexpr double kShell = 1.5;     ///< thickness of the layer of kept-out nodes, in spacings
 constexpr std::size_t kBlock = 8;  ///< nodes along each axis of a block
 constexpr std::size_t kFacetsAtOnce = 32;
-constexpr std::size_t kProbes = 64;    ///< nodes whose mean cost is the weight of a node
-constexpr double kFewestNodes = 4096;  ///< least, whatever a node costs
-
-double apart(const Double3& a, const Double3& b) {
-    const Double3 ab = mesh::minus(a, b);
-    return std::sqrt(mesh::dot(ab, ab));
-}
+constexpr std::size_t kProbes = 64;   ///< nodes whose mean cost is the weight of a node
+constexpr double kLeastNodes = 4096;  ///< least, whatever a node costs
 
 /// The place of a point in a grid: the cube's first node, and the share of the way along each axis.
 struct GridPlace {
@@ -73,7 +68,7 @@ DistanceField::DistanceField(const Solid& solid, double spacing, double beyond,
     weight_ = find_weight();
     const auto of_work = static_cast<double>(most_nodes);
     const double most =
-        std::max(of_work / static_cast<double>(weight_), std::min(of_work, kFewestNodes));
+        std::max(of_work / static_cast<double>(weight_), std::min(of_work, kLeastNodes));
     const mesh::Box& box = solid.tree().box();
     const Double3 size = mesh::minus(box.upper, box.lower);
     const auto nodes_along = [&](double length) { return std::floor(length / spacing_) + 2; };
@@ -150,7 +145,7 @@ std::size_t DistanceField::fill(const Block& block, double beyond) {
     const std::size_t y1 = std::min(y0 + kBlock, count_[1]);
     const std::size_t z1 = std::min(z0 + kBlock, count_[2]);
     const Double3 centre = middle_of(node(x0, y0, z0), node(x1 - 1, y1 - 1, z1 - 1));
-    const double radius = apart(centre, node(x0, y0, z0)) + spacing_;
+    const double radius = mesh::distance_between(centre, node(x0, y0, z0)) + spacing_;
     TriangleTree::Nearest near = solid_->tree().nearest(centre);
     const bool one_sided = near.distance > radius;
     const bool inside = solid_->includes(centre);
@@ -228,7 +223,8 @@ double DistanceField::fine_node(std::size_t x, std::size_t y, std::size_t z) con
     const std::size_t known_node = index(beside(x), beside(y), beside(z));
     const double distance = solid_->tree().nearest(p, nearest_[known_node]).distance;
     // If no surface lies between the two, both are on one side.
-    const double to_node = apart(p, node(beside(x), beside(y), beside(z))) + kRounded * spacing_;
+    const double to_node =
+        mesh::distance_between(p, node(beside(x), beside(y), beside(z))) + kRounded * spacing_;
     const auto of_node = static_cast<double>(distance_[known_node]);
     const bool is_inside =
         std::max(distance, std::fabs(of_node)) > to_node ? of_node < 0 : solid_->includes(p);
@@ -245,9 +241,9 @@ double DistanceField::fine_at(const Double3& p) const {
 }
 
 void DistanceField::sample(std::array<Double3, 3> corners, Detail detail, Estimate& most) const {
-    const double ab = apart(corners[0], corners[1]);
-    const double bc = apart(corners[1], corners[2]);
-    const double ca = apart(corners[2], corners[0]);
+    const double ab = mesh::distance_between(corners[0], corners[1]);
+    const double bc = mesh::distance_between(corners[1], corners[2]);
+    const double ca = mesh::distance_between(corners[2], corners[0]);
     const double longest = std::max({ab, bc, ca});
     ++most.samples;
     const Double3 centre = {(corners[0].x + corners[1].x + corners[2].x) / 3,

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "decompose/enclose/flush_bound.h"
+#include "decompose/enclose/plane.h"
 #include "decompose/surface/surface_edges.h"
 #include "hull/convex_hull.h"
 #include "mesh/vectors.h"
@@ -29,15 +30,6 @@ constexpr double kStep = 8;          ///< in kFlat: the step to a point beside a
 constexpr double kInwards = 1e-3;    ///< of the way to a cell's middle: the step from a corner
 constexpr double kParallel = 1e-9;   ///< 1 - the cosine between normals of one plane
 constexpr double kAlongAxis = 1e-9;  ///< 1 - a component of a normal that counts as an axis
-
-struct Plane {
-    Double3 normal;  ///< of length 1
-    double offset;
-};
-
-double height(const Plane& plane, const Double3& p) {
-    return mesh::dot(plane.normal, p) - plane.offset;
-}
 
 /// Connected triangles in one plane.
 struct Face {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cdprep/exact/triangles.h"
+#include "decompose/enclose/plane.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {
@@ -16,21 +17,12 @@ namespace {
 constexpr std::size_t kMostTests = 4'000'000;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-struct Plane {
-    Double3 normal;  ///< of length 1, or 0
-    double offset;
-};
-
 Plane plane_of(const Double3& a, const Double3& b, const Double3& c) {
     const Double3 n = mesh::cross(mesh::minus(b, a), mesh::minus(c, a));
     const double length = std::sqrt(mesh::dot(n, n));
     if (!(length > 0)) return {{0, 0, 0}, 0};
     const Double3 unit = {n.x / length, n.y / length, n.z / length};
     return {unit, mesh::dot(unit, a)};
-}
-
-double height(const Plane& plane, const Double3& p) {
-    return mesh::dot(plane.normal, p) - plane.offset;
 }
 
 class FlushHull {
@@ -52,7 +44,7 @@ public:
     // result is more than d deep. So it meets no surface and lies in the solid with c. No point of
     // H moved by more than d / r times its distance from c.
     [[nodiscard]] std::optional<double> bound(double deepest) {
-        const Double3 middle = mean();
+        const Double3 middle = mesh::mean_of(hull_.points);
         double radius = kInfinity;
         for (const auto& f : hull_.facets) {
             const Corners facet = {hull_.points[f[0]], hull_.points[f[1]], hull_.points[f[2]]};
@@ -81,15 +73,6 @@ public:
     }
 
 private:
-    [[nodiscard]] Double3 mean() const {
-        const double share = 1.0 / static_cast<double>(hull_.points.size());
-        Double3 sum = {0, 0, 0};
-        for (const Double3& p : hull_.points) {
-            sum = {sum.x + p.x * share, sum.y + p.y * share, sum.z + p.z * share};
-        }
-        return sum;
-    }
-
     /// Returns an upper bound of how deep a point of the triangle lies in the hull, or any value up
     /// to `enough`. A ball in the hull around such a point reaches equally far to both sides of the
     /// triangle's plane.

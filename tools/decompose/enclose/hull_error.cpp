@@ -33,20 +33,6 @@ struct Cell {
     }
 };
 
-double apart(const Double3& a, const Double3& b) {
-    const Double3 ab = mesh::minus(a, b);
-    return std::sqrt(mesh::dot(ab, ab));
-}
-
-Double3 mean(std::span<const Double3> points) {
-    const double share = 1.0 / static_cast<double>(points.size());
-    Double3 sum = {0, 0, 0};
-    for (const Double3& p : points) {
-        sum = {sum.x + p.x * share, sum.y + p.y * share, sum.z + p.z * share};
-    }
-    return sum;
-}
-
 class ErrorSearch {
 public:
     ErrorSearch(const Solid& solid, const HullErrorOptions& options)
@@ -112,9 +98,10 @@ private:
     void push(Cell cell) {
         ++error_.cells;
         const std::span c = std::span(cell.corner).first(cell.count);
-        const Double3 at = mean(c);
+        const Double3 at = mesh::mean_of(c);
         double radius = 0;
-        for (const Double3& corner : c) radius = std::max(radius, apart(at, corner));
+        for (const Double3& corner : c)
+            radius = std::max(radius, mesh::distance_between(at, corner));
         radius += solid_.slack();
         const TriangleTree::Nearest near = nearest(at, cell.near);
         cell.near = near.triangle;
@@ -169,7 +156,7 @@ private:
         double longest = -1;
         for (std::size_t i = 0; i < cell.count; ++i) {
             for (std::size_t k = i + 1; k < cell.count; ++k) {
-                const double length = apart(cell.corner[i], cell.corner[k]);
+                const double length = mesh::distance_between(cell.corner[i], cell.corner[k]);
                 if (length <= longest) continue;
                 longest = length;
                 from = i;
@@ -278,7 +265,7 @@ private:
         constexpr double kNothing = std::numeric_limits<double>::infinity();
         if (!solid_.encloses()) return kNothing;
         constexpr double kNone = -std::numeric_limits<double>::infinity();
-        const Double3 at = mean(hull.points);
+        const Double3 at = mesh::mean_of(hull.points);
         std::size_t shallowest = 0;
         const double deepest = depth_of({&at, 1}, planes, kNone, shallowest);
         double depth = 0;

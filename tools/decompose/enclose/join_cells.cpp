@@ -17,13 +17,8 @@ using mesh::middle_of;
 
 using Cells = std::vector<std::uint32_t>;
 
-constexpr double kRounding = 1e-5;         ///< of the diagonal: counts as exact
+constexpr double kNearlyExact = 1e-5;      ///< of the diagonal: counts as exact
 constexpr std::size_t kMostLooks = 2'000;  ///< cells of one trial; beyond that, the trial fails
-
-double squared(const Double3& a, const Double3& b) {
-    const Double3 ab = mesh::minus(a, b);
-    return mesh::dot(ab, ab);
-}
 
 class Joiner {
 public:
@@ -41,7 +36,7 @@ public:
             }
             points_.push_back(convex_hull(points).points);
             mesh::Box box = cell.box;
-            const double near = kRounding * solid.diagonal();
+            const double near = kNearlyExact * solid.diagonal();
             box.lower = {box.lower.x - near, box.lower.y - near, box.lower.z - near};
             box.upper = {box.upper.x + near, box.upper.y + near, box.upper.z + near};
             box_.push_back(box);
@@ -73,7 +68,7 @@ private:
             for (std::uint32_t other = 0; other < wanted_.size(); ++other) {
                 if (seen[other] || !are_neighbours(cell, other)) continue;
                 seen[other] = true;
-                near.push({squared(centre_[other], centre_[seed]), other});
+                near.push({mesh::squared_distance(centre_[other], centre_[seed]), other});
             }
         };
         see_around(piece[0]);
@@ -98,7 +93,7 @@ private:
     }
 
     [[nodiscard]] bool is_within_error(const ConvexHull& hull) const {
-        const double exact = kRounding * solid_.diagonal();
+        const double exact = kNearlyExact * solid_.diagonal();
         const auto flush = bound_flush(hull, solid_, exact);
         if (flush && *flush <= std::max(error_, exact)) return true;
         if (error_ <= exact || bridges_gap(hull)) return false;

@@ -15,20 +15,11 @@ namespace {
 
 constexpr double kFirstPush = 2;  ///< extents of a group: enough if the hull is pointed there
 constexpr double kMorePush = 8;   ///< factor to the next push, if that was not enough
-constexpr int kTries = 6;
+constexpr int kPushes = 6;
 constexpr double kWide = 4;  ///< in distances: a wider group is left alone
 
 double length(const Double3& v) {
     return std::sqrt(mesh::dot(v, v));
-}
-
-Double3 mean(const std::vector<Double3>& points) {
-    const double share = 1.0 / static_cast<double>(points.size());
-    Double3 sum = {0, 0, 0};
-    for (const Double3& p : points) {
-        sum = {sum.x + p.x * share, sum.y + p.y * share, sum.z + p.z * share};
-    }
-    return sum;
 }
 
 /// Corners near each other.
@@ -64,7 +55,7 @@ Sorted sort_corners(const std::vector<Double3>& points, double distance) {
     Sorted sorted;
     for (const auto& group : members) {
         if (group.empty()) continue;
-        Group found{mean(group)};
+        Group found{mesh::mean_of(group)};
         for (const Double3& p : group) {
             found.extent = std::max(found.extent, length(mesh::minus(p, found.middle)));
         }
@@ -83,9 +74,9 @@ ConvexHull merge_corners(ConvexHull hull, double distance) {
     if (hull.dimension != 3) return hull;
     const Sorted sorted = sort_corners(hull.points, distance);
     if (sorted.groups.empty()) return hull;
-    const Double3 middle = mean(hull.points);
+    const Double3 middle = mesh::mean_of(hull.points);
     double push = kFirstPush;
-    for (int i = 0; i < kTries; ++i, push *= kMorePush) {
+    for (int i = 0; i < kPushes; ++i, push *= kMorePush) {
         std::vector<Double3> points = sorted.single;
         for (const Group& group : sorted.groups) {
             const Double3 away = mesh::minus(group.middle, middle);

@@ -22,18 +22,12 @@ constexpr std::size_t kSeeds = 4;        ///< growths tried for each piece
 constexpr std::size_t kInVain = 8;       ///< consecutive unwanted cells tried before growth ends
 constexpr std::size_t kWorkOfTry = 100;  ///< one cell tried, without tests of kept-out points
 constexpr std::size_t kLooksOfWork = 4;  ///< planes and points tested per unit of work
-constexpr std::size_t kWorkOfSample = 10;
-constexpr std::size_t kRegrowths = 2;  ///< attempts to regrow a piece that sticks out too far
-constexpr std::size_t kGivenUp = 4;    ///< most pieces given up in one attempt
-constexpr std::size_t kIdle = 3;       ///< rounds without success after which attempts end
-constexpr std::size_t kAtOnce = 8;     ///< attempts in parallel per round
-constexpr std::size_t kTrial = 8;      ///< 1 / share of the work after which is_hopeless() may stop
-constexpr double kHopeless = 2;        ///< predicted work, in limits, at which the search stops
-
-double squared(const Double3& a, const Double3& b) {
-    const Double3 ab = mesh::minus(a, b);
-    return mesh::dot(ab, ab);
-}
+constexpr std::size_t kRegrowths = 2;    ///< attempts to regrow a piece that sticks out too far
+constexpr std::size_t kGivenUp = 4;      ///< most pieces given up in one attempt
+constexpr std::size_t kIdle = 3;         ///< rounds without success after which attempts end
+constexpr std::size_t kAtOnce = 8;       ///< attempts in parallel per round
+constexpr std::size_t kTrial = 8;  ///< 1 / share of the work after which is_hopeless() may stop
+constexpr double kHopeless = 2;    ///< predicted work, in limits, at which the search stops
 
 /// Returns a well mixed number, for choices that vary without randomness.
 std::uint64_t mixed(std::uint64_t x) {
@@ -138,7 +132,8 @@ private:
                                     box.lower.y / 2 + box.upper.y / 2,
                                     box.lower.z / 2 + box.upper.z / 2};
             double radius = 0;
-            for (const Double3& p : cell.points) radius = std::max(radius, squared(p, centre));
+            for (const Double3& p : cell.points)
+                radius = std::max(radius, mesh::squared_distance(p, centre));
             reach_.emplace_back().add(cell.points);
             centre_.push_back(centre);
             radius_.push_back(std::sqrt(radius));
@@ -183,7 +178,7 @@ private:
             for (const std::uint32_t other : neighbours_[cell]) {
                 if (seen[other]) continue;
                 seen[other] = true;
-                const Next next{squared(centre_[other], centre_[seed]), other};
+                const Next next{mesh::squared_distance(centre_[other], centre_[seed]), other};
                 if (wanted[other]) {
                     near.push(next);
                 } else {
@@ -280,7 +275,8 @@ private:
         while (seeds.size() <= count) {
             std::size_t farthest = 0;
             for (std::size_t i = 0; i < list.size(); ++i) {
-                apart[i] = std::min(apart[i], squared(centre_[list[i]], centre_[seeds.back()]));
+                apart[i] = std::min(
+                    apart[i], mesh::squared_distance(centre_[list[i]], centre_[seeds.back()]));
                 if (apart[i] > apart[farthest]) farthest = i;
             }
             seeds.push_back(list[farthest]);
@@ -402,7 +398,7 @@ private:
             middle.push_back(sum);
         }
         for (std::size_t i = 0; i < pieces.size(); ++i) {
-            order.emplace_back(i == of ? -1.0 : squared(middle[i], middle[of]), i);
+            order.emplace_back(i == of ? -1.0 : mesh::squared_distance(middle[i], middle[of]), i);
         }
         std::sort(order.begin(), order.end());
         std::vector<std::size_t> chosen;

@@ -17,6 +17,9 @@ struct CoverCell {
     std::vector<Double3> points;  ///< whose hull represents the cell
 };
 
+/// One sample of a field, in the unit of CoverOptions::most_work.
+inline constexpr std::size_t kWorkOfSample = 10;
+
 struct CoverOptions {
     double error = 0;            ///< estimated limit by which pieces may stick out, model units
     double margin = 0.25;        ///< hulls keep out nodes beyond (1 - margin) * error

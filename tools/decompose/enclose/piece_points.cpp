@@ -13,7 +13,7 @@
 namespace cdprep::convex {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoPiece = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kFew = 8;  ///< points: no selection needed
 
 /// Returns the directions from a cube's centre to the points of a grid on its faces.
@@ -63,10 +63,10 @@ std::vector<std::uint32_t> choose_owners(std::size_t cell_count,
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
         return pieces[a].size() > pieces[b].size();
     });
-    std::vector<std::uint32_t> owner(cell_count, kNone);
+    std::vector<std::uint32_t> owner(cell_count, kNoPiece);
     for (const std::uint32_t piece : order) {
         for (const std::uint32_t cell : pieces[piece]) {
-            if (owner[cell] == kNone) owner[cell] = piece;
+            if (owner[cell] == kNoPiece) owner[cell] = piece;
         }
     }
     return owner;
@@ -209,7 +209,7 @@ std::vector<PiecePoints> gather_points(const SolidCells& cells, const mesh::Mesh
     std::vector<std::vector<std::uint32_t>> fragments(pieces.size());
     std::vector<PiecePoints> gathered(pieces.size());
     for (std::uint32_t i = 0; i < cells.cells.size(); ++i) {
-        if (owner[i] == kNone) continue;
+        if (owner[i] == kNoPiece) continue;
         const SolidCell& cell = cells.cells[i];
         auto& list = fragments[owner[i]];
         list.insert(list.end(), cell.fragments.begin(), cell.fragments.end());

@@ -12,7 +12,7 @@
 namespace cdprep::convex {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoBody = std::numeric_limits<std::uint32_t>::max();
 constexpr double kSlack = 1e-12;  ///< of the largest coordinate: some thousand roundings
 
 /// Returns the host of each component: the component whose cavity it is, or itself. An inverted
@@ -42,7 +42,7 @@ Solid::Solid(const mesh::Mesh& mesh, Reference reference, ParallelFor parallel_f
     const mesh::ComponentNumbers components = mesh::number_components(mesh);
     const std::vector<format::Component> facts = mesh::find_topology(mesh).components;
     const std::vector<std::uint32_t> host = find_hosts(mesh, components, facts);
-    std::vector<std::uint32_t> body(components.count, kNone);
+    std::vector<std::uint32_t> body(components.count, kNoBody);
     for (std::uint32_t i = 0; i < components.count; ++i) {
         if (host[i] != i) continue;
         body[i] = body_count_++;

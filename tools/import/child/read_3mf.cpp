@@ -20,14 +20,6 @@
 namespace cdprep::import {
 namespace {
 
-using Matrix = std::array<double, 16>;  // row by row
-
-constexpr Matrix kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-
-[[noreturn]] void fail(const std::string& why) {
-    throw std::runtime_error(why);
-}
-
 /// Returns "path" for "p:path". The document chooses the prefix of a namespace.
 std::string_view local_name(std::string_view name) {
     return name.substr(name.rfind(':') + 1);

@@ -19,10 +19,6 @@
 namespace cdprep::import {
 namespace {
 
-using Matrix = std::array<double, 16>;  // row by row
-
-constexpr Matrix kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-
 enum Mode : std::uint64_t { triangles = 4, strip = 5, fan = 6 };
 enum Component : std::uint64_t {
     i8 = 5120,
@@ -32,10 +28,6 @@ enum Component : std::uint64_t {
     u32 = 5125,
     f32 = 5126
 };
-
-[[noreturn]] void fail(const std::string& why) {
-    throw std::runtime_error(why);
-}
 
 std::string read_bytes(const std::filesystem::path& path, InputFiles& files) {
     const std::uint64_t size = std::filesystem::file_size(path);

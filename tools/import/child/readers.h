@@ -3,11 +3,17 @@
 
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "scene.h"
 
 namespace cdprep::import {
+
+/// Tells why a file cannot be read.
+[[noreturn]] inline void fail(const std::string& why) {
+    throw std::runtime_error(why);
+}
 
 /// Returns true if the name has the extension of the 3D Manufacturing Format and the file is an
 /// archive.

@@ -13,6 +13,9 @@
 
 namespace cdprep::import {
 
+using Matrix = std::array<double, 16>;  ///< row by row
+inline constexpr Matrix kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
 /// The result of an importer in the child, before it is sent to the parent.
 struct Scene {
     struct Mesh {
@@ -25,7 +28,7 @@ struct Scene {
     struct Node {
         std::string name;
         std::uint32_t parent = kNoParent;  ///< precedes this node
-        std::array<double, 16> parent_from_node{};
+        Matrix parent_from_node{};
         std::vector<std::uint32_t> meshes;
     };
     std::vector<Mesh> meshes;

@@ -7,12 +7,11 @@
 
 #include "mesh/close_groups.h"
 #include "mesh/disjoint_sets.h"
+#include "mesh/half_edges.h"
 #include "validate/defects/source_places.h"
 
 namespace cdprep::mesh {
 namespace {
-
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 /// Numbers the end vertices of the edges in mesh order.
 void list_ends(const Mesh& mesh, Boundary& boundary) {

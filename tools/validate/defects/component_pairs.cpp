@@ -11,7 +11,7 @@ namespace {
 /// Small enough to use little memory, large enough to make merges cheap.
 constexpr std::size_t kLeastWaiting = 1 << 16;
 
-bool comes_before(const ComponentPair& x, const ComponentPair& y) {
+bool pair_comes_before(const ComponentPair& x, const ComponentPair& y) {
     return std::tie(x.a, x.b) < std::tie(y.a, y.b);
 }
 
@@ -28,7 +28,7 @@ void unite(ComponentPair& pair, const ComponentPair& more) {
 
 /// Sorts the pairs and merges equal ones.
 void sort_and_unite(std::vector<ComponentPair>& pairs) {
-    std::sort(pairs.begin(), pairs.end(), comes_before);
+    std::sort(pairs.begin(), pairs.end(), pair_comes_before);
     std::size_t last = 0;
     for (std::size_t i = 1; i < pairs.size(); ++i) {
         if (is_same(pairs[last], pairs[i])) {
@@ -45,7 +45,7 @@ void sort_and_unite(std::vector<ComponentPair>& pairs) {
 void ComponentPairs::add(const ComponentPair& pair) {
     // A pair above the kept ones is left out, now or later: the number of lower pairs only
     // grows.
-    if (kept_.size() == most_ && (most_ == 0 || comes_before(kept_.back(), pair))) {
+    if (kept_.size() == most_ && (most_ == 0 || pair_comes_before(kept_.back(), pair))) {
         is_complete_ = false;
         return;
     }
@@ -70,7 +70,7 @@ void ComponentPairs::absorb_known() {
     std::size_t left = 0;
     auto at = kept_.begin();
     for (const ComponentPair& pair : waiting_) {
-        at = std::lower_bound(at, kept_.end(), pair, comes_before);
+        at = std::lower_bound(at, kept_.end(), pair, pair_comes_before);
         if (at != kept_.end() && is_same(*at, pair)) {
             unite(*at, pair);
         } else {
@@ -88,7 +88,7 @@ void ComponentPairs::merge_new() {
     if (kept_.capacity() < from + more) kept_.reserve(std::max(from + more, 4 * from));
     kept_.resize(from + more);
     while (more > 0) {
-        const bool takes_kept = from > 0 && comes_before(waiting_[more - 1], kept_[from - 1]);
+        const bool takes_kept = from > 0 && pair_comes_before(waiting_[more - 1], kept_[from - 1]);
         ComponentPair& to = kept_[from + more - 1];
         to = takes_kept ? kept_[--from] : waiting_[--more];
     }

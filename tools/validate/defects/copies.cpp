@@ -9,7 +9,7 @@
 namespace cdprep::mesh {
 namespace {
 
-bool comes_before(const TriangleMeeting& x, const TriangleMeeting& y) {
+bool meeting_comes_before(const TriangleMeeting& x, const TriangleMeeting& y) {
     return std::tie(x.a, x.b) < std::tie(y.a, y.b);
 }
 
@@ -100,7 +100,7 @@ bool search_distinct_meetings(const Mesh& mesh, const Copies& copies, const Sear
 std::vector<TriangleMeeting> first_pairs(std::span<const TriangleMeeting> distinct,
                                          const Copies& copies, std::size_t most) {
     const auto later = [](const PairStream& x, const PairStream& y) {
-        return comes_before(y.pair(), x.pair());
+        return meeting_comes_before(y.pair(), x.pair());
     };
     std::priority_queue<PairStream, std::vector<PairStream>, decltype(later)> open(later);
     std::vector<TriangleMeeting> pairs;
@@ -108,7 +108,7 @@ std::vector<TriangleMeeting> first_pairs(std::span<const TriangleMeeting> distin
     std::size_t next = 0;
     while (pairs.size() < most && (next < distinct.size() || !open.empty())) {
         if (next < distinct.size() &&
-            (open.empty() || comes_before(distinct[next], open.top().pair()))) {
+            (open.empty() || meeting_comes_before(distinct[next], open.top().pair()))) {
             open.emplace(distinct[next++], copies);
         }
         PairStream stream = open.top();

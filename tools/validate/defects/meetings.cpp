@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cdprep/exact/triangles.h"
+#include "crossings/triangle_meeting.h"
 #include "validate/defects/common_point.h"
 
 namespace cdprep::mesh {
@@ -17,11 +18,6 @@ int shared_vertices(const Mesh& mesh, const TriangleMeeting& meeting) {
     return static_cast<int>(std::count_if(a.begin(), a.end(), [&b](std::uint32_t vertex) {
         return std::find(b.begin(), b.end(), vertex) != b.end();
     }));
-}
-
-Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
-    const auto& v = mesh.triangles[triangle].vertex;
-    return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
 }
 
 Place place_of(const SoundMesh& sound, const TriangleMeeting& meeting, double measure) {

@@ -3,12 +3,11 @@
 
 #include <cmath>
 
+#include "mesh/half_edges.h"
 #include "mesh/point_table.h"
 
 namespace cdprep::mesh {
 namespace {
-
-constexpr std::uint32_t kNone = PointTable::kNone;
 
 bool is_finite(const Double3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
