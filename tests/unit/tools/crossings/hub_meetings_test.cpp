@@ -21,11 +21,6 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 constexpr std::uint32_t kMany = 700;  ///< triangles around a vertex
 constexpr std::uint32_t kSeed = 20261122;
 
-Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
-    const auto& v = mesh.triangles[triangle].vertex;
-    return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
-}
-
 bool share_a_vertex(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
     const auto& v = mesh.triangles[a].vertex;
     const auto& w = mesh.triangles[b].vertex;
