@@ -13,6 +13,9 @@ function(cdprep_compile_options target)
         -Wall -Wextra -Wpedantic -Wshadow -Werror=return-type
         -fno-fast-math -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math
         -fno-finite-math-only -fsigned-zeros -ffp-contract=off
+        # A source of CGAL collects garbage many times over. With this heap, in kilobytes, GCC
+        # hardly does, and compiles it in nine tenths of the time.
+        $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
         # GCC 12.2 drops two of the three roundings of `p = {float(p.x), float(p.y),
         # float(p.z)}` in a loop over points of doubles.
         $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
