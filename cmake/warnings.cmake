@@ -18,6 +18,8 @@ function(cdprep_compile_options target)
         $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>
         # GCC 12.2 drops two of the three roundings of `p = {float(p.x), float(p.y),
         # float(p.z)}` in a loop over points of doubles.
-        $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
+        $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
+        # GCC takes what is nameless in an included source for a mistake of a header.
+        $<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wno-subobject-linkage>)
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
 endfunction()
