@@ -63,7 +63,7 @@ constexpr std::size_t kFewestOfMany = 100;        ///< smallest minimum per hull
 constexpr std::size_t kFewestInAll = 400'000;     ///< minimum of all hulls, between these limits
 constexpr double kWorkPower = 0.5;                ///< exponent: error growth from the work ratio
 constexpr double kLeastGrowth = 1.5;              ///< of an error that takes too much work
-constexpr double kMostGrowth = 8;
+constexpr double kMostGrowth = 8;                 ///< the same, at most: predictions are rough
 
 /// Cells and distances for errors near `error`.
 struct Stage {

@@ -23,9 +23,9 @@ constexpr float kUnknown = std::numeric_limits<float>::infinity();
 constexpr std::size_t kGroup = 4;  ///< nodes along each axis of a group of kept-out nodes
 constexpr double kShell = 1.5;     ///< thickness of the layer of kept-out nodes, in spacings
 constexpr std::size_t kBlock = 8;  ///< nodes along each axis of a block
-constexpr std::size_t kFacetsAtOnce = 32;
-constexpr std::size_t kProbes = 64;   ///< nodes whose mean cost is the weight of a node
-constexpr double kLeastNodes = 4096;  ///< least, whatever a node costs
+constexpr std::size_t kFacetsAtOnce = 32;  ///< per task: changes no result
+constexpr std::size_t kProbes = 64;        ///< nodes whose mean cost is the weight of a node
+constexpr double kLeastNodes = 4096;       ///< least, whatever a node costs
 
 /// The place of a point in a grid: the cube's first node, and the share of the way along each axis.
 struct GridPlace {

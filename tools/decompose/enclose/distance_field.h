@@ -29,7 +29,7 @@ enum class Detail : std::uint8_t { coarse, fine };
 /// rounded and interpolated; results are measured afterwards.
 class DistanceField {
 public:
-    static constexpr std::size_t kMostNodes = 8'000'000;
+    static constexpr std::size_t kMostNodes = 8'000'000;  ///< 32 megabytes; larger spacings beyond
 
     /// Measures the field. Keeps a reference to `solid`. `spacing` and `beyond` are in model units.
     /// Outside the solid, distances are measured up to `beyond`; farther nodes get a lower bound.

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kFirstPush = 2;  ///< extents of a group: enough if the hull is pointed there
 constexpr double kMorePush = 8;   ///< factor to the next push, if that was not enough
-constexpr int kPushes = 6;
-constexpr double kWide = 4;  ///< in distances: a wider group is left alone
+constexpr int kPushes = 6;        ///< the last is 65,536 extents; then the hull stays as it was
+constexpr double kWide = 4;       ///< in distances: a wider group is left alone
 
 double length(const Double3& v) {
     return std::sqrt(mesh::dot(v, v));

@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kBundle = 32;
+    static constexpr std::size_t kBundle = 32;  ///< groups that share one box: changes no result
 
     const PointGroups* base_ = nullptr;
     std::size_t base_size_ = 0;
