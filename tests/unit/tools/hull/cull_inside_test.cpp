@@ -7,9 +7,11 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <string>
 
 #include "hull/exact_hull.h"
 #include "support/run_threads.h"
+#include "unit/tools/recorded_text.h"
 
 namespace cdprep::convex {
 namespace {
@@ -94,6 +96,24 @@ TEST(CullInside, KeepsAllWhereSizesAreExtreme) {
         for (Double3& p : points) p = {p.x * size, p.y * size, p.z * size};
         EXPECT_EQ(cull_inside(points, serial_for).size(), points.size());
     }
+}
+
+// No rounding differs between machines: what is left tells how well each pass culls.
+TEST(CullInside, LeavesWhatIsRecorded) {
+    std::vector<Points> sets = hard_sets();
+    for (const int count : {20, 700, 40'000, 100'003}) {
+        sets.push_back(random_points(count, in_cube));
+        for (Double3& p : sets.back()) p = {p.x, p.y + 4 * p.x, 9 * p.z - 3};
+    }
+    std::string text;
+    for (const Points& points : sets) {
+        const std::vector<std::uint32_t> outer = cull_inside(points, serial_for);
+        std::uint64_t sum = 0;
+        for (const std::uint32_t number : outer) sum = 31 * sum + number;
+        text += std::to_string(outer.size()) + " of " + std::to_string(points.size()) + ", " +
+                std::to_string(sum) + "\n";
+    }
+    EXPECT_EQ(test::hash_of_text(text), 0xdca9ed865ac7fc43) << text;
 }
 
 TEST(CullInside, ThreadsChangeNothing) {

@@ -9,6 +9,7 @@
 
 #include "support/meshes.h"
 #include "unit/tools/hull_flaw.h"
+#include "unit/tools/recorded_text.h"
 
 namespace cdprep::convex {
 namespace {
@@ -131,6 +132,31 @@ TEST(EnclosingHull, MoreVerticesCostNoDistance) {
         }
         before = outer->distance;
     }
+}
+
+// That they enclose, and how closely, is asked above: this tells how well the search chooses.
+TEST(EnclosingHull, DistancesAreAsRecorded) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> side(-1, 1);
+    std::vector<Points> sets = {test::icosphere(2).positions, {}, {}, {}};
+    for (int i = 0; i < 400; ++i) {
+        const double x = side(random), y = side(random), z = side(random);
+        sets[1].push_back({x, y, z});
+        sets[2].push_back({x + 100, y + x, 0.01 * z});
+        if (x * x + y * y < 1) sets[3].push_back({5 * x, y, 2 * z * (1 - x * x - y * y)});
+    }
+    std::string text;
+    for (const Points& points : sets) {
+        const ConvexHull exact = convex_hull(points);
+        for (const std::uint32_t most : {4U, 6U, 7U, 8U, 9U, 12U, 20U, 33U}) {
+            const auto outer = enclosing_hull(exact, most);
+            ASSERT_TRUE(outer);
+            text += std::to_string(outer->hull.points.size()) + " corners, " +
+                    std::to_string(outer->hull.facets.size()) + " facets, " +
+                    std::to_string(outer->distance) + "\n";
+        }
+    }
+    EXPECT_EQ(test::hash_of_text(text), 0x496c9fc62cde8139) << text;
 }
 
 TEST(EnclosingHull, ScalingByPowersOfTwoScalesIt) {
