@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "mesh/weld.h"
 #include "support/concave_solids.h"
 #include "support/run_threads.h"
+#include "unit/tools/recorded_text.h"
 #include "unit/tools/soup_of.h"
 
 #include "exact/predicates.h"
@@ -437,6 +439,52 @@ TEST(ApproximatePieces, OfAThicketEndWithLooserOnesAndSaySo) {
     EXPECT_FALSE(found.is_as_asked);
     EXPECT_EQ(found.proof.outside, 0u);
     EXPECT_LE(found.work, 4 * options.work);
+}
+
+/// Coordinates of few bits: no C library rounds a sine otherwise.
+Mesh rounded(Mesh mesh) {
+    for (Double3& p : mesh.positions) {
+        p = {std::round(p.x * 0x1p20) / 0x1p20, std::round(p.y * 0x1p20) / 0x1p20,
+             std::round(p.z * 0x1p20) / 0x1p20};
+    }
+    return mesh;
+}
+
+// That they enclose, and how closely, is asked above: this tells how well the search chooses,
+// and how much it looks at.
+TEST(ApproximatePieces, AreAsRecorded) {
+    Mesh two = turned(slotted(0.5), 0.3);
+    append(two, turned(cube({4.2, 0.1, 0}, 1), 0.3));
+    std::vector<ApproximateOptions> asked(6);
+    asked[0].parts = 5;
+    asked[1].max_error = 0.07;
+    asked[2].max_error = 0.02;
+    asked[2].max_vertices = 9;
+    asked[3].parts = 3;
+    asked[3].reference = Reference::surface;
+    asked[4].max_error = 0.1;
+    asked[4].merge_components = true;
+    asked[5].parts = 8;
+    asked[5].max_vertices = 12;
+    std::string text;
+    for (const Mesh& mesh : {rounded(moebius()), rounded(two), rounded(turned(l_prism(), 0.4)),
+                             rounded(ring(9, 0.5, 1.5)), thicket(40)}) {
+        for (ApproximateOptions& options : asked) {
+            options.work = 3'000'000;
+            const ApproximatePieces found = find_approximate_pieces(mesh, options);
+            text += std::to_string(found.pieces.size()) + " pieces, " +
+                    std::to_string(found.outer_lower) + " to " + std::to_string(found.outer_error) +
+                    ", " + std::to_string(found.work) + " looked at, " +
+                    std::to_string(found.proof.fragments) + " fragments, " +
+                    std::to_string(found.proof.tests) + " tests:";
+            for (const ApproximatePiece& piece : found.pieces) {
+                text += " " + std::to_string(piece.hull.points.size()) + "/" +
+                        std::to_string(piece.triangles.size());
+            }
+            text += "\n";
+        }
+    }
+    EXPECT_EQ(test::hash_of_text(text), 0xddbdda03548aee25) << text;
 }
 
 TEST(ApproximatePieces, AreTheSameForAnyThreads) {
