@@ -28,6 +28,7 @@ TEST(CellsMayMeet, IsRightButForTheCellsDiagonals) {
     const MemoryModel model_b = make_memory_model(b).value();
     Workspace workspace;
     std::vector<std::uint64_t> pending;
+    std::vector<std::uint64_t> visits;
     for (const std::uint32_t level : {0U, 2U, 4U}) {
         const CellModel cells_a = cells_of(a, level);
         const CellModel cells_b = cells_of(b, level);
@@ -36,9 +37,10 @@ TEST(CellsMayMeet, IsRightButForTheCellsDiagonals) {
         int met = 0;
         int apart = 0;
         int between = 0;
+        std::uint64_t visited = 0;
         for (int i = 0; i < 800; ++i) {
             const Pose pose = test::random_pose(random, 4);
-            const bool meet = cells_may_meet(cells_a, cells_b, pose, pending);
+            const bool meet = cells_may_meet(cells_a, cells_b, pose, pending, &visited);
             const double gap =
                 distance({model_a.model, model_b.model, Placement::b_moves(pose)}, workspace)
                     ->upper;
@@ -54,7 +56,9 @@ TEST(CellsMayMeet, IsRightButForTheCellsDiagonals) {
         }
         EXPECT_GT(met, 20) << level;
         EXPECT_GT(level < 2 ? between : apart, 20) << level;
+        visits.push_back(visited);
     }
+    EXPECT_EQ(visits, (std::vector<std::uint64_t>{800, 5436, 28069})) << "recorded: pairs of cells";
 }
 
 TEST(CellsMayMeet, NothingMeetsNothing) {
