@@ -157,6 +157,8 @@ TEST(RecordedReport, TextJsonAndTablesAreAsRecorded) {
     EXPECT_EQ(test::hash_of_text(csv), 0xce69acafa5099cb2) << csv;
     const std::string data = report::accuracy_page_data(report);
     EXPECT_EQ(test::hash_of_text(data), 0x25debe9e70b0fb37) << data;
+    const std::string page = report::accuracy_page(report);
+    EXPECT_EQ(test::hash_of_text(page), 0x882acaa088577cce) << page;
 }
 
 TEST(RecordedReport, ChartsAreAsRecorded) {
