@@ -166,5 +166,20 @@ TEST(RecordedReport, ChartsAreAsRecorded) {
     EXPECT_EQ(test::hash_of_text(svg), 0xd29791e77cd45291) << svg;
 }
 
+// Axes are then as long as half a power of ten, with the numbers in the middle.
+TEST(RecordedReport, ChartsOfNearlyEqualNumbersAreAsRecorded) {
+    report::AccuracyReport report = fixed_report();
+    AccuracyStudy& study = report.study;
+    study.ladders.resize(2);
+    study.ladders[1].rungs = {estimate("0.1", 2e-6, 0.08), estimate("0.01", 2.5e-6, 0.085),
+                              estimate("1e-6", 2.2e-6, 0.09)};
+    for (Rung& rung : study.ladders[0].rungs) {
+        rung.time = time_of(3e-6 + 1e-7 * static_cast<double>(*rung.bytes % 7));
+        for (double& seconds : rung.seconds) seconds = rung.time.median_s;
+    }
+    const std::string svg = report::accuracy_svg(report);
+    EXPECT_EQ(test::hash_of_text(svg), 0x9dd05148b48e1664) << svg;
+}
+
 }  // namespace
 }  // namespace cdprep::study

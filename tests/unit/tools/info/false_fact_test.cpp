@@ -144,6 +144,11 @@ TEST(FalseFact, IsAForgedFlag) {
     const AlignedBytes small = baked(two_solids(), "all", options);
     EXPECT_EQ(field_of(false_fact(with_flags(small, format::model_normalized))),
               "the user block, field normalize_factor");
+    FileHeader header = format::read_header(small.span());
+    ASSERT_GT(header.normalize_factor, 0);
+    header.normalize_factor = 0;  // a normalized model with triangles was scaled by something
+    EXPECT_EQ(field_of(false_fact(with_header(small, header))),
+              "the user block, field normalize_factor");
 }
 
 // Each field is recomputed from the mesh, so any other value is false.

@@ -69,6 +69,23 @@ TEST(MemoryModel, IsAMeshAgain) {
     }
 }
 
+// Numbers of the model's source name the triangle of the mesh.
+TEST(MemoryModel, KeepsTheMeshInItsOwnOrder) {
+    for (const bool single : {false, true}) {
+        mesh::Mesh mesh = test::mesh_of(test::unit_cube());
+        mesh.single_precision = single;
+        const auto made = make_memory_model(mesh);
+        ASSERT_TRUE(made);
+        const mesh::Mesh& ordered = made.value().ordered;
+        EXPECT_EQ(ordered.single_precision, single);
+        ASSERT_EQ(ordered.triangles.size(), mesh.triangles.size());
+        ASSERT_EQ(ordered.source_vertex.size(), mesh.positions.size());
+        for (std::size_t i = 0; i < ordered.positions.size(); ++i) {
+            EXPECT_EQ(ordered.positions[i], mesh.positions[ordered.source_vertex[i]]);
+        }
+    }
+}
+
 TEST(MemoryModel, TakesAMeshOfNothing) {
     const auto made = make_memory_model({}, {.hulls = true});
     ASSERT_TRUE(made);
