@@ -314,6 +314,22 @@ TEST(Repair, ATJunctionCutsTheTriangleThatItLiesOn) {
     EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
 }
 
+// By hand: a triangle of area 2 with a vertex in the middle of two of its sides becomes three,
+// the others, of area 3, stay, and only the five outer edges are without a neighbour.
+TEST(Repair, TJunctionsOnTwoSidesCutTheTriangleTwice) {
+    TriangleSoup soup;
+    soup.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0, 0}, {1, -1, 0}, {1, 1, 0}, {2, 2, 0}};
+    soup.triangles = {{{0, 1, 2}}, {{0, 4, 3}}, {{3, 4, 1}}, {{1, 6, 5}}, {{5, 6, 2}}};
+    RepairOptions options;
+    options.steps.set(static_cast<std::size_t>(RepairStep::resolve_t_junctions));
+    const Repaired mended = repair(soup, options);
+    EXPECT_EQ(mended.mesh.triangles.size(), 7U);
+    EXPECT_EQ(mended.report.after.verdict.area, 5);
+    EXPECT_EQ(mended.report.after.boundary_edges, 5U);
+    EXPECT_EQ(mended.report.after.non_manifold_edges, 0U);
+    EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+}
+
 TEST(Repair, ASeamIsStitchedWithinItsWidth) {
     TestMesh right = moved_by(test::grid_sheet(1, 1), 1, {1.125, 0, 0});
     RepairOptions options;
