@@ -261,6 +261,25 @@ TEST(Marks, AreWhatEachRuleIsSeenBy) {
     EXPECT_EQ(beyond.places.size(), 7U);
 }
 
+// Whichever of its coordinates is no number.
+TEST(Marks, APositionThatIsNoNumberIsNowhere) {
+    const test::TestMesh cube = test::unit_cube();
+    const auto frame = find_page_frame(cube.positions, cube.triangles);
+    ASSERT_TRUE(frame);
+    for (const double bad : {std::nan(""), HUGE_VAL}) {
+        for (double mesh::Double3::*axis :
+             {&mesh::Double3::x, &mesh::Double3::y, &mesh::Double3::z}) {
+            mesh::Place place{{0}, {0, 1}, {0.5, 0, 0}, 1};
+            place.position.*axis = bad;
+            const Marks marks = make_marks(cube.positions, cube.triangles, *frame,
+                                           Rule::non_finite_coordinate, {&place, 1}, 100);
+            ASSERT_EQ(marks.places.size(), 7U);
+            for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(std::isnan(marks.places[i])) << i;
+            EXPECT_EQ(marks.places[6], 0.0F);
+        }
+    }
+}
+
 TEST(Marks, BeyondTheirNumberAreAPositionOnly) {
     const test::TestMesh cube = test::unit_cube();
     const auto frame = find_page_frame(cube.positions, cube.triangles);
