@@ -127,6 +127,25 @@ def main():
         provenance = json.loads(bytes(data["provenance"][:]))
         must(str(folder) not in json.dumps(provenance), "the provenance knows a path")
         print(json.dumps(provenance))
+    check_reindex(program, output)
+
+
+def check_reindex(program, output):
+    """A dataset of another type, shape or layout is named, and the file stays as it is."""
+    for change, word in ((lambda d: d.astype("f4"), "type"),
+                         (lambda d: d.reshape(-1), "shape"),
+                         (lambda d: d[:, :2], "shape")):
+        other = output.with_name("other.cdp.h5")
+        other.write_bytes(output.read_bytes())
+        with h5py.File(other, "r+") as file:
+            data = file["cdprep/positions_f64"][:]
+            del file["cdprep/positions_f64"]
+            file["cdprep"].create_dataset("positions_f64", data=change(data))
+        before = other.read_bytes()
+        done = run(program, "reindex", other)
+        must(done.returncode == 3 and f"positions_f64 has another {word}" in done.stderr,
+             f"{word}: {done.returncode}, {done.stderr}")
+        must(other.read_bytes() == before, "a file that is refused was changed")
 
 
 main()
