@@ -126,6 +126,14 @@ inline constexpr std::array kHardFamilies = std::to_array<HardFamily>({
     {"S13", "tearing", "without its bound of memory"},
     {"S14", "haptic rate", kNoSimulation},
     {"S15", "determinism", kNoSimulation},
+    {"S16", "rough scan on a box"},
+    {"K01", "resting stacks"},
+    {"K02", "sliding on a flat mesh"},
+    {"K03", "edge on edge"},
+    {"K04", "vertex on edge"},
+    {"K05", "vertex on face"},
+    {"K06", "thin plates crossing"},
+    {"K07", "deep overlap"},
     {"F01", "where libraries lose pairs"},
     {"F02", "leaves of pieces that wait"},
 });
@@ -134,9 +142,12 @@ inline constexpr std::array kHardFamilies = std::to_array<HardFamily>({
 constexpr bool needs_simulation(const HardFamily& family) {
     return family.less == kNoSimulation;
 }
+constexpr bool is_of_contacts(std::string_view family) {
+    return family.starts_with('K') || family.starts_with("S16");
+}
 /// Hulls of points and pieces of surfaces are made offline.
 constexpr bool needs_tools(std::string_view family) {
-    return family.starts_with('C') || family.starts_with('D');
+    return family.starts_with('C') || family.starts_with('D') || is_of_contacts(family);
 }
 
 }  // namespace cdprep::test

@@ -88,6 +88,9 @@ void score_with_kernels(const HardCaseOptions& options, Scoreboard& board) {
     score_hulls(options, board);
     score_distances(options, board);
     score_frames(options, board);
+#ifdef CDPREP_HAVE_TOOLS
+    score_contacts(options, board);
+#endif
 }
 
 /// What knows no instruction sets.

@@ -38,6 +38,8 @@ void score_refusals(const HardCaseOptions& options, Scoreboard& board);
 #ifdef CDPREP_HAVE_TOOLS
 /// C: hulls of points.
 void score_point_sets(const HardCaseOptions& options, Scoreboard& board);
+/// S16 and K: contacts.
+void score_contacts(const HardCaseOptions& options, Scoreboard& board);
 /// D: pieces, findings and repairs.
 void score_surfaces(const HardCaseOptions& options, Scoreboard& board);
 #endif

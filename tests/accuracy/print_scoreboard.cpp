@@ -22,7 +22,8 @@ constexpr std::array kParts = {Part{'T', "Triangles against triangles"},
                                Part{'C', "Hulls of points"},
                                Part{'D', "Pieces, findings, repairs"},
                                Part{'X', "Distance and tolerance"},
-                               Part{'S', "Deformed and torn, frame by frame"},
+                               Part{'S', "Deformed, torn and scanned"},
+                               Part{'K', "Contacts of convex pieces"},
                                Part{'F', "Failures found since"}};
 
 std::string column_of(const Cell& cell) {
