@@ -6,15 +6,24 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "accuracy/families.h"
 
 namespace cdprep::test {
 namespace {
+
+/// What may be wrong with contacts.
+constexpr std::array<std::pair<const char*, std::size_t PeerTally::*>, 4> kWrongs = {
+    {{" sign", &PeerTally::sign},
+     {" ghost", &PeerTally::ghost},
+     {" depth", &PeerTally::depth},
+     {" none", &PeerTally::none}}};
 
 /// A child and what it prints.
 class Child {
@@ -118,7 +127,10 @@ private:
             }
             PeerTally& tally = families_[id.substr(0, 3)];
             ++tally.asked;
-            tally.wrong += line == "wrong" ? 1 : 0;
+            tally.wrong += line.starts_with("wrong") ? 1 : 0;
+            for (const auto& [word, count] : kWrongs) {
+                tally.*count += line.find(word) != std::string::npos ? 1 : 0;
+            }
             if (line == "yes") said_yes_.insert(id);
             if (line == "no") said_no_.insert(id);
             ++next_;
@@ -155,6 +167,10 @@ std::string shown(const PeerTally& tally) {
     append(tally.uneven, '~');
     append(tally.crashed, 'c');
     append(tally.hung, 'h');
+    append(tally.sign, 's');
+    append(tally.ghost, 'g');
+    append(tally.depth, 'd');
+    append(tally.none, 'n');
     return text;
 }
 
@@ -164,6 +180,7 @@ void add(PeerTally& sum, const PeerTally& tally) {
     sum.crashed += tally.crashed;
     sum.hung += tally.hung;
     sum.uneven += tally.uneven;
+    for (const auto& [word, count] : kWrongs) sum.*count += tally.*count;
 }
 
 }  // namespace
@@ -179,27 +196,49 @@ PeerBoard ask_peers(const std::string& program, double limit_s, std::size_t most
     return board;
 }
 
-std::string as_text(const PeerBoard& board) {
-    constexpr std::size_t kWide = 30, kNarrow = 16;
-    std::string text = padded("Peers", kWide);
-    for (const auto& [peer, families] : board) text += padded(peer, kNarrow);
+namespace {
+
+/// The families of contacts, or the others.
+std::string table_of(const PeerBoard& board, bool of_contacts) {
+    constexpr std::size_t kWide = 30;
+    const std::size_t narrow = of_contacts ? 25 : 16;
+    const auto belongs = [&](std::string_view family) {
+        return is_of_contacts(family) == of_contacts;
+    };
+    std::vector<std::pair<std::string, const std::map<std::string, PeerTally>*>> columns;
+    for (const auto& [peer, families] : board) {
+        if (std::any_of(families.begin(), families.end(),
+                        [&](const auto& tally) { return belongs(tally.first); })) {
+            columns.emplace_back(peer, &families);
+        }
+    }
+    if (columns.empty()) return "";
+    std::string text = padded(of_contacts ? "Peers, contacts" : "Peers", kWide);
+    for (const auto& [peer, families] : columns) text += padded(peer, narrow);
     text += "\n";
     std::map<std::string, PeerTally> sums;
     for (const HardFamily& family : kHardFamilies) {
+        if (!belongs(family.id)) continue;
         bool is_asked = false;
         std::string row = padded(std::string(family.id) + " " + std::string(family.what), kWide);
-        for (const auto& [peer, families] : board) {
-            const auto found = families.find(std::string(family.id));
-            const PeerTally tally = found == families.end() ? PeerTally() : found->second;
+        for (const auto& [peer, families] : columns) {
+            const auto found = families->find(std::string(family.id));
+            const PeerTally tally = found == families->end() ? PeerTally() : found->second;
             is_asked = is_asked || tally.asked > 0;
-            row += padded(shown(tally), kNarrow);
+            row += padded(shown(tally), narrow);
             add(sums[peer], tally);
         }
         if (is_asked) text += row + "\n";
     }
     text += padded("all", kWide);
-    for (const auto& [peer, families] : board) text += padded(shown(sums[peer]), kNarrow);
+    for (const auto& [peer, families] : columns) text += padded(shown(sums[peer]), narrow);
     return text + "\n";
+}
+
+}  // namespace
+
+std::string as_text(const PeerBoard& board) {
+    return table_of(board, false) + "\n" + table_of(board, true);
 }
 
 std::string as_rows(const PeerBoard& board) {
@@ -210,7 +249,8 @@ std::string as_rows(const PeerBoard& board) {
             text += ',';
             text += family;
             for (const std::size_t number :
-                 {tally.asked, tally.wrong, tally.crashed, tally.hung, tally.uneven}) {
+                 {tally.asked, tally.wrong, tally.crashed, tally.hung, tally.uneven, tally.sign,
+                  tally.ghost, tally.depth, tally.none}) {
                 text += ',';
                 text += std::to_string(number);
             }

@@ -210,7 +210,8 @@ int run(const std::string& program, const Arguments& arguments) {
         std::printf("\n%s", as_text(peers).c_str());
     }
     const std::string csv = std::string(kScoreboardHeader) + "\n" + board.rows("");
-    const std::string peer_csv = "peer,family,asked,wrong,crashed,hung,uneven\n" + as_rows(peers);
+    const std::string peer_csv =
+        "peer,family,asked,wrong,crashed,hung,uneven,sign,ghost,depth,none\n" + as_rows(peers);
     if (!write(arguments.csv, csv) || !write(arguments.json, as_json(board)) ||
         !write(arguments.peer_csv, peer_csv)) {
         std::fprintf(stderr, "hard_cases: a result could not be written\n");

@@ -78,10 +78,48 @@ double hull_distance(const Points& a, const Points& b, fcl::GJKSolverType solver
     return result.min_distance;
 }
 
+fcl::Transform3d in_fcl(const Pose& pose) {
+    fcl::Transform3d transform = fcl::Transform3d::Identity();
+    const auto& r = pose.rotation();
+    for (int i = 0; i < 9; ++i) transform.linear()(i / 3, i % 3) = r[static_cast<std::size_t>(i)];
+    const Double3 t = pose.translation();
+    transform.translation() = fcl::Vector3d(t.x, t.y, t.z);
+    return transform;
+}
+
+template <class Shape>
+PeerContacts contacts_of(const HardContact& hard, const Shape& a, const Shape& b,
+                         fcl::GJKSolverType solver) {
+    constexpr std::size_t kMost = 1 << 16;
+    fcl::CollisionRequestd request(kMost, true);
+    request.gjk_solver_type = solver;
+    fcl::CollisionResultd result;
+    fcl::collide(&a, in_fcl(hard.a.pose), &b, in_fcl(hard.b.pose), request, result);
+    std::vector<PeerContact> found;
+    for (std::size_t i = 0; i < result.numContacts(); ++i) {
+        const auto& contact = result.getContact(i);
+        const auto& n = contact.normal;
+        found.push_back({{n[0], n[1], n[2]}, -contact.penetration_depth});
+    }
+    return found;
+}
+
+PeerContacts mesh_contacts(const HardContact& hard) {
+    return contacts_of(hard, model_of<fcl::OBBd>(*hard.a.mesh), model_of<fcl::OBBd>(*hard.b.mesh),
+                       fcl::GST_LIBCCD);
+}
+
+PeerContacts hull_contacts(const HardContact& hard, fcl::GJKSolverType solver) {
+    return contacts_of(hard, convex_of(hard.a.mesh->positions), convex_of(hard.b.mesh->positions),
+                       solver);
+}
+
 }  // namespace
 
 void add_fcl(std::vector<Peer>& peers) {
-    peers.push_back({"FCL", collide, distance});
+    Peer meshes = {"FCL", collide, distance};
+    meshes.contacts = mesh_contacts;
+    peers.push_back(meshes);
     for (const auto& [name, solver] :
          {std::pair("FCL-libccd", fcl::GST_LIBCCD), std::pair("FCL-indep", fcl::GST_INDEP)}) {
         Peer peer = {name};
@@ -91,6 +129,10 @@ void add_fcl(std::vector<Peer>& peers) {
         };
         peer.hull_distance = [solver = solver](const Points& a, const Points& b) {
             return hull_distance(a, b, solver);
+        };
+        peer.takes_two_hulls = true;
+        peer.contacts = [solver = solver](const HardContact& hard) {
+            return hull_contacts(hard, solver);
         };
         peers.push_back(peer);
     }

@@ -10,7 +10,9 @@
 // Peers get vertices where they stand, so that no pose rounds them. Answers count as wrong where
 // they contradict exact arithmetic: a hit of those who are apart, a miss of those who cross, a
 // triangle pair made up or lost; a distance of 0 of those who are apart, or off by more than
-// 1e-6 of it and 1e-9 of the largest coordinate.
+// 1e-6 of it and 1e-9 of the largest coordinate. Of contacts: "wrong", and "sign" where a normal
+// points away from all right ones, "ghost" where it is more than 10 degrees off, "depth" where the
+// deepest is off by a factor of 2, "none" where there is no contact of those who overlap.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,11 +20,13 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "accuracy/mesh_variants.h"
 #include "accuracy/peers/peer.h"
 #include "support/exact_pairs.h"
+#include "support/hard_contacts.h"
 #include "support/hard_distances.h"
 #include "support/hard_hulls.h"
 #include "support/hard_meshes.h"
@@ -42,6 +46,7 @@ public:
         if (peer_.collide) run_meshes();
         if (peer_.distance) run_distances();
         if (peer_.hulls_collide || peer_.hull_distance) run_hulls();
+        if (peer_.contacts) run_contacts();
     }
 
 private:
@@ -53,7 +58,11 @@ private:
         std::printf("ask %s\n", id.c_str());
         std::fflush(stdout);
         constexpr std::array kWords = {"right", "wrong", "yes", "no"};
-        std::puts(kWords[static_cast<std::size_t>(ask())]);
+        if constexpr (std::is_same_v<decltype(ask()), Verdict>) {
+            std::puts(kWords[static_cast<std::size_t>(ask())]);
+        } else {
+            std::puts(ask().c_str());
+        }
         std::fflush(stdout);
     }
 
@@ -172,6 +181,41 @@ private:
                 return judge_distance(peer_.hull_distance(a, b), length,
                                       std::max(largest_of(a), largest_of(b)));
             });
+        }
+    }
+
+    /// "right", or "wrong" and in what: sign, ghost, depth, none.
+    static std::string judge(const HardContact& hard, const std::vector<PeerContact>& found) {
+        constexpr double kSign = 90, kGhost = 10, kDegrees = 57.295779513082323;
+        double farthest = 0, deepest = HUGE_VAL;
+        for (const PeerContact& contact : found) {
+            double angle = 180;
+            for (const Double3& normal : hard.allowed) {
+                angle = std::min(angle, kDegrees * angle_between(contact.normal, normal));
+            }
+            farthest = std::max(farthest, angle);
+            deepest = std::min(deepest, contact.distance);
+        }
+        const double separation = hard.separation;
+        const bool touches = std::fabs(separation) <= hard.rounding();
+        std::string wrong;
+        if (found.empty()) return separation < 0 && !touches ? "wrong none" : "right";
+        if (!(farthest <= kSign)) wrong = " sign";
+        if (farthest > kGhost && farthest <= kSign) wrong = " ghost";
+        constexpr double kTouching = 1e-2;
+        const double ratio = deepest / separation;
+        if (touches ? !(std::fabs(deepest) <= kTouching * hard.size)
+                    : !(ratio >= 0.5 && ratio <= 2)) {
+            wrong += " depth";
+        }
+        return wrong.empty() ? "right" : "wrong" + wrong;
+    }
+
+    void run_contacts() {
+        for (const HardContact& hard : hard_contacts()) {
+            const bool both = hard.a.is_convex && hard.b.is_convex;
+            if (!both && peer_.takes_two_hulls) continue;
+            each(hard.id, [&] { return judge(hard, peer_.contacts(hard)); });
         }
     }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "support/hard_contacts.h"
 #include "support/meshes.h"
 
 #include "cdprep/pairs.h"
@@ -20,6 +21,13 @@ struct PeerAnswer {
 
 using Points = std::vector<Double3>;
 
+/// A point of contact, as a peer says it.
+struct PeerContact {
+    Double3 normal;   ///< from A to B
+    double distance;  ///< negative: overlap
+};
+using PeerContacts = std::vector<PeerContact>;
+
 /// Another library. What it does not answer is empty.
 struct Peer {
     std::string name;
@@ -27,6 +35,8 @@ struct Peer {
     std::function<double(const TestMesh& a, const TestMesh& b)> distance{};
     std::function<bool(const Points& a, const Points& b)> hulls_collide{};
     std::function<double(const Points& a, const Points& b)> hull_distance{};
+    std::function<PeerContacts(const HardContact&)> contacts{};
+    bool takes_two_hulls = false;  ///< contacts of two convex bodies alone
     bool takes_flat_hulls = true;  ///< squares, segments and points too
 };
 
