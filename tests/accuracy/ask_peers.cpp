@@ -201,7 +201,7 @@ namespace {
 /// The families of contacts, or the others.
 std::string table_of(const PeerBoard& board, bool of_contacts) {
     constexpr std::size_t kWide = 30;
-    const std::size_t narrow = of_contacts ? 25 : 16;
+    const std::size_t narrow = of_contacts ? 31 : 16;
     const auto belongs = [&](std::string_view family) {
         return is_of_contacts(family) == of_contacts;
     };

@@ -2,6 +2,8 @@
 #ifdef CDPREP_HAVE_FCL
 #include <fcl/fcl.h>
 
+#include <cmath>
+
 #include "accuracy/peers/peer.h"
 #include "support/small_hull.h"
 
@@ -99,7 +101,8 @@ PeerContacts contacts_of(const HardContact& hard, const Shape& a, const Shape& b
     for (std::size_t i = 0; i < result.numContacts(); ++i) {
         const auto& contact = result.getContact(i);
         const auto& n = contact.normal;
-        found.push_back({{n[0], n[1], n[2]}, -contact.penetration_depth});
+        // Its two solvers give depths of different signs.
+        found.push_back({{n[0], n[1], n[2]}, -std::fabs(contact.penetration_depth)});
     }
     return found;
 }
