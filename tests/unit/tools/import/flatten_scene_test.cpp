@@ -256,6 +256,18 @@ TEST(FlattenScene, EveryTruncationIsRefused) {
     }
 }
 
+// The names need one byte more than there is text: of the last material, or of the last node.
+TEST(FlattenScene, ANameBeyondTheTextIsRefused) {
+    Bytes without_materials({kTriangle},
+                            {{"root", kNoParent, kIdentity, {0}}, {"b", 0, kIdentity, {0}}}, {});
+    for (Bytes bytes : {small_scene(), without_materials}) {
+        ASSERT_TRUE(flatten(bytes.whole()).ok());
+        bytes.arrays.pop_back();
+        --bytes.header.text_bytes;
+        EXPECT_FALSE(flatten(bytes.whole()).ok());
+    }
+}
+
 TEST(FlattenScene, EveryFlippedBitIsRefusedOrHarmless) {
     const std::vector<std::byte> whole = small_scene().whole();
     int soups = 0;

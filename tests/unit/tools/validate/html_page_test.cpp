@@ -159,6 +159,15 @@ TEST(HtmlPage, MeshWithoutDrawableTrianglesIsStillListed) {
     EXPECT_NE(text.find("\"drawn\":null"), std::string::npos);
 }
 
+// Neither the first that is not there nor one far beyond; the finding is still told.
+TEST(HtmlPage, ATriangleThatIsNotThereIsPassedOver) {
+    for (const std::uint32_t triangle : {12U, 64U, 1'000'000U}) {
+        ValidationReport report;
+        report.defects.findings.push_back({Rule::sliver, 1, {{{triangle}, {0}, {0, 0, 0}, 1}}});
+        EXPECT_NE(page_of(report, test::unit_cube()).find("CDP0203"), std::string::npos);
+    }
+}
+
 TEST(HtmlPage, SameInputGivesTheSameBytes) {
     const ValidationReport report = crowded(5, 3);
     EXPECT_EQ(page_of(report, test::unit_cube()), page_of(report, test::unit_cube()));

@@ -295,5 +295,18 @@ TEST(ValidationWriter, SaysThatItWasStopped) {
     EXPECT_TRUE(holds(text, "\"exit\":130}"));
 }
 
+// Findings that the baseline knows are counted, not listed.
+TEST(ValidationText, SaysHowManyFindingsAreKnown) {
+    ValidationReport report = with_a_hole();
+    const auto text = [&] { return written(ValidationFormat::text, run_of(), {report}); };
+    EXPECT_EQ(text().find("besides"), std::string::npos);
+    for (const std::uint64_t known : {1U, 2U}) {
+        report.known = known;
+        EXPECT_NE(text().find(", besides " + std::to_string(known) + " known; 12 triangles"),
+                  std::string::npos)
+            << text();
+    }
+}
+
 }  // namespace
 }  // namespace cdprep::report

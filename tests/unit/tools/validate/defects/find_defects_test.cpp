@@ -359,6 +359,16 @@ TEST(FindDefects, ShapesAreJudgedAtAnyScale) {
     EXPECT_EQ(report_of(mesh, {.sliver_ratio = 1}).counts.sliver_triangles, 2U);
 }
 
+// By hand: twice the area is 2^-52, less than rounding of the products may hide.
+TEST(FindDefects, TheThinnestTriangleHasAnArea) {
+    const test::TestMesh thin = {{{0, 0, 0}, {1, 1, 0}, {1, 1 + 0x1p-52, 0}}, {{{0, 1, 2}}}};
+    const DefectReport report = report_of(thin);
+    EXPECT_EQ(report.counts.zero_area_triangles, 0U);
+    EXPECT_EQ(report.counts.sliver_triangles, 1U);
+    const test::TestMesh flat = {{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}}, {{{0, 1, 2}}}};
+    EXPECT_EQ(report_of(flat).counts.zero_area_triangles, 1U);
+}
+
 TEST(FindDefects, CavitiesKeepThePromiseThatNestedSolidsBreak) {
     const test::TestMesh outer = test::moved_by(test::unit_cube(), 8, {0, 0, 0});
     const test::TestMesh inner = test::moved_by(test::unit_cube(), 2, {3, 3, 3});
