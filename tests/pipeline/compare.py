@@ -72,6 +72,11 @@ def check_all_formats(program, meshes):
     # Exact strategies agree, which is a promise; so does every tick of the paper's.
     promises = [c for c in report["checks"] if c["promise"]]
     assert len(promises) == 2 and all(c["verdict"] == "holds" for c in promises), promises
+    claims = [c["claim"] for c in report["checks"]]
+    for word, count in (("Table 1", 1), ("Table 2", 2), ("exact answers", 1),
+                        ("against itself", 1), ("at least as long as", 1), ("corners of", 1),
+                        ("talk's hashed octree", 4)):
+        assert sum(word in claim for claim in claims) == count, (word, count, claims)
     poses = report["pairs"][0]["poses"]
     assert len(poses) == 15 and all(len(p["a_from_b"]) == 12 for p in poses), len(poses)
     assert {p["stratum"] for p in poses} == {"deep", "shallow", "touching", "near", "far"}

@@ -243,6 +243,8 @@ def reports():
         for form in ("text", "json", "ndjson", "sarif", "junit"):
             yield [f"validate {model} --format {form} --weld 0.01 --seam 0.01"]
         yield [f"validate {model} --html page.html --max-issues 5", "keep page.html"]
+        yield [f"validate {model} --html page.html --rule CDP0301=error --rule CDP0204=note -q",
+               "keep page.html"]
         for preset in ("safe", "closed", "solid"):
             for end in ("off", "obj", "ply", "stl"):
                 yield [f"repair {model} -o out.{end} --preset {preset} --format json",
