@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
+#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
+#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+
+#include "cdprep/contacts.h"
+
+/// Fills Bullet's manifolds of two objects with the contacts of two models: one manifold for each
+/// cluster of contacts. `pair` places both models in the world, where the objects are. `manifolds`
+/// holds what the last call left there: points that persist keep their impulses, so the solver
+/// starts from them. `tolerance` should be at least the way the bodies approach in one step.
+cdprep::ContactsVerdict fill_manifolds(const cdprep::Pair& pair, cdprep::Workspace& workspace,
+                                       double tolerance, const btCollisionObject& a,
+                                       const btCollisionObject& b, btDispatcher& dispatcher,
+                                       btManifoldArray& manifolds);
