@@ -6,6 +6,7 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -25,8 +26,12 @@ namespace {
 constexpr int kExitWritten = 0;
 constexpr int kExitUnwritten = 1;
 
+/// Lowers a limit. One that is lower already stays: nobody may raise it.
 bool set_limit(__rlimit_resource_t resource, std::uint64_t value) {
-    const rlimit limit{value, value};
+    rlimit now{};
+    if (::getrlimit(resource, &now) != 0) return false;
+    const rlim_t least = std::min<rlim_t>(value, now.rlim_max);
+    const rlimit limit{least, least};
     return ::setrlimit(resource, &limit) == 0;
 }
 

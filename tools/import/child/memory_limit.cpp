@@ -26,8 +26,13 @@ constexpr bool kLimitMemory = true;
 }  // namespace
 
 bool set_memory_limit(std::uint64_t bytes) {
-    const rlimit limit{std::min(bytes, honest_memory(0)), bytes};
-    return !kLimitMemory || ::setrlimit(RLIMIT_AS, &limit) == 0;
+    rlimit now{};
+    if (!kLimitMemory) return true;
+    if (::getrlimit(RLIMIT_AS, &now) != 0) return false;
+    // A limit that is lower already stays: nobody may raise it.
+    const rlim_t most = std::min<rlim_t>(bytes, now.rlim_max);
+    const rlimit limit{std::min<rlim_t>(most, honest_memory(0)), most};
+    return ::setrlimit(RLIMIT_AS, &limit) == 0;
 }
 
 void allow_memory_for(std::uint64_t input_bytes) {
