@@ -36,7 +36,9 @@ using format::Double3;
     const Double3 ab = minus(a, b);
     return dot(ab, ab);
 }
-[[nodiscard]] inline double distance_between(const Double3& a, const Double3& b) {
+/// For coordinates whose squares are in the range of double; distance_between() of close_groups.h
+/// takes any.
+[[nodiscard]] inline double euclidean_distance(const Double3& a, const Double3& b) {
     return std::sqrt(squared_distance(a, b));
 }
 /// Returns the mean of one or more points.

@@ -145,7 +145,7 @@ std::size_t DistanceField::fill(const Block& block, double beyond) {
     const std::size_t y1 = std::min(y0 + kBlock, count_[1]);
     const std::size_t z1 = std::min(z0 + kBlock, count_[2]);
     const Double3 centre = middle_of(node(x0, y0, z0), node(x1 - 1, y1 - 1, z1 - 1));
-    const double radius = mesh::distance_between(centre, node(x0, y0, z0)) + spacing_;
+    const double radius = mesh::euclidean_distance(centre, node(x0, y0, z0)) + spacing_;
     TriangleTree::Nearest near = solid_->tree().nearest(centre);
     const bool one_sided = near.distance > radius;
     const bool inside = solid_->includes(centre);
@@ -224,7 +224,7 @@ double DistanceField::fine_node(std::size_t x, std::size_t y, std::size_t z) con
     const double distance = solid_->tree().nearest(p, nearest_[known_node]).distance;
     // If no surface lies between the two, both are on one side.
     const double to_node =
-        mesh::distance_between(p, node(beside(x), beside(y), beside(z))) + kRounded * spacing_;
+        mesh::euclidean_distance(p, node(beside(x), beside(y), beside(z))) + kRounded * spacing_;
     const auto of_node = static_cast<double>(distance_[known_node]);
     const bool is_inside =
         std::max(distance, std::fabs(of_node)) > to_node ? of_node < 0 : solid_->includes(p);
@@ -241,9 +241,9 @@ double DistanceField::fine_at(const Double3& p) const {
 }
 
 void DistanceField::sample(std::array<Double3, 3> corners, Detail detail, Estimate& most) const {
-    const double ab = mesh::distance_between(corners[0], corners[1]);
-    const double bc = mesh::distance_between(corners[1], corners[2]);
-    const double ca = mesh::distance_between(corners[2], corners[0]);
+    const double ab = mesh::euclidean_distance(corners[0], corners[1]);
+    const double bc = mesh::euclidean_distance(corners[1], corners[2]);
+    const double ca = mesh::euclidean_distance(corners[2], corners[0]);
     const double longest = std::max({ab, bc, ca});
     ++most.samples;
     const Double3 centre = {(corners[0].x + corners[1].x + corners[2].x) / 3,

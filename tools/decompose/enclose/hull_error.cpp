@@ -101,7 +101,7 @@ private:
         const Double3 at = mesh::mean_of(c);
         double radius = 0;
         for (const Double3& corner : c)
-            radius = std::max(radius, mesh::distance_between(at, corner));
+            radius = std::max(radius, mesh::euclidean_distance(at, corner));
         radius += solid_.slack();
         const TriangleTree::Nearest near = nearest(at, cell.near);
         cell.near = near.triangle;
@@ -156,7 +156,7 @@ private:
         double longest = -1;
         for (std::size_t i = 0; i < cell.count; ++i) {
             for (std::size_t k = i + 1; k < cell.count; ++k) {
-                const double length = mesh::distance_between(cell.corner[i], cell.corner[k]);
+                const double length = mesh::euclidean_distance(cell.corner[i], cell.corner[k]);
                 if (length <= longest) continue;
                 longest = length;
                 from = i;
