@@ -3,12 +3,22 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "cdprep/contacts.h"
 #include "exact/vectors.h"
 
 namespace cdprep {
+
+/// Returns a number for two others, in this order. Equal ones are rare (Steele, Lea and Flood
+/// 2014).
+[[nodiscard]] inline std::uint64_t mixed_ids(std::uint64_t x, std::uint64_t y) noexcept {
+    std::uint64_t z = x * 0x9e3779b97f4a7c15U + y;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebU;
+    return z ^ z >> 31;
+}
 
 /// Returns the points of a contact without a manifold as one of a manifold.
 [[nodiscard]] inline ManifoldPoint only_point(const Contact& contact) noexcept {

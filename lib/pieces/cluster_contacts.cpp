@@ -26,6 +26,10 @@ public:
             gather(first);
             Contact cluster = contacts_[first];
             cluster.members = static_cast<std::uint32_t>(members_);
+            // Which member is the deepest may change from frame to frame: the smallest id does not.
+            for (std::size_t m = 0; m < members_; ++m) {
+                cluster.id = std::min(cluster.id, contacts_[member_[m]].id);
+            }
             choose_four(points_of_members(), cluster);
             contacts_[kept++] = cluster;
         }
@@ -43,10 +47,13 @@ private:
             for (std::size_t i = first + 1; i < contacts_.size(); ++i) {
                 const Contact& other = contacts_[i];
                 const bool share = other.piece_a == near.piece_a || other.piece_b == near.piece_b;
-                if (is_taken_[i] || !share) continue;
+                if (is_taken_[i] || !share || is_behind(other) != is_behind(near)) continue;
                 if (dot(other.normal, contacts_[first].normal) >= least_) take(i);
             }
         }
+    }
+    static bool is_behind(const Contact& contact) noexcept {
+        return (contact.flags & contact_from_behind) != 0;
     }
     void take(std::size_t i) noexcept {
         is_taken_[i] = true;
@@ -57,10 +64,12 @@ private:
         std::size_t count = 0;
         for (std::size_t m = 0; m < members_; ++m) {
             const Contact& contact = contacts_[member_[m]];
-            if (contact.point_count == 0) points_[count++] = only_point(contact);
-            for (std::uint32_t i = 0; i < contact.point_count; ++i) {
-                points_[count++] = contact.points[i];
-            }
+            const auto add = [&](ManifoldPoint point) {
+                point.id = mixed_ids(contact.id, point.id);
+                points_[count++] = point;
+            };
+            if (contact.point_count == 0) add(only_point(contact));
+            for (std::uint32_t i = 0; i < contact.point_count; ++i) add(contact.points[i]);
         }
         return std::span(points_).first(count);
     }

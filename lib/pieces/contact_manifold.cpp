@@ -15,15 +15,6 @@ constexpr std::size_t kMostOutline = 64;  ///< corners kept of a face
 /// neither that far.
 constexpr double kAcross = 1 - 1e-10;
 
-/// Returns a number for two others, in this order. Equal ones are rare (Steele, Lea and Flood
-/// 2014).
-std::uint64_t mixed(std::uint64_t x, std::uint64_t y) {
-    std::uint64_t z = x * 0x9e3779b97f4a7c15U + y;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebU;
-    return z ^ z >> 31;
-}
-
 /// A corner of a polygon.
 struct Corner {
     Double3 at;
@@ -47,7 +38,7 @@ struct Polygon {
     void name_sides() noexcept {
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint64_t p = corner[i].id, q = next(i).id;
-            corner[i].side = mixed(std::min(p, q), std::max(p, q));
+            corner[i].side = mixed_ids(std::min(p, q), std::max(p, q));
         }
     }
 };
@@ -131,7 +122,7 @@ Polygon clipped(const Polygon& polygon, const Double3& on, const Double3& inward
         if (at_p >= 0) result.add({p.at, p.id, leaves && at_p == 0 ? side : p.side});
         if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) {
             const Double3 cut = p.at + at_p / (at_p - at_q) * (q.at - p.at);
-            result.add({cut, mixed(p.side, side), leaves ? side : p.side});
+            result.add({cut, mixed_ids(p.side, side), leaves ? side : p.side});
         }
     }
     return result;

@@ -21,6 +21,9 @@ constexpr double kOfSize = 1e-12;
 /// The maximum number of a piece's triangles whose normals are tried as ways out of a hull that is
 /// too large to try all.
 constexpr std::size_t kMostNormals = 128;
+/// The cosine of the angle between two unit directions up to which rounding may turn one behind the
+/// other.
+constexpr double kBeside = 1e-9;
 /// How many times shorter an exit must be to be preferred to one that ends at both surfaces.
 constexpr double kMuchShorter = 2;
 
@@ -138,7 +141,10 @@ private:
             b_.is_seen_from_behind(meeting.b, -contact.normal)) {
             contact.flags |= contact_from_behind;
         }
-        if (const auto upright = upright_normal(meeting, contact.normal)) {
+        // Across a gap B is on one side: a normal that leads to the other is none. One beside both
+        // is that of a face next to the edge, as of a floor that B is over in part.
+        const auto upright = upright_normal(meeting, contact.normal);
+        if (upright && dot(*upright, contact.normal) >= -kBeside) {
             contact.normal = *upright;
             contact.flags |= contact_internal_edge;
         }

@@ -27,7 +27,7 @@ struct ManifoldPoint {
     double distance;  ///< from on_a to on_b along the normal, rounded; negative: overlap
     /// The same for the same point of the same contact after a small motion: made of the source
     /// numbers of the vertex, or of the two edges that cross there. 0 for the only point of a
-    /// contact.
+    /// contact. In a cluster it tells its members apart as well.
     std::uint64_t id;
 };
 
@@ -54,7 +54,8 @@ struct Contact {
     std::uint32_t piece_a;  ///< an index into Model::pieces().pieces
     std::uint32_t piece_b;
     /// The same as long as the two pieces are in contact, whatever moves: the source number of a
-    /// triangle of A's piece in the high 32 bits, and of B's in the low ones.
+    /// triangle of A's piece in the high 32 bits, and of B's in the low ones. A cluster has the
+    /// smallest of its members.
     std::uint64_t id;
     ContactFeature feature_a;
     ContactFeature feature_b;

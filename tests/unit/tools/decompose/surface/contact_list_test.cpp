@@ -227,7 +227,16 @@ TEST(ContactLists, OneClusterHasTheCornersOfAll) {
     EXPECT_EQ(list.contacts[0].members, apart.contacts.size());
     EXPECT_EQ(list.verdict.computed, apart.verdict.computed);
     EXPECT_TRUE(list.verdict.complete);
+    EXPECT_EQ(list.contacts[0].id,
+              std::min_element(apart.contacts.begin(), apart.contacts.end(),
+                               [](const Contact& x, const Contact& y) { return x.id < y.id; })
+                  ->id);
     ASSERT_EQ(list.contacts[0].point_count, 4U);
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            EXPECT_NE(list.contacts[0].points[i].id, list.contacts[0].points[k].id);
+        }
+    }
     for (const ManifoldPoint& point : list.contacts[0].points) {
         EXPECT_TRUE(point.on_b.x == 2.25 || point.on_b.x == 5.25) << point.on_b.x;
         EXPECT_TRUE(point.on_b.y == 2.5 || point.on_b.y == 5.5) << point.on_b.y;

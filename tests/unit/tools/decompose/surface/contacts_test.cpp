@@ -428,6 +428,29 @@ TEST(Contacts, ALargeBoxPushesARoughBallUp) {
     EXPECT_GT(seen, 100U);
 }
 
+// By hand: two triangles above a box, bent along their common edge. Whatever edge the nearest
+// corner leans over, the box is below.
+TEST(Contacts, AGapHasANormalTowardsTheOtherSide) {
+    TestMesh wide = unit_cube();
+    for (Double3& p : wide.positions) p = {40 * p.x - 20, 40 * p.y - 20, p.z - 1};
+    const OpenModel box = open_with_pieces(wide);
+    TestMesh bent;
+    bent.positions = {{0.21875, -1.765625, 0.0625},
+                      {0.328125, -1.859375, 0.109375},
+                      {0.203125, -1.859375, 0.140625},
+                      {0.3125, -1.984375, 0.171875}};
+    bent.triangles = {{{0, 1, 2}}, {{1, 3, 2}}};
+    for (const PiecesOf pieces : {PiecesOf::surface, PiecesOf::triangles}) {
+        const OpenModel above = open_with_pieces(bent, pieces);
+        const auto found = all_contacts(box, above, shifted({0, 0, 0}), 0.121);
+        EXPECT_GE(found.size(), 1U);
+        for (const Contact& contact : found) {
+            EXPECT_GT(contact.normal.z, 0);
+            EXPECT_GT(contact.lower, 0);
+        }
+    }
+}
+
 // By hand: a box slides over the top of an L and on along the outside of its arms, across the edges
 // between pieces: each is flat, and every piece that is met from outside pushes along the common
 // face. A wall that a corner of the box has come near to in the solid does not.
