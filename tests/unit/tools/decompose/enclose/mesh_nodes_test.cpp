@@ -39,8 +39,7 @@ std::vector<std::pair<std::uint32_t, int>> runs_of(const Numbers& numbers) {
 mesh::TriangleSoup with_instances(const std::string& first, const std::string& second) {
     mesh::TriangleSoup soup = cube_and_box();
     soup.instance_names = {second, first};
-    soup.instances = {{.name = 1, .first_triangle = 0, .triangle_count = 12},
-                      {.name = 0, .first_triangle = 12, .triangle_count = 8}};
+    soup.instances = {{{}, 0, 1, 0, 12, 0, 0}, {{}, 0, 0, 12, 8, 0, 0}};
     return soup;
 }
 
