@@ -151,7 +151,7 @@ struct ContactsVerdict {
 /// Reads pair.options.degenerate and pair.options.through. The only structure beside the BVH is
 /// Structure::pieces, which is slower (1.7 times for near poses, 1.1 times for others). Needs
 /// Ask::contacts of both models, and options.through its ask_of(). Takes the time of
-/// pairs_within(), plus 4 to 8 microseconds per contact and 1 more with a manifold
+/// pairs_within(), plus 5 to 10 microseconds per contact and 1 more with a manifold
 /// (tests/bench/results, contacts.csv). Never allocates.
 [[nodiscard]] ContactsVerdict contacts(const Pair& pair, Workspace& workspace,
                                        std::span<Contact> room,

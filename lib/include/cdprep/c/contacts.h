@@ -84,7 +84,7 @@ CDPREP_API void cdprep_contact_options_init(cdprep_contact_options* options, siz
  * the deepest that is left, and the others are those farthest from all that were taken. `items`
  * get the first ones. `options` may be null.
  * Uses degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
- * Takes the time of cdprep_pairs_within(), plus 4 to 8 microseconds per contact that is computed.
+ * Takes the time of cdprep_pairs_within(), plus 5 to 10 microseconds per contact that is computed.
  * Needs: CDPREP_ASK_CONTACTS */
 CDPREP_API int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_options* options,
                                cdprep_workspace* workspace, cdprep_contact_list* list,
