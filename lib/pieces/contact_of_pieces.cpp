@@ -141,8 +141,8 @@ private:
             b_.is_seen_from_behind(meeting.b, -contact.normal)) {
             contact.flags |= contact_from_behind;
         }
-        // Across a gap B is on one side: a normal that leads to the other is none. One beside both
-        // is that of a face next to the edge, as of a floor that B is over in part.
+        // The normal must not point away from B. It may be perpendicular to the gap: B may hang
+        // over the border of a floor triangle.
         const auto upright = upright_normal(meeting, contact.normal);
         if (upright && dot(*upright, contact.normal) >= -kBeside) {
             contact.normal = *upright;
@@ -321,7 +321,7 @@ private:
         if (exit.way.kind == WayKind::edges) {
             put_on_edges(exit);
         } else {
-            const WayPoints points = way_points(a_, b_, normal, nullptr);
+            const WayPoints points = way_points(a_, b_, normal);
             exit.point_a = points.on_a;
             exit.point_b = points.on_b;
         }

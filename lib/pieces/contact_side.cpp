@@ -18,9 +18,6 @@ using format::EdgeConvexity;
 /// The cosine above which two unit directions are equal up to rounding. 1 - 1e-10 is 1.4e-5
 /// radians: far more than rounding turns a direction, far less than a surface bends.
 constexpr double kAligned = 1 - 1e-10;
-/// The share of a hull's extent along a direction within which corners have equal height up to
-/// rounding.
-constexpr double kLevel = 1e-9;
 /// The greatest lean of a unit direction that is rounding alone.
 constexpr double kNoLean = 1e-12;
 

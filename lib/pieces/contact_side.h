@@ -63,6 +63,10 @@ struct VertexSet {
 /// A piece of one of the two models of a query.
 class ContactSide {
 public:
+    /// The share of a hull's extent along a direction within which corners have equal height up to
+    /// rounding.
+    static constexpr double kLevel = 1e-9;
+
     ContactSide(const MovedModel& model, std::uint32_t piece) noexcept;
     ContactSide(const ContactSide&) = delete;  // placed_points_ refer to placed_
     ContactSide& operator=(const ContactSide&) = delete;

@@ -12,10 +12,6 @@ namespace {
 
 constexpr double kUnit = 0x1p-53;
 
-double length(const Double3& d) {
-    return std::sqrt(dot(d, d));
-}
-
 }  // namespace
 
 bool PieceShape::set(const ContactSide& side, const Double3& origin) noexcept {

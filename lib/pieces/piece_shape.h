@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,6 +13,10 @@
 namespace cdprep {
 
 class ContactSide;
+
+inline double length(const Double3& d) noexcept {
+    return std::sqrt(dot(d, d));
+}
 
 /// The corners, faces and edges of a piece's hull as moved, relative to a point. Set once for each
 /// piece; then tested against those of many others.

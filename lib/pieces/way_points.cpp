@@ -10,10 +10,6 @@
 namespace cdprep {
 namespace {
 
-/// The share of a hull's extent along a direction within which corners have equal height up to
-/// rounding.
-constexpr double kLevel = 1e-9;
-
 /// The corners of a piece that are farthest along a direction, and their shadows on a plane across
 /// it.
 class FarCorners {
@@ -29,7 +25,7 @@ public:
         for (std::uint32_t i = 0; i < all && count_ < at_.size(); ++i) {
             const Double3 p = side.corner(i) - origin;
             const double height = dot(direction, p);
-            if (height < most - kLevel * (most - least)) continue;
+            if (height < most - ContactSide::kLevel * (most - least)) continue;
             at_[count_] = side.corner(i);
             put(count_++, p - height * direction);
         }
@@ -74,13 +70,13 @@ private:
 
 }  // namespace
 
-WayPoints way_points(const ContactSide& a, const ContactSide& b, const Double3& direction,
-                     QueryCounts* counts) noexcept {
+WayPoints way_points(const ContactSide& a, const ContactSide& b,
+                     const Double3& direction) noexcept {
     const Double3 origin = a.corner(0);
     const FarCorners of_a(a, direction, origin), of_b(b, -direction, origin);
     if (of_a.count() == 1 && of_b.count() == 1) return {of_a.at(0), of_b.at(0)};
     // Flat hulls that meet have no certain verdict, and none is needed: the points are rounded.
-    const NearestSimplex nearest = gjk(of_a.shadow(), of_b.shadow(), {}, nullptr, counts).simplex;
+    const NearestSimplex nearest = gjk(of_a.shadow(), of_b.shadow(), {}, nullptr, nullptr).simplex;
     WayPoints points{};
     for (std::size_t i = 0; i < nearest.count; ++i) {
         points.on_a = points.on_a + nearest.weight[i] * of_a.at(nearest.corner[i].a);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cdprep/advanced/query_counts.h"
 #include "pieces/contact_side.h"
 
 namespace cdprep {
@@ -16,6 +15,6 @@ struct WayPoints {
 /// farthest along it, and those of B farthest against it, the points of their hulls that are
 /// nearest to each other as seen along the direction. If several pairs are, returns one of them.
 [[nodiscard]] WayPoints way_points(const ContactSide& a, const ContactSide& b,
-                                   const Double3& direction, QueryCounts* counts) noexcept;
+                                   const Double3& direction) noexcept;
 
 }  // namespace cdprep

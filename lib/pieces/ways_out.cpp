@@ -37,10 +37,6 @@ constexpr std::size_t kMostTests = 1600;
 /// way of all are no farther apart than its length. The others are for ways that do not snag.
 constexpr double kFar = 2;
 
-double length(const Double3& d) {
-    return std::sqrt(dot(d, d));
-}
-
 double highest(std::span<const Double3> corners, const Double3& direction) {
     double most = -kInfinity;
     for (const Double3& p : corners) most = std::max(most, dot(direction, p));
