@@ -14,7 +14,7 @@ A constant that sizes an array or is an argument of a template keeps its value a
            thousandth of the diagonal count as that.
   seconds: of the processor, as a ratio: the median of --rounds runs of all requests, beside the
            last run with the written values; there is one every tenth constant.
-  same:    whether every report is the same but for its times.
+  same:    whether all reports are equal, apart from their times.
 
 Usage: vary_constants.py CDPREP FOLDER [--again] [--models FOLDER_OF_MODELS] [--rounds N]
                          [--only NAME,...]

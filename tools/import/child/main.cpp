@@ -26,7 +26,7 @@ namespace {
 constexpr int kExitWritten = 0;
 constexpr int kExitUnwritten = 1;
 
-/// Lowers a limit. One that is lower already stays: nobody may raise it.
+/// Lowers a limit. Keeps a lower one, which a process cannot raise.
 bool set_limit(__rlimit_resource_t resource, std::uint64_t value) {
     rlimit now{};
     if (::getrlimit(resource, &now) != 0) return false;

@@ -29,7 +29,7 @@ bool set_memory_limit(std::uint64_t bytes) {
     rlimit now{};
     if (!kLimitMemory) return true;
     if (::getrlimit(RLIMIT_AS, &now) != 0) return false;
-    // A limit that is lower already stays: nobody may raise it.
+    // A lower limit stays: a process cannot raise it.
     const rlim_t most = std::min<rlim_t>(bytes, now.rlim_max);
     const rlimit limit{std::min<rlim_t>(most, honest_memory(0)), most};
     return ::setrlimit(RLIMIT_AS, &limit) == 0;
