@@ -49,6 +49,10 @@ find_library(CDPREP_BULLET_MATH LinearMath)
 if(CDPREP_BULLET_INCLUDE AND CDPREP_BULLET_COLLISION AND CDPREP_BULLET_MATH)
     cdprep_define_peer(bullet ${CDPREP_BULLET_COLLISION} ${CDPREP_BULLET_MATH})
     target_include_directories(cdprep_peer_bullet SYSTEM INTERFACE ${CDPREP_BULLET_INCLUDE})
+    find_library(CDPREP_BULLET_DYNAMICS BulletDynamics)
+    if(CDPREP_BULLET_DYNAMICS)
+        cdprep_define_peer(bullet_dynamics ${CDPREP_BULLET_DYNAMICS})
+    endif()
 endif()
 
 # Its configuration says how large a number of its is, and where its headers are.
