@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
-#include <limits>
 
 #include "build/chunks.h"
 #include "cdprep/advanced/parallel_for.h"
+#include "core/numbers.h"
 
 namespace cdprep::build {
 namespace {
@@ -18,8 +18,6 @@ using format::Triangle;
 
 /// The largest |exponent| of frames whose scale is an ordinary float.
 constexpr std::int32_t kMaxExactExponent = 100;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct PointBounds {
     std::array<double, 3> lower = {kInfinity, kInfinity, kInfinity};

@@ -132,7 +132,7 @@ Vector middle_of(const BvhNode& node, std::size_t box) {
     return middle;
 }
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFar = std::numeric_limits<float>::infinity();
 
 /// The extents of eight objects along three axes.
 struct Range {
@@ -142,8 +142,8 @@ struct Range {
 
 /// Extents along three axes.
 struct Bound {
-    std::array<float, 3> lower = {kInfinity, kInfinity, kInfinity};
-    std::array<float, 3> upper = {-kInfinity, -kInfinity, -kInfinity};
+    std::array<float, 3> lower = {kFar, kFar, kFar};
+    std::array<float, 3> upper = {-kFar, -kFar, -kFar};
 
     void grow(std::size_t axis, const Floats& low, const Floats& high) {
         lower[axis] = std::min(lower[axis], least(low));

@@ -14,6 +14,7 @@
 #include "cells/octree_tree.h"
 #include "cells/tetra_cones.h"
 #include "core/moved_model.h"
+#include "core/numbers.h"
 #include "exact/predicates.h"
 #include "exact/winding.h"
 #include "walk/box_placement.h"
@@ -55,7 +56,6 @@ double reach_of(const Model& model) noexcept {
 /// Returns the box around the ray from q away from o. Along each axis it has no extent, or is
 /// unbounded on one side.
 Box3 box_of_ray(const Double3& o, const Double3& q) noexcept {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return {
         {q.x < o.x ? -kInfinity : q.x, q.y < o.y ? -kInfinity : q.y, q.z < o.z ? -kInfinity : q.z},
         {q.x > o.x ? kInfinity : q.x, q.y > o.y ? kInfinity : q.y, q.z > o.z ? kInfinity : q.z}};

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "build/chunks.h"
 #include "cdprep/advanced/parallel_for.h"
+#include "core/numbers.h"
 
 // The step. It must be at least 2 ulp of every plane. Then planes rise strictly, and no vertex more
 // than a step inside is taken to be outside. The rounding of a plane moves it by at most half an
@@ -20,7 +20,6 @@ namespace cdprep::build {
 namespace {
 
 constexpr int kStepBits = 32;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Returns the least number of kStepBits significant bits that is not below x > 0.
 double rounded_up(double x) {

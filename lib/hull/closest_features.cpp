@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "cdprep/format/float_environment.h"
+#include "core/numbers.h"
 #include "exact/length_of.h"
 #include "exact/point_triangle_distance.h"
 #include "hull/hull_edges.h"
@@ -24,7 +25,6 @@
 namespace cdprep {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 constexpr int kMostSteps = 64;
 /// The threshold, as the sine of the angle, below which directions count as parallel or
 /// perpendicular.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numbers.h"
 #include "exact/wide_vector.h"
 
 // The search of Gilbert, Johnson and Keerthi without rounding. It keeps the corners of the face
@@ -326,7 +327,6 @@ DistanceBounds bounds_of(const ExactNearest& nearest) noexcept {
     const int shift = (odd ? exponent - 1 : exponent) / 2 + places.lowest;
     // Two approximations, a quotient and a root: less than 4 u.
     constexpr double kError = 8 * 0x1p-53;
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double lower = std::ldexp(root * (1 - kError), shift);
     const double upper = std::ldexp(root * (1 + kError), shift);
     return {std::max(0.0, std::nextafter(lower, -kInfinity)), std::nextafter(upper, kInfinity)};

@@ -5,8 +5,8 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
+#include "core/numbers.h"
 #include "exact/double_double.h"
 #include "hull/difference_side.h"
 #include "hull/exact_nearest.h"
@@ -18,9 +18,6 @@
 
 namespace cdprep {
 namespace {
-
-constexpr double kUnit = 0x1p-53;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Scales a direction so that its largest coordinate is 1. Returns false for no direction.
 bool normalise(Double3& d) {

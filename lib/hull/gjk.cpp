@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/numbers.h"
 #include "exact/length_of.h"
 
 // The lower bound trusts no step of the search. For any direction d, the planes across it through
@@ -16,8 +17,6 @@
 namespace cdprep {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kMostSteps = 64;
 
 /// A direction whose largest coordinate is 1 in size.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "hull/moved_hull.h"
+#include "core/numbers.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 // Hill climbing walks the stored hull, whose edges are exact, along d': the direction d turned back
 // to the hull's frame. Its result is then proved for the points as they are moved. Let u = 2^-53, X
@@ -137,7 +137,6 @@ double MovedHull::slack(const Double3& direction) const noexcept {
 
 kernels::FarthestPoint MovedHull::proven_by_corners(const Double3& direction,
                                                     const Double3& origin) const noexcept {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     kernels::FarthestPoint best = {0, -kInfinity, -kInfinity};
     each_point([&](std::uint32_t number, const Double3& at) {
         const Double3 p = at - origin;
@@ -176,7 +175,6 @@ kernels::FarthestPoint MovedHull::proven(const Double3& direction, const Double3
     const Double3 top = hull_point(*points_, farthest);
     const double least = -2 * slack(direction);
     Alike alike(farthest);
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     kernels::FarthestPoint best = {farthest, -kInfinity, -kInfinity};
     for (std::size_t i = 0; i < alike.size(); ++i) {
         const Double3 p = point(alike[i]) - origin;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/numbers.h"
 #include "pieces/contact_steps.h"
 
 #include <algorithm>
@@ -13,7 +14,6 @@
 namespace cdprep {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
 /// The largest width of the interval of a depth, beside the rounding of moved corners: of the
 /// depth, and of the size of both hulls.
 constexpr double kRelative = 1e-12;

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "cdprep/format/pieces.h"
+#include "core/numbers.h"
 #include "exact/vectors.h"
 #include "walk/leaf_batch.h"
 #include "walk/walk_pairs.h"
@@ -167,7 +168,6 @@ Reached farthest_below(const TreeSide& side, const TreePlace& place, const Direc
     Reached best;
     offer_below(side, place, along, each_view, tolerance, best);
     // Coordinates that overflow reach nowhere. They must prove nothing.
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     best.far = best.reached > -kInfinity ? std::max(best.far, best.reached) : kInfinity;
     return best;
 }

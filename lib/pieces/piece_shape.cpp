@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numbers.h"
 #include "hull/hull_edges.h"
 #include "pieces/contact_side.h"
 
 namespace cdprep {
-namespace {
-
-constexpr double kUnit = 0x1p-53;
-
-}  // namespace
+namespace {}  // namespace
 
 bool PieceShape::set(const ContactSide& side, const Double3& origin) noexcept {
     const auto facets = side.facets();

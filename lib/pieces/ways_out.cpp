@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/numbers.h"
 #include "exact/box3.h"
 
 // The bound. Let u = 2^-53, A and B the hulls of the corners as they are moved, and A' and B' those
@@ -27,8 +27,6 @@
 namespace cdprep {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// The share of the size of both hulls within which two ways are equally long up to rounding.
 constexpr double kTie = 1e-13;
 /// The most pairs of a corner with a face that are tested: more take as long as a search.

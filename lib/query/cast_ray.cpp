@@ -8,6 +8,7 @@
 
 #include "cdprep/format/float_environment.h"
 #include "core/moved_model.h"
+#include "core/numbers.h"
 #include "core/require.h"
 #include "core/smallest.h"
 #include "core/triangle_facts.h"
@@ -17,8 +18,6 @@
 
 namespace cdprep {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double largest(const Double3& p) noexcept {
     return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "core/numbers.h"
 #include "query/shape_frame.h"
 
 namespace cdprep {
@@ -46,7 +46,6 @@ public:
 
     /// Returns a limit in the units of box bounds: frame units, rounded up.
     [[nodiscard]] double in_frame(double limit) const noexcept {
-        constexpr double kInfinity = std::numeric_limits<double>::infinity();
         return std::nextafter(frame_.scaled(limit), kInfinity);
     }
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "core/moved_point.h"
+#include "core/numbers.h"
 #include "exact/triangle_box.h"
 #include "query/find_touching.h"
 #include "query/nearest_to_shape.h"
@@ -12,8 +12,6 @@
 
 namespace cdprep {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Double3 at_least(const Double3& p, const Double3& limit) noexcept {
     return {std::max(p.x, limit.x), std::max(p.y, limit.y), std::max(p.z, limit.z)};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cdprep/format/float_environment.h"
+#include "core/numbers.h"
 #include "core/require.h"
 #include "exact/exact_within.h"
 #include "query/find_touching.h"
@@ -120,7 +120,6 @@ std::optional<ShapeDistance> measure(const Model& model, const Capsule& capsule,
                           return false;
                       });
     if (found) return found;
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double limit = std::nextafter(options.max_distance + capsule.radius, kInfinity);
     found = nearest_to_shape(moved, segment, limit, workspace.storage());
     if (!found) return std::nullopt;
