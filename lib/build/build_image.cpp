@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "build/bad_argument.h"
 #include "build/section_places.h"
 #include "cdprep/format/checksum.h"
 #include "cdprep/format/make_user_block.h"
@@ -21,10 +22,6 @@ namespace {
 /// and as a reader compares.
 constexpr std::array<std::byte, sizeof(format::FileHeader::superblock)> kNoSuperblock{};
 
-Error bad(const std::string& message) {
-    return {ErrorCode::bad_argument, message};
-}
-
 std::string name_of(const Section& section) {
     return "Section " + std::to_string(static_cast<std::uint32_t>(section.id)) + " (" +
            format::section_name(section.id) + ")";
@@ -32,11 +29,12 @@ std::string name_of(const Section& section) {
 
 std::optional<Error> find_fault(const Section& section) {
     const std::uint32_t element = format::element_size(section.id);
-    if (element == 0) return bad(name_of(section) + " is not one that this version knows.");
+    if (element == 0)
+        return bad_argument(name_of(section) + " is not one that this version knows.");
     if (section.bytes.size() % element == 0) return std::nullopt;
-    return bad(name_of(section) + " has " + std::to_string(section.bytes.size()) +
-               " bytes, which is no whole number of elements of " + std::to_string(element) +
-               " bytes.");
+    return bad_argument(name_of(section) + " has " + std::to_string(section.bytes.size()) +
+                        " bytes, which is no whole number of elements of " +
+                        std::to_string(element) + " bytes.");
 }
 
 /// Gives every section its place; returns the end of the image.
@@ -57,10 +55,10 @@ Result<PlacedTable> placed_table(std::span<const Section> sections, const ImageO
     const std::uint64_t alignment = options.section_alignment;
     if (!std::has_single_bit(alignment) || alignment < format::kSectionAlignment ||
         alignment > kLargestAlignment) {
-        return bad("Sections cannot be aligned to " + std::to_string(alignment) +
-                   " bytes: the alignment must be a power of two from " +
-                   std::to_string(format::kSectionAlignment) + " to " +
-                   std::to_string(kLargestAlignment) + ".");
+        return bad_argument("Sections cannot be aligned to " + std::to_string(alignment) +
+                            " bytes: the alignment must be a power of two from " +
+                            std::to_string(format::kSectionAlignment) + " to " +
+                            std::to_string(kLargestAlignment) + ".");
     }
     Result<SectionTable> made = make_section_table(sections);
     if (!made) return made.error();
@@ -73,13 +71,13 @@ std::optional<Error> find_fault(std::span<const std::byte> memory, std::uint64_t
     const auto misaligned =
         reinterpret_cast<std::uintptr_t>(memory.data()) % format::kSectionAlignment;
     if (misaligned != 0) {
-        return bad("The memory for the image starts " + std::to_string(misaligned) +
-                   " past a multiple of " + std::to_string(format::kSectionAlignment) +
-                   "; it must start at one.");
+        return bad_argument("The memory for the image starts " + std::to_string(misaligned) +
+                            " past a multiple of " + std::to_string(format::kSectionAlignment) +
+                            "; it must start at one.");
     }
     if (memory.size() >= size) return std::nullopt;
-    return bad("The image takes " + std::to_string(size) + " bytes, and the memory for it has " +
-               std::to_string(memory.size()) + ".");
+    return bad_argument("The image takes " + std::to_string(size) +
+                        " bytes, and the memory for it has " + std::to_string(memory.size()) + ".");
 }
 
 /// Copies the sections in the order of their places. Writes zeroes in front of each and after the
@@ -105,8 +103,8 @@ void fill(std::span<std::byte> image, const SectionTable& table) {
 
 Result<SectionTable> make_section_table(std::span<const Section> sections) {
     if (sections.size() > format::kMaxSections) {
-        return bad(std::to_string(sections.size()) + " sections are more than the " +
-                   std::to_string(format::kMaxSections) + " that a model may have.");
+        return bad_argument(std::to_string(sections.size()) + " sections are more than the " +
+                            std::to_string(format::kMaxSections) + " that a model may have.");
     }
     SectionTable table;
     table.count = static_cast<std::uint32_t>(sections.size());
@@ -116,7 +114,7 @@ Result<SectionTable> make_section_table(std::span<const Section> sections) {
     for (std::size_t i = 0; i < sorted.size(); ++i) {
         if (const auto fault = find_fault(sorted[i])) return *fault;
         if (i > 0 && sorted[i].id == sorted[i - 1].id) {
-            return bad(name_of(sorted[i]) + " is given twice.");
+            return bad_argument(name_of(sorted[i]) + " is given twice.");
         }
         const std::uint32_t element = format::element_size(sorted[i].id);
         table.entries[i] = {sorted[i].id, element, 0, sorted[i].bytes.size() / element, 0};

@@ -141,7 +141,7 @@ struct Range {
 };
 
 /// Extents along three axes.
-struct Bound {
+struct LocalBounds {
     std::array<float, 3> lower = {kFar, kFar, kFar};
     std::array<float, 3> upper = {-kFar, -kFar, -kFar};
 
@@ -159,7 +159,7 @@ struct Bound {
 };
 
 /// Widens the bound by the coordinates of a leaf's corners along the axes, relative to `origin`.
-void widen(Bound& bound, const LocalLeaf& leaf, const Vector& origin, const Axes& axes) {
+void widen(LocalBounds& bound, const LocalLeaf& leaf, const Vector& origin, const Axes& axes) {
     const Vector from = {leaf.middle[0] - origin[0], leaf.middle[1] - origin[1],
                          leaf.middle[2] - origin[2]};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -214,7 +214,7 @@ Range reach_of(const BvhNode& node, const Vector& origin, const Axes& axes) {
 /// 2^-40. Leaves that are not exact were rounded by u; 2^-23 of the frame's size covers that and
 /// the rounding of the centre.
 void set_box(OrientedNode& node, std::size_t box, const Vector& origin, const Axes& axes,
-             const Bound& bound, bool exact) {
+             const LocalBounds& bound, bool exact) {
     Reach reach{};
     for (std::size_t k = 0; k < 3; ++k) {
         reach.lower[k] = double{bound.lower[k]};
@@ -260,7 +260,7 @@ public:
     /// of these.
     Moments fit_node(std::uint32_t level, std::size_t index, const MomentLanes& below) const {
         set_boxes(level, index, below,
-                  [&](Bound& bound, std::size_t box, const Vector& origin, const Axes& axes) {
+                  [&](LocalBounds& bound, std::size_t box, const Vector& origin, const Axes& axes) {
                       widen_by(bound, level, index * kBvhWidth + box, origin, axes);
                   });
         return sum_of(below);
@@ -283,7 +283,7 @@ private:
             below.set(box, moments_of(leaf, local[box]));
         }
         set_boxes(0, index, below,
-                  [&](Bound& bound, std::size_t box, const Vector& origin, const Axes& axes) {
+                  [&](LocalBounds& bound, std::size_t box, const Vector& origin, const Axes& axes) {
                       widen(bound, local[box], origin, axes);
                   });
         return sum_of(below);
@@ -302,7 +302,7 @@ private:
                 continue;
             }
             const Vector origin = middle_of(bvh_.nodes[number], box);
-            Bound bound;
+            LocalBounds bound;
             widen_box(bound, box, origin, axes[box]);
             set_box(node, box, origin, axes[box], bound, bvh_.exact_leaves);
         }
@@ -310,7 +310,7 @@ private:
 
     /// Widens a bound by the corners below a place: leaf `index` at height 0, node `index` of level
     /// h - 1 at height h. Skips places that cannot widen it.
-    void widen_by(Bound& bound, std::uint32_t height, std::size_t index, const Vector& origin,
+    void widen_by(LocalBounds& bound, std::uint32_t height, std::size_t index, const Vector& origin,
                   const Axes& axes) const {
         if (height == 0) return widen(bound, reader_.read(bvh_.leaves[index]), origin, axes);
         const std::size_t used = used_boxes(height - 1, index);

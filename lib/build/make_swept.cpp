@@ -73,13 +73,13 @@ private:
 };
 
 /// The axes of the oriented box, as floats; the axis of the surface's greatest extent first.
-struct Axes {
+struct SweptAxes {
     std::array<std::array<float, 3>, 3> stored;
     std::array<Vector, 3> used;
 };
 
-Axes axes_of(const OrientedNode& node, std::size_t box) {
-    Axes axes{};
+SweptAxes axes_of(const OrientedNode& node, std::size_t box) {
+    SweptAxes axes{};
     for (std::size_t i = 0; i < 3; ++i) {
         axes.stored[1][i] = node.axis[1][i][box];
         axes.stored[2][i] = node.axis[0][i][box];
@@ -106,9 +106,9 @@ struct Fit {
 };
 
 /// Computes the steps of a fit: first the ball, then the sides in order.
-struct Fitter {
+struct SweptFitter {
     const Corners& corners;
-    const Axes& axes;
+    const SweptAxes& axes;
     Vector origin;
     std::size_t sides;  ///< the number of swept axes
 
@@ -130,7 +130,7 @@ struct Fitter {
 
 /// Fits a ball around the projection: steps of falling length towards the farthest corner (Badoiu
 /// and Clarkson 2003); keeps the best. For one axis the box's middle is the answer.
-void Fitter::fit_ball(Fit& fit) const {
+void SweptFitter::fit_ball(Fit& fit) const {
     assert(sides <= 2);
     constexpr int kSteps = 12;
     Vector middle{};
@@ -159,7 +159,7 @@ void Fitter::fit_ball(Fit& fit) const {
 
 /// Fits the shortest side with which every corner is within the radius. A corner's distance beyond
 /// the earlier sides reduces its share of the radius.
-void Fitter::fit_side(Fit& fit, std::size_t side) const {
+void SweptFitter::fit_side(Fit& fit, std::size_t side) const {
     assert(side < sides);
     double lower = kInfinity;
     double upper = -kInfinity;
@@ -179,7 +179,7 @@ void Fitter::fit_side(Fit& fit, std::size_t side) const {
 }
 
 /// Writes all but the radius.
-void set_middle(SweptNode& node, std::size_t box, const Vector& origin, const Axes& axes,
+void set_middle(SweptNode& node, std::size_t box, const Vector& origin, const SweptAxes& axes,
                 const Fit& fit) {
     for (std::size_t i = 0; i < 3; ++i) {
         double centre = origin[i];
@@ -222,10 +222,10 @@ void set_unused(SweptNode& node, std::size_t box) {
 
 void set_sphere(SweptNode& node, std::size_t box, const OrientedNode& oriented,
                 const Corners& corners, SweptKind kind, bool exact) {
-    const Axes axes = axes_of(oriented, box);
+    const SweptAxes axes = axes_of(oriented, box);
     const Vector origin = {double{oriented.centre[0][box]}, double{oriented.centre[1][box]},
                            double{oriented.centre[2][box]}};
-    const Fitter fitter{corners, axes, origin, static_cast<std::size_t>(kind)};
+    const SweptFitter fitter{corners, axes, origin, static_cast<std::size_t>(kind)};
     Fit fit;
     fitter.fit_ball(fit);
     for (std::size_t side = 0; side < fitter.sides; ++side) fitter.fit_side(fit, side);

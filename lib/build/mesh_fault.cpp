@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "build/bad_argument.h"
 #include "build/frame_map.h"
 #include "cdprep/format/limits.h"
 
@@ -14,10 +15,6 @@ namespace {
 using format::Double3;
 using format::Float3;
 using format::Triangle;
-
-Error bad(const std::string& message) {
-    return {ErrorCode::bad_argument, message};
-}
 
 /// Returns whether x is an allowed coordinate; false for NaN.
 bool is_coordinate(double x) {
@@ -50,14 +47,14 @@ std::string sentence(std::size_t vertex, const Double3& p) {
 template <class Position>
 std::optional<Error> find_bad(std::span<const Position> positions) {
     if (positions.size() > format::kMaxVertices) {
-        return bad(std::to_string(positions.size()) + " vertices are more than the " +
-                   std::to_string(format::kMaxVertices) + " that a model may have.");
+        return bad_argument(std::to_string(positions.size()) + " vertices are more than the " +
+                            std::to_string(format::kMaxVertices) + " that a model may have.");
     }
     bool all_good = true;
     for (const Position& p : positions) all_good &= is_good(p);
     if (all_good) return std::nullopt;
     const auto at = std::ranges::find_if_not(positions, is_good<Position>);
-    return bad(sentence(static_cast<std::size_t>(at - positions.begin()), as_double(*at)));
+    return bad_argument(sentence(static_cast<std::size_t>(at - positions.begin()), as_double(*at)));
 }
 
 }  // namespace
@@ -73,14 +70,15 @@ std::optional<Error> find_bad_position(std::span<const Float3> positions) {
 std::optional<Error> find_bad_triangle(std::size_t vertex_count,
                                        std::span<const Triangle> triangles) {
     if (triangles.size() > format::kMaxTriangles) {
-        return bad(std::to_string(triangles.size()) + " triangles are more than the " +
-                   std::to_string(format::kMaxTriangles) + " that a model may have.");
+        return bad_argument(std::to_string(triangles.size()) + " triangles are more than the " +
+                            std::to_string(format::kMaxTriangles) + " that a model may have.");
     }
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const std::uint32_t greatest = std::ranges::max(triangles[i].vertex);
         if (greatest < vertex_count) continue;
-        return bad("Triangle " + std::to_string(i) + " uses vertex " + std::to_string(greatest) +
-                   " of " + std::to_string(vertex_count) + ": vertices are numbered from 0.");
+        return bad_argument("Triangle " + std::to_string(i) + " uses vertex " +
+                            std::to_string(greatest) + " of " + std::to_string(vertex_count) +
+                            ": vertices are numbered from 0.");
     }
     return std::nullopt;
 }

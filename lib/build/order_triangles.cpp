@@ -54,15 +54,15 @@ struct alignas(32) BoxItem {
     }
 };
 
-struct Reach {
+struct CentreReach {
     double lower;
     double upper;
 };
 
 /// Returns the reach of a triangle along an axis. Cuts do not require boxes that are rounded
 /// outwards.
-Reach reach_of(const Triangle& triangle, std::span<const Double3> positions, const FrameMap& map,
-               std::size_t axis) {
+CentreReach reach_of(const Triangle& triangle, std::span<const Double3> positions,
+                     const FrameMap& map, std::size_t axis) {
     const double a = coordinate(positions[triangle.vertex[0]], axis);
     const double b = coordinate(positions[triangle.vertex[1]], axis);
     const double c = coordinate(positions[triangle.vertex[2]], axis);
@@ -72,7 +72,7 @@ Reach reach_of(const Triangle& triangle, std::span<const Double3> positions, con
 void make_item(const Triangle& triangle, std::uint32_t number, std::span<const Double3> positions,
                const FrameMap& map, BoxItem& item) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Reach reach = reach_of(triangle, positions, map, axis);
+        const CentreReach reach = reach_of(triangle, positions, map, axis);
         item.box[axis] = static_cast<float>(reach.lower);
         item.box[4 + axis] = -static_cast<float>(reach.upper);
     }
@@ -83,7 +83,7 @@ void make_item(const Triangle& triangle, std::uint32_t number, std::span<const D
 void make_item(const Triangle& triangle, std::uint32_t number, std::span<const Double3> positions,
                const FrameMap& map, MiddleItem& item) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Reach reach = reach_of(triangle, positions, map, axis);
+        const CentreReach reach = reach_of(triangle, positions, map, axis);
         item.lanes[axis] = static_cast<float>(reach.lower + reach.upper);
     }
     item.lanes[kNumberLane] = std::bit_cast<float>(number);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "build/bad_argument.h"
 #include "build/degenerate.h"
 #include "build/frame_map.h"
 #include "build/make_leaves.h"
@@ -64,32 +65,29 @@ struct Start {
     Start& operator=(const Start&) = delete;
 };
 
-Error bad(const std::string& message) {
-    return {ErrorCode::bad_argument, message};
-}
-
 /// Returns why a model cannot be the base of a run-time model.
 std::optional<Error> find_fault(const Model& base) {
     for (const SectionId id :
          {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
           SectionId::bvh_nodes, SectionId::bvh_leaves}) {
         if (base.sections().contains(id)) continue;
-        return bad(std::string("A run-time model needs the section ") + format::section_name(id) +
-                   ": bake it with --effects overlap, and open it "
-                   "with that section.");
+        return bad_argument(std::string("A run-time model needs the section ") +
+                            format::section_name(id) +
+                            ": bake it with --effects overlap, and open it "
+                            "with that section.");
     }
     if (!base.sections().contains(SectionId::positions_f32) &&
         !base.sections().contains(SectionId::positions_f64)) {
-        return bad(
+        return bad_argument(
             "A run-time model needs positions: bake the mesh with --effects overlap, and open the "
             "model for overlap.");
     }
     const auto source = base.source().vertex;
     const auto made = std::ranges::find(source, format::kMadeByRepair);
     if (made == source.end()) return std::nullopt;
-    return bad("A run-time model cannot be made of this model: vertex " +
-               std::to_string(made - source.begin()) +
-               " was made by a repair, so the imported file has no position for it.");
+    return bad_argument("A run-time model cannot be made of this model: vertex " +
+                        std::to_string(made - source.begin()) +
+                        " was made by a repair, so the imported file has no position for it.");
 }
 
 SectionList views_of(const Model& base) {
@@ -229,7 +227,7 @@ Result<RuntimeModel> RuntimeModel::in(std::span<std::byte> memory, const format:
 
 Result<double> RuntimeModel::refit(std::span<const Double3> positions, ParallelFor parallel_for) {
     if (!moving_.positions_f32.empty()) {
-        return bad(
+        return bad_argument(
             "The run-time model keeps positions as floats, and doubles were given: give "
             "floats, or build it from doubles.");
     }
@@ -246,12 +244,12 @@ Result<double> RuntimeModel::refit_to(std::span<const Position> positions,
     format::FloatEnvironment environment;
     const GuardedFor guarded(environment, parallel_for);
     if (positions.size() < position_count_) {
-        return bad("The run-time model has " + std::to_string(position_count_) +
-                   " positions, and " + std::to_string(positions.size()) + " were given.");
+        return bad_argument("The run-time model has " + std::to_string(position_count_) +
+                            " positions, and " + std::to_string(positions.size()) + " were given.");
     }
     const std::span<const Position> used = positions.first(position_count_);
     if (shares_memory(std::as_bytes(used), image_)) {
-        return bad(
+        return bad_argument(
             "The positions point into the run-time model itself, which stores them in another "
             "order: give a copy.");
     }

@@ -25,7 +25,7 @@
 namespace cdprep {
 namespace {
 
-constexpr int kMostSteps = 64;
+constexpr int kMostStations = 64;
 /// The threshold, as the sine of the angle, below which directions count as parallel or
 /// perpendicular.
 constexpr double kParallel = 1e-9;
@@ -126,7 +126,7 @@ public:
 
     /// Returns false when the march does not end at nearest features.
     [[nodiscard]] bool run() noexcept {
-        for (int i = 0; i < kMostSteps; ++i) {
+        for (int i = 0; i < kMostStations; ++i) {
             const Outcome outcome = step();
             if (outcome != Outcome::moved) return outcome == Outcome::arrived;
         }
@@ -503,17 +503,18 @@ bool are_parallel(const Level& of_a, const Level& of_b) noexcept {
 }
 
 /// The result for one of the two hulls.
-struct Found {
+struct FoundStation {
     HullFeature feature;
     Level level;
 };
 
-Found found_at(const Ground& ground, const Station& station, const Double3& gap) noexcept {
+FoundStation found_at(const Ground& ground, const Station& station, const Double3& gap) noexcept {
     return {feature_of(ground.edges(), station), level_of(ground, station, gap)};
 }
 
 /// The same for a hull that is a point or a segment.
-Found found_of_flat(const MovedHull& hull, const CornerSet& set, const Double3& gap) noexcept {
+FoundStation found_of_flat(const MovedHull& hull, const CornerSet& set,
+                           const Double3& gap) noexcept {
     const Double3 along = hull.point(hull.count() - 1) - hull.point(0);
     if (set.count > 1) return {{FeatureKind::edge, 0}, {1, along}};
     const bool lies_along = hull.count() > 1 && is_level(along, gap);
@@ -593,8 +594,9 @@ private:
         cache_->kind[side] = at.kind;
         cache_->edge[side] = 3 * at.place.facet + at.place.corner;
     }
-    static ClosestFeatures answer(const Found& a, const Found& b, const DistanceBounds& bounds,
-                                  const Double3& on_a, const Double3& on_b) noexcept {
+    static ClosestFeatures answer(const FoundStation& a, const FoundStation& b,
+                                  const DistanceBounds& bounds, const Double3& on_a,
+                                  const Double3& on_b) noexcept {
         assert(bounds.lower <= bounds.upper);
         return {a.feature,
                 b.feature,

@@ -27,7 +27,7 @@ constexpr std::size_t kSquare = 2 * kWideCoordinate;
 constexpr std::size_t kVolume = 3 * kWideCoordinate;
 using Length = WideInteger<kWideCoordinate>;
 using Square = WideInteger<kSquare>;
-using Direction = WideVector<kVolume>;
+using ExactDirection = WideVector<kVolume>;
 
 /// Differences of up to four corners, all with the same unit.
 struct Places {
@@ -118,7 +118,7 @@ public:
         assert(count_ == 4);
         return {{0, 1, 2, 3}, count_, true};
     }
-    [[nodiscard]] const Direction& direction() const {
+    [[nodiscard]] const ExactDirection& direction() const {
         return direction_;
     }
 
@@ -189,13 +189,13 @@ private:
 
     Places places_;
     std::size_t count_;
-    Direction direction_;
+    ExactDirection direction_;
 };
 
 /// An exact direction, and its rounded form for comparisons that double can decide.
 class Compared {
 public:
-    explicit Compared(const Direction& exact) : exact_(&exact) {
+    explicit Compared(const ExactDirection& exact) : exact_(&exact) {
         std::array<Approximate, 3> parts{};
         int most = std::numeric_limits<int>::min();
         for (std::size_t i = 0; i < 3; ++i) {
@@ -233,7 +233,7 @@ public:
     }
 
 private:
-    const Direction* exact_;
+    const ExactDirection* exact_;
     Double3 rounded_{};
     bool certain_ = true;
 };
@@ -256,7 +256,7 @@ PlacedPoint extreme(const MovedHull& hull, const Compared& direction) {
 }
 
 /// Returns the sign of direction . (p - q) for corners, or of direction . p if q is null.
-int sign_along(const Direction& direction, const Difference& p, const Difference* q) {
+int sign_along(const ExactDirection& direction, const Difference& p, const Difference* q) {
     const std::array<Difference, 2> both = {p, q == nullptr ? p : *q};
     const Places places = places_of(both.data(), 2, lowest_bit(0));
     if (q == nullptr) return dot(direction, places.at[0]).sign();

@@ -19,9 +19,9 @@ struct Nearest {
     double squared = std::numeric_limits<double>::infinity();
 };
 
-class Search {
+class SimplexSearch {
 public:
-    explicit Search(const NearestSimplex& simplex) : simplex_(simplex) {}
+    explicit SimplexSearch(const NearestSimplex& simplex) : simplex_(simplex) {}
 
     [[nodiscard]] Nearest corner(std::uint8_t i) const {
         return {{i}, {1}, 1, dot(at(i), at(i))};
@@ -61,7 +61,7 @@ void take_nearer(Nearest& best, const Nearest& other) {
 /// Twice the areas that the origin's foot spans with the edges opposite each corner are n . (q x r)
 /// and so on, seen along the axis on which the triangle is largest. The foot is parallel to n and
 /// adds nothing.
-Nearest Search::triangle(std::uint8_t i, std::uint8_t j, std::uint8_t k) const {
+Nearest SimplexSearch::triangle(std::uint8_t i, std::uint8_t j, std::uint8_t k) const {
     const Double3& p = at(i);
     const Double3& q = at(j);
     const Double3& r = at(k);
@@ -93,7 +93,7 @@ std::array<double, 4> volumes(const NearestSimplex& s) {
 constexpr std::array<std::array<std::uint8_t, 3>, 4> kOpposite = {
     {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
 
-Nearest nearest_face(const NearestSimplex& simplex, const Search& search) {
+Nearest nearest_face(const NearestSimplex& simplex, const SimplexSearch& search) {
     const std::array<double, 4> volume = volumes(simplex);
     const double whole = (volume[0] + volume[1]) + (volume[2] + volume[3]);
     Nearest best;
@@ -135,7 +135,7 @@ Double3 across_segment(const Double3& p, const Double3& q) {
 
 void keep_nearest(NearestSimplex& simplex) noexcept {
     assert(simplex.count >= 1 && simplex.count <= 4);
-    const Search search(simplex);
+    const SimplexSearch search(simplex);
     if (simplex.count == 1) simplex.weight[0] = 1;
     if (simplex.count == 2) keep(simplex, search.segment(0, 1));
     if (simplex.count == 3) keep(simplex, search.triangle(0, 1, 2));
