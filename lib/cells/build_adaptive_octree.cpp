@@ -13,6 +13,7 @@
 #include "cdprep/format/float_environment.h"
 #include "cells/cell_boxes.h"
 #include "cells/choose_split.h"
+#include "cells/most_references.h"
 #include "cells/split_box.h"
 #include "core/guarded_for.h"
 #include "exact/triangle_box.h"
@@ -36,12 +37,6 @@ using format::kSharedReference;
 using format::Triangle;
 
 constexpr std::size_t kChildren = 8;
-
-/// Returns the maximum number of references of a tree; see build_adaptive_octree().
-std::uint64_t most_references(std::uint64_t triangle_count) {
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 31;
-    return std::min(kMostFreeReferences + kMostReferencesPerTriangle * triangle_count, kMost);
-}
 
 /// A cell of the current level: its triangles are list[first, first + count).
 struct Cell {

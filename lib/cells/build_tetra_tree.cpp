@@ -47,7 +47,7 @@ struct Run {
 };
 
 /// A part of a run, for one task.
-struct Piece {
+struct TetraPiece {
     std::size_t run;
     std::size_t first;
     std::size_t last;
@@ -55,7 +55,7 @@ struct Piece {
 };
 
 /// One level: its references, and the cones that they belong to.
-struct Level {
+struct TetraLevel {
     std::unique_ptr<std::uint32_t[]> items;
     std::size_t count;
     std::vector<Run> runs;
@@ -165,10 +165,10 @@ private:
 
     void split_levels() {
         std::uint32_t depth = level_at_once();
-        Level level = first_level(depth);
+        TetraLevel level = first_level(depth);
         for (; !level.runs.empty(); ++depth) {
             std::vector<Run> inner = runs_to_split(level, depth);
-            std::vector<Piece> pieces = count_children(level, inner);
+            std::vector<TetraPiece> pieces = count_children(level, inner);
             if (!has_room(level, inner, pieces)) {
                 inner.clear();
                 pieces.clear();
@@ -192,7 +192,7 @@ private:
 
     /// Returns the cones of level `depth` and adds those of the levels above to the tree. If these
     /// are not all split, returns the octants and sets `depth` to 0.
-    Level first_level(std::uint32_t& depth) {
+    TetraLevel first_level(std::uint32_t& depth) {
         ConeLists lists = split_at_once(input_, home_.get(), depth, options_.parallel_for);
         if (!may_be_first(lists, depth)) {
             depth = 0;
@@ -258,7 +258,8 @@ private:
         return std::min(kMostFreeReferences + share, kMost);
     }
 
-    [[nodiscard]] std::vector<Run> runs_to_split(const Level& level, std::uint32_t depth) const {
+    [[nodiscard]] std::vector<Run> runs_to_split(const TetraLevel& level,
+                                                 std::uint32_t depth) const {
         std::vector<Run> inner;
         if (depth == result_.tree.level) return inner;
         for (const Run& run : level.runs) {
@@ -268,18 +269,18 @@ private:
     }
 
     /// Returns whether the references of the level, with these cones split, are few enough.
-    [[nodiscard]] bool has_room(const Level& level, const std::vector<Run>& inner,
-                                const std::vector<Piece>& pieces) const {
+    [[nodiscard]] bool has_room(const TetraLevel& level, const std::vector<Run>& inner,
+                                const std::vector<TetraPiece>& pieces) const {
         std::uint64_t count = result_.references.size() + level.count;
         for (const Run& run : inner) count -= run.last - run.first;
-        for (const Piece& piece : pieces) {
+        for (const TetraPiece& piece : pieces) {
             for (const std::size_t child : piece.place) count += child;
         }
         return count <= most_references();
     }
 
     /// Adds a level's cones to the tree, with the lists of those that are not split.
-    void take_nodes(const Level& level, std::vector<Run>& inner) {
+    void take_nodes(const TetraLevel& level, std::vector<Run>& inner) {
         std::vector<std::uint32_t>& references = result_.references;
         std::size_t next = 0;
         for (const Run& run : level.runs) {
@@ -298,8 +299,8 @@ private:
         }
     }
 
-    static std::vector<Piece> pieces_of(const std::vector<Run>& runs) {
-        std::vector<Piece> pieces;
+    static std::vector<TetraPiece> pieces_of(const std::vector<Run>& runs) {
+        std::vector<TetraPiece> pieces;
         for (std::size_t i = 0; i < runs.size(); ++i) {
             for (std::size_t first = runs[i].first; first < runs[i].last; first += kItemsPerTask) {
                 pieces.push_back({i, first, std::min(runs[i].last, first + kItemsPerTask), {}});
@@ -310,7 +311,7 @@ private:
 
     /// Calls body(piece) for each piece, several per task.
     template <class Body>
-    void for_pieces(std::vector<Piece>& pieces, const Body& body) const {
+    void for_pieces(std::vector<TetraPiece>& pieces, const Body& body) const {
         std::vector<std::size_t> begin;
         std::size_t items = kItemsPerTask;
         for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -328,15 +329,16 @@ private:
 
     /// Counts, for each piece, how many references go to each child. Stores in mask_ the children
     /// of each reference.
-    std::vector<Piece> count_children(const Level& level, const std::vector<Run>& runs) {
-        std::vector<Piece> pieces = pieces_of(runs);
+    std::vector<TetraPiece> count_children(const TetraLevel& level, const std::vector<Run>& runs) {
+        std::vector<TetraPiece> pieces = pieces_of(runs);
         if (pieces.empty()) return pieces;
         mask_ = std::make_unique_for_overwrite<std::uint8_t[]>(level.count);
-        for_pieces(pieces, [&](Piece& piece) { count_piece(level, runs[piece.run].key, piece); });
+        for_pieces(pieces,
+                   [&](TetraPiece& piece) { count_piece(level, runs[piece.run].key, piece); });
         return pieces;
     }
 
-    void count_piece(const Level& level, std::uint32_t key, Piece& piece) {
+    void count_piece(const TetraLevel& level, std::uint32_t key, TetraPiece& piece) {
         ConeChildren children(input_, key);
         const int width = std::bit_width(key);
         for (std::size_t i = piece.first; i < piece.last; ++i) {
@@ -355,8 +357,9 @@ private:
     }
 
     /// Returns the children with references, each list in the order of its parent's.
-    Level move_down(const Level& from, const std::vector<Run>& runs, std::vector<Piece>& pieces) {
-        Level level{};
+    TetraLevel move_down(const TetraLevel& from, const std::vector<Run>& runs,
+                         std::vector<TetraPiece>& pieces) {
+        TetraLevel level{};
         std::size_t piece = 0;
         for (std::size_t i = 0; i < runs.size(); ++i) {
             const std::size_t first_piece = piece;
@@ -369,15 +372,15 @@ private:
         }
         assert(piece == pieces.size());
         level.items = std::make_unique_for_overwrite<std::uint32_t[]>(level.count);
-        for_pieces(pieces, [&](Piece& part) { move_piece(from, part, level); });
+        for_pieces(pieces, [&](TetraPiece& part) { move_piece(from, part, level); });
         return level;
     }
 
     /// Turns the counts of one cone's pieces into places, and adds its children to the level.
-    static void place_pieces(std::uint32_t key, std::span<Piece> pieces, Level& level) {
+    static void place_pieces(std::uint32_t key, std::span<TetraPiece> pieces, TetraLevel& level) {
         for (std::uint32_t child = 0; child < 4; ++child) {
             const std::size_t begin = level.count;
-            for (Piece& piece : pieces) {
+            for (TetraPiece& piece : pieces) {
                 const std::size_t count = piece.place[child];
                 piece.place[child] = level.count;
                 level.count += count;
@@ -394,7 +397,7 @@ private:
         for (const Run& child : children) parent.flags |= 1U << (child.key & 3U);
     }
 
-    void move_piece(const Level& from, Piece& piece, Level& level) const {
+    void move_piece(const TetraLevel& from, TetraPiece& piece, TetraLevel& level) const {
         for (std::size_t i = piece.first; i < piece.last; ++i) {
             std::uint32_t item = from.items[i];
             const std::uint32_t mask = mask_[i];

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 
 #include "build/frame_map.h"
 #include "cdprep/advanced/parallel_for.h"
 #include "cells/octree_cells.h"
 #include "cells/octree_codes.h"
 #include "cells/split_box.h"
+#include "core/numbers.h"
 
 // Boxes are computed in model coordinates, where minima and maxima of corners and planes are exact.
 // They are rounded once, outwards, on conversion to the frame.
@@ -22,8 +22,7 @@ using format::kInnerNode;
 
 constexpr std::size_t kNodesPerTask = 256;
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr Box3 kNothing = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+constexpr Box3 kNothing = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
 /// Widens `box` by the intersection of two boxes that touch.
 void add_common(const Box3& a, const Box3& b, Box3& box) {

@@ -10,21 +10,21 @@
 namespace cdprep::build {
 namespace {
 
-struct Reach {
+struct Interval {
     double lower;
     double upper;
 };
 
-Reach reach_of(const Box3& box, std::size_t axis) {
+Interval reach_of(const Box3& box, std::size_t axis) {
     return {coordinate(box.lower, axis), coordinate(box.upper, axis)};
 }
 
 /// Returns the midpoint: finite and between the two, for all coordinates that models have.
-double middle(const Reach& reach) {
+double middle(const Interval& reach) {
     return reach.lower + (reach.upper - reach.lower) / 2;
 }
 
-bool is_inside(double x, const Reach& reach) {
+bool is_inside(double x, const Interval& reach) {
     return reach.lower < x && x < reach.upper;
 }
 
@@ -38,17 +38,17 @@ void for_reaches(const CellContent& cell, std::size_t axis, Body body) {
 
 bool leaves_one_whole(const CellContent& cell, std::size_t axis, double plane) {
     return std::any_of(cell.list.begin(), cell.list.end(), [&](std::uint32_t reference) {
-        const Reach reach = reach_of(cell.boxes[reference & ~format::kSharedReference], axis);
+        const Interval reach = reach_of(cell.boxes[reference & ~format::kSharedReference], axis);
         return reach.upper < plane || plane < reach.lower;
     });
 }
 
 double median_middle(const CellContent& cell, std::size_t axis, std::vector<double>& middles) {
     assert(!cell.list.empty());
-    const Reach all = reach_of(cell.box, axis);
+    const Interval all = reach_of(cell.box, axis);
     middles.clear();
     middles.reserve(cell.list.size());
-    for_reaches(cell, axis, [&](const Reach& reach) {
+    for_reaches(cell, axis, [&](const Interval& reach) {
         middles.push_back(
             middle({std::max(reach.lower, all.lower), std::min(reach.upper, all.upper)}));
     });
@@ -58,7 +58,7 @@ double median_middle(const CellContent& cell, std::size_t axis, std::vector<doub
 }
 
 AxisSplit by_median(const CellContent& cell, std::size_t axis, std::vector<double>& scratch) {
-    const Reach all = reach_of(cell.box, axis);
+    const Interval all = reach_of(cell.box, axis);
     double plane = median_middle(cell, axis, scratch);
     if (!is_inside(plane, all)) plane = middle(all);
     if (!is_inside(plane, all)) return {all.upper, false};
@@ -76,7 +76,7 @@ struct Slices {
 };
 
 Slices slices_of(const CellContent& cell, std::size_t axis) {
-    const Reach all = reach_of(cell.box, axis);
+    const Interval all = reach_of(cell.box, axis);
     Slices slices{};
     for (std::size_t i = 0; i + 1 < kSlices; ++i) {
         slices.plane[i] =
@@ -84,7 +84,7 @@ Slices slices_of(const CellContent& cell, std::size_t axis) {
     }
     std::array<std::size_t, kSlices> begun{};
     std::array<std::size_t, kSlices> ended{};
-    for_reaches(cell, axis, [&](const Reach& reach) {
+    for_reaches(cell, axis, [&](const Interval& reach) {
         std::size_t begin = 0;
         std::size_t end = 0;
         for (const double plane : slices.plane) {
@@ -115,7 +115,7 @@ struct HalfArea {
     HalfArea(const Box3& box, std::size_t axis) {
         std::array<double, 3> side{};
         for (std::size_t i = 0; i < 3; ++i) {
-            const Reach reach = reach_of(box, (axis + i) % 3);
+            const Interval reach = reach_of(box, (axis + i) % 3);
             side[i] = reach.upper - reach.lower;
         }
         const double longest = std::max({side[0], side[1], side[2]});
@@ -130,7 +130,7 @@ struct HalfArea {
 };
 
 AxisSplit by_surface_area(const CellContent& cell, std::size_t axis) {
-    const Reach all = reach_of(cell.box, axis);
+    const Interval all = reach_of(cell.box, axis);
     const std::size_t count = cell.list.size();
     AxisSplit best{all.upper, false};
     if (!(all.lower < all.upper)) return best;

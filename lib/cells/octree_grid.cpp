@@ -32,11 +32,11 @@ double rounded_up(double x) {
 }
 
 /// The box around some points.
-struct Extent {
+struct GridExtent {
     std::array<double, 3> lower = {kInfinity, kInfinity, kInfinity};
     std::array<double, 3> upper = {-kInfinity, -kInfinity, -kInfinity};
 
-    void grow(const Extent& other) {
+    void grow(const GridExtent& other) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             lower[axis] = std::min(lower[axis], other.lower[axis]);
             upper[axis] = std::max(upper[axis], other.upper[axis]);
@@ -44,8 +44,8 @@ struct Extent {
     }
 };
 
-Extent extent_of(std::span<const Double3> positions) {
-    std::array<Extent, 2> every_other;  // two, so that neither waits for the other
+GridExtent grid_extent(std::span<const Double3> positions) {
+    std::array<GridExtent, 2> every_other;  // two, so that neither waits for the other
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const Double3& p = positions[i];
         every_other[i % 2].grow({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
@@ -54,20 +54,20 @@ Extent extent_of(std::span<const Double3> positions) {
     return every_other[0];
 }
 
-Extent extent_of(std::span<const Double3> positions, ParallelFor parallel_for) {
+GridExtent grid_extent(std::span<const Double3> positions, ParallelFor parallel_for) {
     if (positions.empty()) return {{0, 0, 0}, {0, 0, 0}};
     constexpr std::size_t kMostParts = 64;
-    std::array<Extent, kMostParts> parts;
+    std::array<GridExtent, kMostParts> parts;
     const std::size_t size =
         std::max(kItemsPerTask, (positions.size() + kMostParts - 1) / kMostParts);
     for_chunks(positions.size(), size, parallel_for, [&](std::size_t first, std::size_t last) {
-        parts[first / size] = extent_of(positions.subspan(first, last - first));
+        parts[first / size] = grid_extent(positions.subspan(first, last - first));
     });
     for (std::size_t i = 1; i < kMostParts; ++i) parts[0].grow(parts[i]);
     return parts[0];
 }
 
-format::OctreeGrid grid_around(const Extent& extent) {
+format::OctreeGrid grid_around(const GridExtent& extent) {
     double widest = 0;
     double farthest = 0;
     std::array<double, 3> middle{};
@@ -92,7 +92,7 @@ format::OctreeGrid grid_around(const Extent& extent) {
 
 format::OctreeGrid octree_grid_around(std::span<const Double3> positions,
                                       ParallelFor parallel_for) {
-    return grid_around(extent_of(positions, parallel_for));
+    return grid_around(grid_extent(positions, parallel_for));
 }
 
 }  // namespace cdprep::build

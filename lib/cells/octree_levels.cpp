@@ -8,6 +8,7 @@
 
 #include "build/chunks.h"
 #include "cdprep/advanced/parallel_for.h"
+#include "cells/most_references.h"
 #include "cells/octree_codes.h"
 #include "cells/octree_grid.h"
 #include "exact/triangle_box.h"
@@ -31,22 +32,16 @@ using format::kSharedReference;
 using format::OctreeNode;
 using format::Triangle;
 
-/// Returns the maximum number of references of a tree; see build_octree().
-std::uint64_t most_references(std::uint64_t triangle_count) noexcept {
-    constexpr std::uint64_t kMost = std::uint64_t{1} << 31;
-    return std::min(kMostFreeReferences + kMostReferencesPerTriangle * triangle_count, kMost);
-}
-
 /// A cell that is to be divided, along each axis in doubled numbers of planes (Stand).
-struct Cell {
+struct GridCell {
     CellPlace first;     ///< its first finest cell
     std::uint32_t side;  ///< finest cells
     Stand lower;
     Stand middle;
     Stand upper;
 
-    static Cell of(std::uint64_t key) noexcept {
-        Cell cell{octree_place(key), kOctreeSteps >> level_of(key), {}, {}, {}};
+    static GridCell of(std::uint64_t key) noexcept {
+        GridCell cell{octree_place(key), kOctreeSteps >> level_of(key), {}, {}, {}};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             cell.lower[axis] = static_cast<float>(2 * cell.first[axis]);
             cell.middle[axis] = static_cast<float>(2 * cell.first[axis] + cell.side);
@@ -62,7 +57,7 @@ constexpr Lanes<std::uint32_t, 4> kUpperChildren = {0xaa, 0xcc, 0xf0, 0xff};
 
 /// Returns the children whose closed cells a box reaches. The box reaches the parent's cell. The
 /// loop has no branch, because the side of a triangle is unpredictable.
-unsigned children_between(const Cell& cell, const Stand& least, const Stand& most) noexcept {
+unsigned children_between(const GridCell& cell, const Stand& least, const Stand& most) noexcept {
     Lanes<std::uint32_t, 4> children;
     for_lanes<4>([&](std::size_t i) {
         const std::uint32_t below = least[i] <= cell.middle[i] ? kLowerChildren[i] : 0;
@@ -73,7 +68,7 @@ unsigned children_between(const Cell& cell, const Stand& least, const Stand& mos
 }
 
 /// Returns the children whose closed cells hold a vertex; none if the parent's cell does not.
-unsigned children_at(const Cell& cell, const Stand& at) noexcept {
+unsigned children_at(const GridCell& cell, const Stand& at) noexcept {
     Lanes<std::uint32_t, 4> children;
     for_lanes<4>([&](std::size_t i) {
         const std::uint32_t below = at[i] >= cell.lower[i] ? kLowerChildren[i] : 0;
@@ -99,7 +94,7 @@ struct Input {
 };
 
 /// Returns those of some children that the triangle touches, by exact tests.
-unsigned touched_among(const Input& input, const Triangle& t, const Cell& cell,
+unsigned touched_among(const Input& input, const Triangle& t, const GridCell& cell,
                        unsigned children) noexcept {
     const Corners corners = {input.positions[t.vertex[0]], input.positions[t.vertex[1]],
                              input.positions[t.vertex[2]]};
@@ -121,7 +116,7 @@ unsigned touched_among(const Input& input, const Triangle& t, const Cell& cell,
 }
 
 /// Returns the children of a cell that a triangle touches. The triangle touches the cell.
-unsigned touched_children(const Input& input, const Triangle& t, const Cell& cell) noexcept {
+unsigned touched_children(const Input& input, const Triangle& t, const GridCell& cell) noexcept {
     const Stand& a = input.stands[t.vertex[0]];
     const Stand& b = input.stands[t.vertex[1]];
     const Stand& c = input.stands[t.vertex[2]];
@@ -147,7 +142,7 @@ struct Segment {
 };
 
 /// The nodes of one level, and the triangles that touch them.
-struct Level {
+struct GridLevel {
     std::vector<OctreeNode> nodes;  ///< first, count: of `references`
     std::unique_ptr<std::uint32_t[]> references;
     std::uint32_t reference_count = 0;
@@ -156,7 +151,7 @@ struct Level {
 /// The division of one level's nodes and references into the next level.
 class Division {
 public:
-    Division(const Input& input, const Level& level, ParallelFor parallel_for)
+    Division(const Input& input, const GridLevel& level, ParallelFor parallel_for)
         : input_(input), level_(level), parallel_for_(parallel_for) {}
 
     /// Returns whether any node is divided. Returns false also if the tree would get too large.
@@ -171,8 +166,8 @@ public:
 
     /// Returns the next level. Divided nodes get the numbers of their children in it and the set of
     /// them. `nodes` are this level's.
-    Level next(std::span<OctreeNode> nodes) {
-        Level result;
+    GridLevel next(std::span<OctreeNode> nodes) {
+        GridLevel result;
         for (std::size_t i = 0; i < segments_.size();) i = place_children(i, nodes, result);
         result.references = std::make_unique_for_overwrite<std::uint32_t[]>(result.reference_count);
         for_segments([&](Segment& segment) { move(segment, result.references.get()); });
@@ -181,7 +176,7 @@ public:
 
 private:
     const Input& input_;
-    const Level& level_;
+    const GridLevel& level_;
     ParallelFor parallel_for_;
     std::vector<Segment> segments_;
     std::vector<std::size_t> first_of_task_;    ///< segments
@@ -219,7 +214,7 @@ private:
     }
 
     void count(Segment& segment) {
-        const Cell cell = Cell::of(level_.nodes[segment.node].key);
+        const GridCell cell = GridCell::of(level_.nodes[segment.node].key);
         std::array<std::uint32_t, 8> count{};
         for (std::uint32_t i = segment.first; i < segment.last; ++i) {
             const std::uint32_t number = level_.references[i] & ~kSharedReference;
@@ -243,7 +238,7 @@ private:
     }
 
     /// Places the children of the node of segment i. Returns the first segment of the next node.
-    std::size_t place_children(std::size_t i, std::span<OctreeNode> nodes, Level& result) {
+    std::size_t place_children(std::size_t i, std::span<OctreeNode> nodes, GridLevel& result) {
         OctreeNode& node = nodes[segments_[i].node];
         std::size_t end = i;
         while (end < segments_.size() && segments_[end].node == segments_[i].node) ++end;
@@ -287,8 +282,8 @@ std::unique_ptr<Stand[]> stands_of(const format::OctreeGrid& grid,
     return stands;
 }
 
-Level root_level(std::size_t triangle_count, ParallelFor parallel_for) {
-    Level root;
+GridLevel root_level(std::size_t triangle_count, ParallelFor parallel_for) {
+    GridLevel root;
     root.reference_count = static_cast<std::uint32_t>(triangle_count);
     root.nodes = {{1, 0, root.reference_count}};
     root.references = std::make_unique_for_overwrite<std::uint32_t[]>(triangle_count);
@@ -303,7 +298,7 @@ Level root_level(std::size_t triangle_count, ParallelFor parallel_for) {
 
 /// Adds a level to the tree. Leaves take their references along, and children follow after all
 /// nodes of this level.
-void append(const Level& level, std::vector<OctreeNode> nodes, Octree& octree) {
+void append(const GridLevel& level, std::vector<OctreeNode> nodes, Octree& octree) {
     const auto next = static_cast<std::uint32_t>(octree.nodes.size() + nodes.size());
     std::size_t listed = octree.references.size();
     for (const OctreeNode& node : nodes) listed += (node.count & kInnerNode) != 0 ? 0 : node.count;
@@ -328,9 +323,9 @@ void divide_octree(Octree& octree, std::span<const Double3> positions,
     assert(!triangles.empty() && octree.nodes.empty());
     const auto stands = stands_of(octree.grid, positions, parallel_for);
     const Input input{octree.grid, positions, triangles, stands.get()};
-    Level level = root_level(triangles.size(), parallel_for);
+    GridLevel level = root_level(triangles.size(), parallel_for);
     for (std::uint32_t depth = 0; !level.nodes.empty(); ++depth) {
-        Level next;
+        GridLevel next;
         std::vector<OctreeNode> nodes = level.nodes;
         Division division(input, level, parallel_for);
         if (depth < octree.grid.level &&

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 #include "build/frame_map.h"
 #include "build/oriented_axes.h"
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/octree.h"
 #include "cells/cone_maximum.h"
+#include "core/numbers.h"
 
 // Each node is bounded separately, from all lists below it. cone_maximum() bounds the part in the
 // node's cone of a triangle that other leaves list too. An aligned box is found along x, y and z,
@@ -26,8 +26,6 @@ using format::kSharedReference;
 using format::kTetraBoxStride;
 using format::OrientedNode;
 using format::TetraNode;
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 constexpr std::array<Vector, 3> kAligned = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
@@ -77,7 +75,7 @@ private:
         double upper;
     };
     static Along along_axis(const SeenTriangle& t, const Vector& axis) {
-        Along along{{}, kFar, -kFar};
+        Along along{{}, kInfinity, -kInfinity};
         for (std::size_t i = 0; i < 3; ++i) {
             const double slack = kValueSlacks * slack_of(t[i]);
             along.at[i] = dot(axis, t[i].at);
@@ -89,7 +87,7 @@ private:
 
     const ConeFaces& faces_;
     std::array<Vector, 3> axes_;
-    Reach reach_{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+    Reach reach_{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 };
 
 /// The surface below nodes, seen from the centre. Shared triangles count more than once.
@@ -214,7 +212,7 @@ private:
         const TetraNode& at = tree_.nodes[node];
         Reach& reach = aligned_[node];
         assert(at.first > node && at.count <= 4);
-        reach = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+        reach = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
         MomentLanes below;
         for (std::size_t child = 0; child < at.count; ++child) {
             const Reach& part = aligned_[at.first + child];

@@ -18,7 +18,7 @@ using format::kSharedReference;
 using format::TetraNode;
 
 /// The parts that a model's tree and a builder's tree have in common.
-struct Parts {
+struct TetraParts {
     const format::TetraTree* tree;
     std::uint64_t triangle_count;
     std::span<const TetraNode> nodes;
@@ -46,7 +46,7 @@ void count_nodes(std::span<const TetraNode> nodes, TetraFigures& figures) noexce
     figures.empty_cones += 8 - octants;
 }
 
-void count_references(const Parts& parts, TetraFigures& figures) {
+void count_references(const TetraParts& parts, TetraFigures& figures) {
     std::vector<std::uint32_t> uses(parts.triangle_count);
     for (const std::uint32_t reference : parts.references) ++uses[reference & ~kSharedReference];
     for (const std::uint32_t count : uses) {
@@ -55,7 +55,7 @@ void count_references(const Parts& parts, TetraFigures& figures) {
     }
 }
 
-TetraFigures figures_of(const Parts& parts) {
+TetraFigures figures_of(const TetraParts& parts) {
     TetraFigures figures;
     figures.triangles = parts.triangle_count;
     if (parts.tree == nullptr) return figures;
@@ -76,7 +76,8 @@ TetraFigures figures_of(const Parts& parts) {
 /// Returns the number of triangles that the ray through the middle of a leaf crosses. It crosses no
 /// triangles of other leaves.
 template <class CornersOf>
-std::uint64_t layers_of(const Parts& parts, const TetraNode& leaf, const CornersOf& corners_of) {
+std::uint64_t layers_of(const TetraParts& parts, const TetraNode& leaf,
+                        const CornersOf& corners_of) {
     const Double3& centre = parts.tree->centre;
     const Double3 from = behind_centre(centre, tetra_cone(leaf.key));
     std::uint64_t layers = 0;
@@ -88,7 +89,7 @@ std::uint64_t layers_of(const Parts& parts, const TetraNode& leaf, const Corners
 }
 
 template <class CornersOf>
-void count_layers(const Parts& parts, const CornersOf& corners_of, TetraFigures& figures) {
+void count_layers(const TetraParts& parts, const CornersOf& corners_of, TetraFigures& figures) {
     std::uint64_t sum = 0;
     for (const TetraNode& node : parts.nodes) {
         if (!is_leaf(node)) continue;
@@ -104,10 +105,10 @@ void count_layers(const Parts& parts, const CornersOf& corners_of, TetraFigures&
 
 TetraFigures tetra_figures(const Model& model) {
     const format::FloatEnvironment environment;
-    const Parts parts = {model.tetra_tree().tree,    model.triangle_count(),
-                         model.tetra_tree().nodes,   model.tetra_tree().references,
-                         model.tetra_tree().top,     model.tetra_tree().boxes,
-                         model.tetra_tree().oriented};
+    const TetraParts parts = {model.tetra_tree().tree,    model.triangle_count(),
+                              model.tetra_tree().nodes,   model.tetra_tree().references,
+                              model.tetra_tree().top,     model.tetra_tree().boxes,
+                              model.tetra_tree().oriented};
     TetraFigures figures = figures_of(parts);
     const bool has_positions =
         !model.mesh().positions_f32.empty() || !model.mesh().positions_f64.empty();
@@ -122,8 +123,8 @@ TetraFigures tetra_figures(const Model& model) {
 TetraFigures tetra_figures(const build::TetraTree& tree, std::span<const format::Double3> positions,
                            std::span<const format::Triangle> triangles) {
     const format::FloatEnvironment environment;
-    const Parts parts = {&tree.tree, triangles.size(), tree.nodes,   tree.references,
-                         tree.top,   tree.boxes,       tree.oriented};
+    const TetraParts parts = {&tree.tree, triangles.size(), tree.nodes,   tree.references,
+                              tree.top,   tree.boxes,       tree.oriented};
     TetraFigures figures = figures_of(parts);
     const auto corners_of = [&](std::uint32_t i) {
         const auto& v = triangles[i].vertex;
