@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "repair/cut_crossings.h"
 #include "repair/mesh_meetings.h"
@@ -215,6 +218,59 @@ TEST(Repair, CubesThatShareAnEdgeArePartedIntoTwo) {
     EXPECT_EQ(mended.report.after.verdict.volume, 2.0);
     EXPECT_EQ(mended.report.counts.kept, 24U);
     EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+}
+
+/// The boundary of unit cells.
+TestMesh solid_of(const std::set<std::array<int, 3>>& cells) {
+    TestMesh solid;
+    std::map<std::array<int, 3>, std::uint32_t> numbers;
+    const auto number_of = [&](const std::array<int, 3>& at) {
+        const auto [found, is_new] =
+            numbers.try_emplace(at, static_cast<std::uint32_t>(solid.positions.size()));
+        if (is_new) solid.positions.push_back({1.0 * at[0], 1.0 * at[1], 1.0 * at[2]});
+        return found->second;
+    };
+    for (const std::array<int, 3>& cell : cells) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (const int side : {0, 1}) {
+                std::array<int, 3> beside = cell;
+                beside[axis] += 2 * side - 1;
+                if (cells.contains(beside)) continue;
+                std::array<int, 3> at = cell;
+                at[axis] += side;
+                std::array<std::uint32_t, 4> corners{number_of(at)};
+                ++at[(axis + 1) % 3];
+                corners[1] = number_of(at);
+                ++at[(axis + 2) % 3];
+                corners[2] = number_of(at);
+                --at[(axis + 1) % 3];
+                corners[3] = number_of(at);
+                if (side == 0) std::swap(corners[1], corners[3]);
+                solid.triangles.push_back({{corners[0], corners[1], corners[2]}});
+                solid.triangles.push_back({{corners[0], corners[2], corners[3]}});
+            }
+        }
+    }
+    return solid;
+}
+
+// Two posts that share an edge, and a floor and a roof that join them at both of its ends: one
+// fan at each, so that copies of the ends do not part the pairs. One pair gets a vertex between.
+TEST(Repair, PostsThatShareAnEdgeGetAVertexInItsMiddle) {
+    const TestMesh posts = solid_of(
+        {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 0, 1}, {1, 1, 1}, {0, 0, 2}, {1, 0, 2}, {1, 1, 2}});
+    const Repaired mended = repaired(soup_of(posts), "safe");
+    EXPECT_EQ(mended.report.before.non_manifold_edges, 1U);
+    const StepReport* step = step_of(mended.report, RepairStep::split_non_manifold);
+    ASSERT_NE(step, nullptr);
+    EXPECT_EQ(step->undone, "");
+    EXPECT_EQ(step->added_vertices, 1U);
+    EXPECT_EQ(step->cut.size(), 2U);
+    EXPECT_TRUE(step->parted.empty());
+    EXPECT_EQ(mended.mesh.triangles.size(), posts.triangles.size() + 2);
+    EXPECT_TRUE(is_closed_manifold(mended.report.after));
+    EXPECT_EQ(mended.report.after.components, 1U);
+    EXPECT_EQ(mended.report.after.verdict.volume, 8.0);
 }
 
 TEST(Repair, CubesThatShareACornerArePartedIntoTwo) {
