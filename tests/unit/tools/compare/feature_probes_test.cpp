@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "study/cells.h"
+
 namespace cdprep::study {
 namespace {
 
@@ -36,6 +38,34 @@ TEST(FeatureCheck, FailsWhereAPublishedFeatureIsMissing) {
     const Check check = feature_check(table.value());
     EXPECT_EQ(check.verdict, Verdict::fails);
     EXPECT_NE(check.evidence.find("by hand"), std::string::npos);
+}
+
+/// A cell with a tick or a reason, beside what the paper has: nothing for a null.
+Cell cell_of(bool is_filled, const char* published) {
+    Cell cell = is_filled ? word("X") : without("by hand");
+    if (published != nullptr) cell.published = Published{.text = published};
+    return cell;
+}
+
+// A tick counts as more only beside a feature that the paper says it does not have.
+TEST(FeatureCheck, CountsTicksThatThePaperDoesNotHave) {
+    Table table;
+    table.columns = {{"a", "A"}, {"b", "B"}, {"c", "C"}, {"d", "D"}};
+    table.rows.push_back(
+        {"found",
+         {cell_of(true, "X"), cell_of(true, "-"), cell_of(true, nullptr), cell_of(true, nullptr)}});
+    const Check holds = feature_check(table);
+    EXPECT_EQ(holds.verdict, Verdict::holds);
+    EXPECT_EQ(holds.evidence,
+              "4 probes passed, 1 of them for features that the paper does not have");
+    table.rows.push_back(
+        {"missing",
+         {cell_of(false, "X"), cell_of(false, "-"), cell_of(false, nullptr), cell_of(true, "-")}});
+    const Check fails = feature_check(table);
+    EXPECT_EQ(fails.verdict, Verdict::fails);
+    EXPECT_EQ(fails.evidence,
+              "missing, A: by hand; 5 probes passed, 2 of them for features that the paper does "
+              "not have");
 }
 
 }  // namespace
