@@ -91,6 +91,18 @@ TEST(StudyAccuracy, NoPromiseBreaksAndEveryLadderIsClimbed) {
     EXPECT_EQ(studied().set.poses.size(), studied().rigid);
 }
 
+// The rungs of coherence ask two questions; those of any other ladder ask the ladder's.
+TEST(StudyAccuracy, EveryRungSaysWhatIsAskedAndHow) {
+    for (const Ladder& ladder : studied().ladders) {
+        EXPECT_FALSE(ladder.question.empty()) << ladder.name;
+        for (const Rung& rung : ladder.rungs) {
+            EXPECT_FALSE(rung.name.empty()) << ladder.name;
+            EXPECT_FALSE(rung.how.empty()) << ladder.name << ", " << rung.name;
+            EXPECT_EQ(rung.question.empty(), ladder.name != "coherence") << rung.name;
+        }
+    }
+}
+
 // A hull lies in its sphere and box, and pieces in the hull: they err less, or as much.
 TEST(StudyAccuracy, ShapesThatFitBetterErrLess) {
     const Ladder& ladder = studied().ladders[0];
