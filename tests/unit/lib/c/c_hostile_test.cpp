@@ -988,6 +988,20 @@ TEST_F(CHostile, NullsAreRefusedAndNamed) {
     cdprep_pair_init(nullptr, sizeof(cdprep_pair));
 }
 
+// A caller may try the next file with the pointer of the last.
+TEST_F(CHostile, AFailedOpenTakesTheOldModelFromThePointer) {
+    cdprep_error error;
+    auto* const old = reinterpret_cast<cdprep_model*>(&error);
+    const AlignedBytes bytes(64);
+    cdprep_model* model = old;
+    EXPECT_EQ(cdprep_model_open("no such file", nullptr, &model, &error), CDPREP_UNREADABLE);
+    EXPECT_EQ(model, nullptr);
+    model = old;
+    EXPECT_EQ(cdprep_model_open_memory(bytes.span().data(), 5, nullptr, &model, &error),
+              CDPREP_UNREADABLE);
+    EXPECT_EQ(model, nullptr);
+}
+
 struct Nested {
     const cdprep_pair* pair;
     cdprep_workspace* same;
