@@ -29,8 +29,9 @@ std::string name_of(const Section& section) {
 
 std::optional<Error> find_fault(const Section& section) {
     const std::uint32_t element = format::element_size(section.id);
-    if (element == 0)
+    if (element == 0) {
         return bad_argument(name_of(section) + " is not one that this version knows.");
+    }
     if (section.bytes.size() % element == 0) return std::nullopt;
     return bad_argument(name_of(section) + " has " + std::to_string(section.bytes.size()) +
                         " bytes, which is no whole number of elements of " +

@@ -142,9 +142,9 @@ struct Table {
                           static_cast<std::size_t>(entry.count * entry.element_size)));
     }
     void put(std::span<std::byte> image, const format::FileHeader& facts) {
-        constexpr std::array<std::byte, sizeof(format::FileHeader::superblock)> kNoSuperblock{};
+        constexpr std::array<std::byte, sizeof(format::FileHeader::superblock)> kEmptySuperblock{};
         const format::UserBlock block =
-            format::make_user_block(facts, used(), kNoSuperblock, image.size());
+            format::make_user_block(facts, used(), kEmptySuperblock, image.size());
         std::memcpy(image.data(), block.data(), block.size());
     }
 

@@ -15,10 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <new>
 #include <string>
@@ -26,24 +23,25 @@
 
 #include "bullet_manifold.h"
 #include "cdprep/contacts.h"
-#include "import/import_file.h"
-#include "mesh/normalize.h"
-#include "mesh/weld.h"
+#include "mesh/find_bounds.h"
 #include "study/memory_model.h"
-#include "support/shared_models.h"
+#include "support/meshes.h"
+#include "support/seed_mesh.h"
+#include "unit/tools/soup_of.h"
 
 namespace cdprep {
 namespace {
 
-constexpr double kSize = 0.8;         ///< metres: the diagonal of a falling model
-constexpr double kInside = 2.4;       ///< metres: the width of the box
-constexpr double kWall = 0.5;         ///< metres: how thick its floor and walls are
-constexpr double kHeight = 3;         ///< metres: of its walls
-constexpr double kTolerance = 0.015;  ///< metres: a step at 3.6 m/s
+constexpr double kSize = 0.8;        ///< metres: the diagonal of a falling model
+constexpr double kInside = 2.4;      ///< metres: the width of the box
+constexpr double kWall = 0.5;        ///< metres: how thick its floor and walls are
+constexpr double kHeight = 3;        ///< metres: of its walls
+constexpr double kTolerance = 0.01;  ///< metres: a step at 2.4 m/s
 constexpr double kMass = 10;
 constexpr btScalar kFrame = btScalar(1) / 60;
 constexpr int kSubsteps = 4;
 constexpr int kFrames = 600;
+constexpr int kFirstSecond = 60;  ///< frames
 constexpr double kMostSpeed = 2;  ///< m/s after the first second
 constexpr double kAtRest = 0.01;  ///< m/s
 
@@ -138,15 +136,6 @@ struct MakeAlgorithm final : btCollisionAlgorithmCreateFunc {
     }
 };
 
-std::pair<Double3, Double3> corners_of(const mesh::Mesh& mesh) {
-    Double3 lower = mesh.positions[0], upper = lower;
-    for (const Double3& p : mesh.positions) {
-        lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
-        upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
-    }
-    return {lower, upper};
-}
-
 btVector3 bullet(const Double3& p) {
     return {btScalar(p.x), btScalar(p.y), btScalar(p.z)};
 }
@@ -156,54 +145,17 @@ struct Shape {
     study::MemoryModel baked;
     std::unique_ptr<BoundedShape> bounds;
 
-    explicit Shape(const mesh::Mesh& mesh)
-        : baked(study::make_memory_model(mesh, {.pieces = true}).value()) {
-        const auto [lower, upper] = corners_of(mesh);
-        bounds = std::make_unique<BoundedShape>(bullet(lower), bullet(upper));
+    explicit Shape(const test::TestMesh& mesh)
+        : baked(study::make_memory_model(test::mesh_of(mesh), {.pieces = true}).value()) {
+        const format::Bounds box = convex::find_bounds(baked.ordered);
+        bounds = std::make_unique<BoundedShape>(bullet(box.lower), bullet(box.upper));
     }
 };
 
 /// A box about the origin.
-mesh::Mesh box(const Double3& half) {
-    mesh::Mesh mesh;
-    for (std::uint32_t i = 0; i < 8; ++i) {
-        mesh.positions.push_back({(i & 1) != 0 ? half.x : -half.x, (i & 2) != 0 ? half.y : -half.y,
-                                  (i & 4) != 0 ? half.z : -half.z});
-        mesh.source_vertex.push_back(i);
-    }
-    for (const auto& t : {std::array{0U, 2U, 1U},
-                          {1U, 2U, 3U},
-                          {4U, 5U, 6U},
-                          {5U, 7U, 6U},
-                          {0U, 1U, 4U},
-                          {1U, 5U, 4U},
-                          {2U, 6U, 3U},
-                          {3U, 6U, 7U},
-                          {0U, 4U, 2U},
-                          {2U, 4U, 6U},
-                          {1U, 3U, 5U},
-                          {3U, 7U, 5U}}) {
-        mesh.triangles.push_back({t});
-    }
-    return mesh;
-}
-
-/// A seed model about the origin, kSize in diagonal.
-mesh::Mesh load(const std::filesystem::path& file) {
-    auto soup = import::import_file(file);
-    if (!soup) {
-        std::fprintf(stderr, "bullet_pile: %s\n", soup.error().message.c_str());
-        std::exit(3);
-    }
-    mesh::normalize(soup.value());
-    mesh::Mesh mesh = mesh::weld(soup.value()).mesh;
-    const auto [lower, upper] = corners_of(mesh);
-    const double size = std::hypot(upper.x - lower.x, upper.y - lower.y, upper.z - lower.z);
-    for (Double3& p : mesh.positions) {
-        p = {kSize / size * (p.x - (lower.x + upper.x) / 2),
-             kSize / size * (p.y - (lower.y + upper.y) / 2),
-             kSize / size * (p.z - (lower.z + upper.z) / 2)};
-    }
+test::TestMesh box(const Double3& half) {
+    test::TestMesh mesh = test::moved_by(test::unit_cube(), 2, {-1, -1, -1});
+    for (Double3& p : mesh.positions) p = {half.x * p.x, half.y * p.y, half.z * p.z};
     return mesh;
 }
 
@@ -279,18 +231,17 @@ bool drop(const std::string& name, Shape& shape) {
         world.add(along, 0, at(sign * (kInside + kWall) / 2, 0, kHeight / 2));
     }
     std::vector<btRigidBody*> falling;
-    for (int i = 0; i < 5; ++i) {
-        const bool is_last = i == 4;
-        btTransform start = at(is_last        ? 0
-                               : (i & 1) != 0 ? 0.55
-                                              : -0.55,
-                               is_last        ? 0
-                               : (i & 2) != 0 ? 0.55
-                                              : -0.55,
-                               is_last ? 1.1 : 0.6);
-        start.setRotation(
-            btQuaternion(btVector3(1, btScalar(i), 2).normalized(), btScalar(0.7 * i)));
-        falling.push_back(&world.add(shape, kMass, start));
+    constexpr std::array<Double3, 5> kStarts = {{{-0.55, -0.55, 0.6},
+                                                 {0.55, -0.55, 0.6},
+                                                 {-0.55, 0.55, 0.6},
+                                                 {0.55, 0.55, 0.6},
+                                                 {0, 0, 1.1}}};
+    for (std::size_t i = 0; i < kStarts.size(); ++i) {
+        const btVector3 axis(1, btScalar(i), 2);
+        falling.push_back(
+            &world.add(shape, kMass,
+                       btTransform(btQuaternion(axis.normalized(), btScalar(0.7 * double(i))),
+                                   bullet(kStarts[i]))));
     }
     double fastest = 0;
     bool stays = true;
@@ -298,8 +249,8 @@ bool drop(const std::string& name, Shape& shape) {
         world.step();
         for (const btRigidBody* body : falling) {
             stays = stays && is_inside(*body);
-            if (frame >= 60)
-                fastest = std::max(fastest, double{body->getLinearVelocity().length()});
+            if (frame < kFirstSecond) continue;
+            fastest = std::max(fastest, double{body->getLinearVelocity().length()});
         }
     }
     std::printf("five of %s: %s, at most %.3g m/s after 1 s", name.c_str(),
@@ -317,16 +268,17 @@ bool drop(const std::string& name, Shape& shape) {
 }  // namespace cdprep
 
 int main(int count, char** arguments) {
-    const auto folder = cdprep::test::shared_models("seed");
-    if (!folder) {
-        std::printf("skipped: no test models beside the checkout (set CDPREP_SHARED)\n");
-        return 77;
-    }
     std::vector<std::string> names(arguments + 1, arguments + count);
     if (names.empty()) names = {"horse", "bunny"};
     bool passes = true;
     for (const std::string& name : names) {
-        cdprep::Shape shape(cdprep::load(*folder / "seed" / (name + ".ply")));
+        const auto mesh = cdprep::test::seed_mesh(name);
+        if (!mesh) {
+            std::printf("skipped: no model %s beside the checkout (set CDPREP_SHARED)\n",
+                        name.c_str());
+            return 77;
+        }
+        cdprep::Shape shape(cdprep::test::moved_by(*mesh, cdprep::kSize, {0, 0, 0}));
         passes = cdprep::drop(name, shape) && passes;
     }
     return passes ? 0 : 1;
