@@ -76,9 +76,10 @@ std::string approximate_text(const ApproximateReport& report) {
             std::to_string(result.proof.outside) + " corners outside their hulls\n";
     text += "  at most " + counted(most_vertices(result), "vertex", "vertices") + " a piece\n";
     if (!report.to_surface && report.open_components > 0) {
-        text += "  " + counted(report.open_components, "component", "components") +
-                " are not closed and count as surfaces; if they are meant to be solid, close them "
-                "first with repair --preset closed\n";
+        text += "  " +
+                counted(report.open_components, "component is not closed and counts as a surface",
+                        "components are not closed and count as surfaces") +
+                "; to count as solid, close with repair --preset closed first\n";
     }
     if (result.ran_out_of_work)
         text += "  the search budget ended early: a larger --work can give a tighter result\n";

@@ -8,7 +8,7 @@ namespace {
 
 // Components that are not closed are news only where the error refers to the solid.
 TEST(ApproximateText, NamesOpenComponentsOfASolid) {
-    const std::string sentence = "1 component are not closed and count as surfaces";
+    const std::string sentence = "1 component is not closed and counts as a surface;";
     for (const bool to_surface : {false, true}) {
         for (const std::size_t open : {0U, 1U}) {
             ApproximateReport report;
