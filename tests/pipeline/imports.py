@@ -7,11 +7,17 @@ Usage: imports.py CDPREP
 """
 import json
 import pathlib
+import re
 import sys
 import tempfile
 import zipfile
 
 from shared_models import bake, must, run, shared_models_if_there
+
+try:
+    import h5py
+except ImportError:
+    h5py = None
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 PRODUCTION = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
@@ -109,6 +115,54 @@ def packages_of_3mf(program, folder):
         refused(program, folder / "cut.3mf", "cut.3mf")
 
 
+def corners_of_3mf(program, folder, root):
+    """Of a 3MF file: each triangle's corners in source order, nodes, and metres per unit."""
+    package(folder / "b.3mf", root)
+    bake(program, folder / "b.3mf", "-o", folder / "b.cdp.h5")
+    with h5py.File(folder / "b.cdp.h5") as file:
+        data = file["cdprep"]
+        stored = data["positions_f64" if "positions_f64" in data else "positions_f32"][:].tolist()
+        corners = zip(data["source_triangle"][:], data["triangles"][:])
+        found = [[stored[v] for v in triangle] for _, triangle in sorted(corners, key=lambda c: c[0])]
+        nodes = bytes(data["instance_names"][:]).decode().split("\0")[:-1]
+    first = [triangle.index(min(triangle)) for triangle in found]
+    return ([triangle[k:] + triangle[:k] for triangle, k in zip(found, first)], nodes,
+            info(program, folder / "b.cdp.h5")["metres_per_unit"])
+
+
+def corners_of_3mf_files(program, folder):
+    """Every number of a transform, every unit, and elements with a prefix."""
+    transform = "1 2 3 4 5 7 6 8 9 10 11 12"
+    root = placed(f'<item objectid="1" transform="{transform}"/>').replace("1.000000000001", "1")
+    found, nodes, _ = corners_of_3mf(program, folder, root)
+    must(found[0] == [[10, 11, 12], [11, 13, 15], [18, 21, 26]], f"rows of a transform: {found}")
+    must(nodes == ["build/leaf"], f"names: {nodes}")
+    for unit, metres in (("micron", 1e-6), ("millimeter", 1e-3), ("centimeter", 1e-2),
+                         ("foot", 0.3048), ("meter", 1), ("", 1e-3)):
+        said = corners_of_3mf(program, folder, root.replace('unit="inch"', f'unit="{unit}"'))[2]
+        must(said == metres, f"{unit}: {said}")
+    prefixed = root.replace(f'xmlns="{CORE}"', f'xmlns:m="{CORE}"')
+    prefixed = re.sub(r"<(/?)(?!\?)(\w)", r"<\1m:\2", prefixed)
+    must(corners_of_3mf(program, folder, prefixed)[0] == found, "elements with a prefix")
+    twice = placed('<item objectid="1"/><item objectid="1" transform="-1 0 0 0 1 0 0 0 1 0 0 0"/>')
+    both = corners_of_3mf(program, folder, twice.replace("1.000000000001", "1"))[0]
+    must(both[2] == [[-1, 0, 0], [0, 0, 0], [0, 2, 0]], f"a mirrored item is turned: {both}")
+
+
+def wrong_numbers_of_3mf(program, folder):
+    plain = placed('<item objectid="1"/>')
+    for old, new, words in (
+            ('y="2"', 'y="two"', ['y="two"', "not a number"]),
+            ('v2="1"', 'v2="-1"', ['v2="-1"', "not a vertex number"]),
+            ('v2="1"', "", ['v2=""', "not a vertex number"]),
+            ("</mesh>", "<beamlattice/></mesh>", ["beams, which are not read"]),
+            ('unit="inch"', 'unit="yard"', ['"yard"', "not a unit of 3MF"])):
+        package(folder / "bad.3mf", plain.replace(old, new))
+        refused(program, folder / "bad.3mf", *words)
+    package(folder / "bad.3mf", placed('<item objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0 inf"/>'))
+    refused(program, folder / "bad.3mf", "12 finite numbers")
+
+
 def missing_parts(program, folder):
     (folder / "s.lws").write_text("LWSC\n3\n\nLoadObjectLayer 1 gone.lwo\nShowObject 5 7\n\n"
                                   "LoadObjectLayer 1 lost.lwo\nShowObject 5 7\n")
@@ -171,6 +225,11 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         packages_of_3mf(program, folder)
+        if h5py is None:
+            print("skipped: the corners of 3MF files: no h5py")
+        else:
+            corners_of_3mf_files(program, folder)
+        wrong_numbers_of_3mf(program, folder)
         missing_parts(program, folder)
         empty_files(program, folder)
         sources_and_units(program, folder)

@@ -124,6 +124,46 @@ TEST(CApi, ReadsWhatWasFoundWhenAModelWasBaked) {
     EXPECT_EQ(static_cast<const std::uint32_t*>(array.data)[1], UINT32_MAX);
 }
 
+// Written by hand: two nodes, three groups, one material, and no more.
+TEST(CApi, ReadsNamesAndTextsThatThereAre) {
+    const std::array<format::Instance, 2> nodes = {
+        {{.mesh = 0, .name = 1, .first_triangle = 0, .triangle_count = 1},
+         {.mesh = 0, .name = 0, .first_triangle = 1, .triangle_count = 1}}};
+    const auto as_names = [](SectionId id, const std::string& names) {
+        return as_section(id, std::span<const char>(names));
+    };
+    const std::string provenance = R"({"source":"arm"})", findings = "{}";
+    const std::string node_names("arm\0leg\0", 8), groups("a\0\0c\0", 5), material("oak\0", 4);
+    format::FileHeader facts{};
+    facts.triangle_count = 2;
+    const AlignedBytes file = assemble(
+        facts,
+        {as_section(SectionId::instances, std::span<const format::Instance>(nodes)),
+         as_names(SectionId::instance_names, node_names), as_names(SectionId::group_names, groups),
+         as_names(SectionId::material_names, material), as_names(SectionId::provenance, provenance),
+         as_names(SectionId::findings, findings)});
+    const CModel model(file);
+    const auto text = [&](std::uint32_t kind, std::uint32_t number) -> std::string {
+        const char* begin = nullptr;
+        std::size_t length = 0;
+        cdprep_error error{};
+        if (cdprep_model_text(model.get(), kind, number, &begin, &length, &error) == CDPREP_OK) {
+            return {begin, length};
+        }
+        return "refused";
+    };
+    using Texts = std::vector<std::string>;
+    const auto first_four = [&](std::uint32_t kind) {
+        return Texts{text(kind, 0), text(kind, 1), text(kind, 2), text(kind, 3)};
+    };
+    EXPECT_EQ(first_four(CDPREP_INSTANCE_NAME), (Texts{"leg", "arm", "refused", "refused"}));
+    EXPECT_EQ(first_four(CDPREP_GROUP_NAME), (Texts{"a", "", "c", "refused"}));
+    EXPECT_EQ(first_four(CDPREP_MATERIAL_NAME), (Texts{"oak", "refused", "refused", "refused"}));
+    EXPECT_EQ(first_four(CDPREP_PROVENANCE), (Texts{provenance, "refused", "refused", "refused"}));
+    EXPECT_EQ(first_four(CDPREP_FINDINGS), (Texts{findings, "refused", "refused", "refused"}));
+    EXPECT_EQ(text(CDPREP_MATERIAL_NAME + 1, 0), "refused");
+}
+
 /// A thread for every task, as a C program has them; counts the tasks.
 void run_on_threads(void* tasks, std::size_t count, cdprep_task task, const void* work) {
     *static_cast<std::size_t*>(tasks) += count;

@@ -320,6 +320,22 @@ TEST(HullSections, AreTrue) {
     }
 }
 
+// A hull of one point, and a mesh that has another.
+TEST(HullSections, AnotherPointIsOutsideAHullOfOne) {
+    test::TestMesh mesh = test::copies_of_one_triangle(2);
+    for (Double3& p : mesh.positions) p = {1, 2, 3};
+    const HullSections hulls = sections_of(mesh);
+    ASSERT_EQ(hulls.hulls[0].dimension, 0U);
+    mesh.positions.back() = {4, 5, 6};
+    const AlignedBytes file = baked(mesh, hulls);
+    const auto damage = falsehood(mesh, hulls);
+    ASSERT_TRUE(damage);
+    EXPECT_EQ(damage->section, SectionId::hulls);
+    EXPECT_EQ(damage->at, format::find_section(file.span(), SectionId::hulls)->offset);
+    EXPECT_EQ(damage->found, 0U);
+    EXPECT_EQ(damage->limit, 0U);
+}
+
 // Safe to query, but no hull of this mesh.
 TEST(HullSections, WhatIsNoHullIsFalse) {
     const test::TestMesh mesh = test::icosphere(2);
