@@ -153,7 +153,7 @@ ModelArrays arrange_model(std::span<const Double3> positions, std::span<const Tr
         component.vertex = ordered.new_vertex[component.vertex];
     }
     arrays.components = std::move(topology.components);
-    arrays.facts = facts_of(arrays, topology.closed);
+    arrays.facts = facts_of(arrays, topology.balanced);
     return arrays;
 }
 

@@ -105,7 +105,7 @@ Topology find_topology(std::span<const Double3> positions, std::span<const Trian
     const std::vector<std::uint32_t>& number = components.of_vertex;
     Topology topology;
     topology.components.assign(components.count, {0, 0, format::component_balanced, 0, 0});
-    topology.closed = true;
+    topology.balanced = true;
 
     EdgeUses edges = collect_edges(positions.size(), triangles);
     for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
@@ -113,7 +113,7 @@ Topology find_topology(std::span<const Double3> positions, std::span<const Trian
         if (edges_cancel(std::span(edges.use).subspan(first, edges.first[vertex + 1] - first))) {
             continue;
         }
-        topology.closed = false;
+        topology.balanced = false;
         topology.components[number[vertex]].flags = 0;
     }
     for (const Triangle& triangle : triangles) {

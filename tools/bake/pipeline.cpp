@@ -133,7 +133,7 @@ private:
                           [&] {
                               found_.topology = mesh::find_topology(mesh);
                               if (wants(format::SectionId::mass_properties) &&
-                                  found_.topology.closed) {
+                                  found_.topology.balanced) {
                                   found_.mass = convex::find_mass_properties(mesh);
                               }
                           }),
@@ -246,7 +246,7 @@ private:
         format::FileHeader facts{};
         facts.vertex_count = static_cast<std::uint32_t>(arrays_->mesh().positions.size());
         facts.triangle_count = static_cast<std::uint32_t>(arrays_->mesh().triangles.size());
-        if (found_.topology.closed) facts.flags |= format::model_balanced;
+        if (found_.topology.balanced) facts.flags |= format::model_balanced;
         if (bvh.exact_leaves) facts.flags |= format::model_exact_leaves;
         if (options_.normalize) facts.flags |= format::model_normalized;
         facts.flags |= format::swept_flags(bvh.swept_kind);
@@ -267,7 +267,7 @@ private:
         report_.components = arrays_->component_count();
         report_.merged_vertices = welded_.report.merged_vertices;
         report_.degenerate_triangles = arrays_->degenerate_count();
-        report_.closed = found_.topology.closed;
+        report_.closed = found_.topology.balanced;
         report_.repaired = options_.repair;
         report_.promises = report::promise_words(found_.defects.defects.verdicts[0]);
         report_.warnings = count_warnings(found_.defects);

@@ -132,7 +132,7 @@ private:
     [[nodiscard]] Found find_false_flag() const {
         const std::uint32_t flags = model_.header().flags;
         if (Found found = differ(flag_field("balanced"), (flags & format::model_balanced) != 0,
-                                 topology_.closed)) {
+                                 topology_.balanced)) {
             return found;
         }
         const bool normalized = (flags & format::model_normalized) != 0;
@@ -323,7 +323,7 @@ private:
 
     [[nodiscard]] Found find_false_mass() const {
         if (model_.record().mass == nullptr) return std::nullopt;
-        if (!topology_.closed) {
+        if (!topology_.balanced) {
             return FalseFact{"section mass_properties, number of elements", "1",
                              "0, as the mesh is not closed"};
         }

@@ -179,7 +179,7 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     }
     if (options.output.empty()) return report;
     progress.show(0, name + ": write");
-    const Result<Done> written = write_pieces(mesh, topology.closed, options, report);
+    const Result<Done> written = write_pieces(mesh, topology.balanced, options, report);
     if (!written) return written.error();
     return report;
 }

@@ -44,7 +44,7 @@ struct Topology {
     /// The components, in the order of their lowest triangle.
     std::vector<format::Component> components;
     /// The surface is balanced: the directed uses of every edge cancel, so winding numbers exist.
-    bool closed = false;
+    bool balanced = false;
 };
 
 /// Finds the connected components: triangles that share a vertex. Finds whether each is balanced:

@@ -25,7 +25,7 @@ bool is_closed(const format::Component& component) {
 
 TEST(Topology, ACubeIsOneClosedComponentOfVolumeOne) {
     const Topology topology = topology_of(test::unit_cube());
-    EXPECT_TRUE(topology.closed);
+    EXPECT_TRUE(topology.balanced);
     ASSERT_EQ(topology.components.size(), 1U);
     EXPECT_TRUE(is_closed(topology.components[0]));
     EXPECT_EQ(topology.components[0].triangle_count, 12U);
@@ -35,13 +35,13 @@ TEST(Topology, ACubeIsOneClosedComponentOfVolumeOne) {
 
 TEST(Topology, AnInvertedCubeHasNegativeVolume) {
     const Topology topology = topology_of(test::reversed(test::unit_cube()));
-    EXPECT_TRUE(topology.closed);
+    EXPECT_TRUE(topology.balanced);
     EXPECT_EQ(topology.components[0].signed_volume, -1.0);
 }
 
 TEST(Topology, ASheetIsOpenAndHasNoVolume) {
     const Topology topology = topology_of(test::grid_sheet(3, 2));
-    EXPECT_FALSE(topology.closed);
+    EXPECT_FALSE(topology.balanced);
     ASSERT_EQ(topology.components.size(), 1U);
     EXPECT_FALSE(is_closed(topology.components[0]));
     EXPECT_EQ(topology.components[0].signed_volume, 0.0);
@@ -52,7 +52,7 @@ TEST(Topology, OneTriangleLessOpensOnlyItsComponent) {
         test::joined(test::unit_cube(), test::moved_by(test::unit_cube(), 2, {10, 0, 0}));
     mesh.triangles.erase(mesh.triangles.begin());
     const Topology topology = topology_of(mesh);
-    EXPECT_FALSE(topology.closed);
+    EXPECT_FALSE(topology.balanced);
     ASSERT_EQ(topology.components.size(), 2U);
     EXPECT_FALSE(is_closed(topology.components[0]));
     EXPECT_EQ(topology.components[0].triangle_count, 11U);
@@ -63,7 +63,7 @@ TEST(Topology, OneTriangleLessOpensOnlyItsComponent) {
 TEST(Topology, OneTurnedTriangleOpensTheCube) {
     test::TestMesh mesh = test::unit_cube();
     std::swap(mesh.triangles[5].vertex[0], mesh.triangles[5].vertex[1]);
-    EXPECT_FALSE(topology_of(mesh).closed);
+    EXPECT_FALSE(topology_of(mesh).balanced);
 }
 
 // The uses cancel, four at the shared edge: winding numbers are defined.
@@ -71,7 +71,7 @@ TEST(Topology, CubesThatShareAnEdgeAreOneClosedComponent) {
     const Welded welded = weld(test::soup_of(
         test::joined(test::unit_cube(), test::moved_by(test::unit_cube(), 1, {1, 1, 0}))));
     const Topology topology = find_topology(welded.mesh);
-    EXPECT_TRUE(topology.closed);
+    EXPECT_TRUE(topology.balanced);
     ASSERT_EQ(topology.components.size(), 1U);
     EXPECT_EQ(topology.components[0].signed_volume, 2.0);
 }
@@ -100,21 +100,21 @@ TEST(Topology, CornersThatRepeatAddNothing) {
     mesh.triangles.push_back({{0, 0, 0}});
     mesh.triangles.push_back({{1, 1, 2}});
     const Topology topology = topology_of(mesh);
-    EXPECT_TRUE(topology.closed);
+    EXPECT_TRUE(topology.balanced);
     EXPECT_EQ(topology.components[0].triangle_count, 14U);
     EXPECT_EQ(topology.components[0].signed_volume, 1.0);
 }
 
 TEST(Topology, AMeshWithoutTrianglesIsClosed) {
     const Topology topology = find_topology({});
-    EXPECT_TRUE(topology.closed);
+    EXPECT_TRUE(topology.balanced);
     EXPECT_TRUE(topology.components.empty());
 }
 
 TEST(Topology, VolumesBeyondTheLargestDoubleAreCutToIt) {
     const Topology topology =
         topology_of(test::moved_by(test::unit_cube(), std::ldexp(1.0, 900), {0, 0, 0}));
-    EXPECT_TRUE(topology.closed);
+    EXPECT_TRUE(topology.balanced);
     EXPECT_TRUE(std::isfinite(topology.components[0].signed_volume));
 }
 
@@ -191,7 +191,7 @@ TEST(TopologyLaws, RandomMeshesAgreeWithSpreadingAndCounting) {
             (is_closed(found) ? closed : open) += 1;
             all_closed = all_closed && is_closed(found);
         }
-        EXPECT_EQ(topology.closed, all_closed) << "seed " << seed;
+        EXPECT_EQ(topology.balanced, all_closed) << "seed " << seed;
     }
     EXPECT_GT(closed, (closed + open) / 5);
     EXPECT_GT(open, (closed + open) / 5);
