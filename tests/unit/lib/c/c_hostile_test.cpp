@@ -445,6 +445,18 @@ TEST_F(CHostile, ListsOfRaysAreReadLast) {
 }
 
 // The names are those of the parameters in the headers.
+TEST_F(CHostile, TheGreatestToleranceOfAPoseIsInclusive) {
+    const std::array<double, 16> identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    cdprep_pose pose;
+    cdprep_error error;
+    EXPECT_EQ(cdprep_pose_nearest(identity.data(), CDPREP_ROWS, 0.25, &pose, &error), CDPREP_OK);
+    EXPECT_EQ(
+        cdprep_pose_nearest(identity.data(), CDPREP_ROWS, std::nextafter(0.25, 1), &pose, &error),
+        CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "tolerance");
+    EXPECT_EQ(error.why, CDPREP_WHY_OUT_OF_RANGE);
+}
+
 TEST_F(CHostile, RefusalsNameTheParameter) {
     const cdprep_ray_query query = detail::rays_of({model_.get(), nullptr, 0, nullptr});
     cdprep_error error;

@@ -356,6 +356,7 @@ TEST(FindDefects, ShapesAreJudgedAtAnyScale) {
         EXPECT_DOUBLE_EQ(finding_of(report, Rule::sliver).places[0].measure, 0x1p-44);
     }
     EXPECT_EQ(report_of(mesh, {.sliver_ratio = 0x1p-45}).counts.sliver_triangles, 0U);
+    EXPECT_EQ(report_of(mesh, {.sliver_ratio = 0x1p-44}).counts.sliver_triangles, 0U);
     EXPECT_EQ(report_of(mesh, {.sliver_ratio = 1}).counts.sliver_triangles, 2U);
 }
 
