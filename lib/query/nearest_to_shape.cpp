@@ -6,7 +6,7 @@
 
 #include "core/triangle_facts.h"
 #include "exact/triangle_distance.h"
-#include "query/shape_gap.h"
+#include "walk/shape_gap.h"
 #include "walk/walk_ordered.h"
 
 namespace cdprep {

@@ -8,7 +8,7 @@
 #include "exact/triangle_box.h"
 #include "query/find_touching.h"
 #include "query/nearest_to_shape.h"
-#include "query/shape_frame.h"
+#include "walk/shape_frame.h"
 
 namespace cdprep {
 namespace {

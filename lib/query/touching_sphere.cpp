@@ -4,7 +4,7 @@
 
 #include "exact/exact_within.h"
 #include "query/find_touching.h"
-#include "query/shape_frame.h"
+#include "walk/shape_frame.h"
 
 namespace cdprep {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/numbers.h"
-#include "query/shape_frame.h"
+#include "walk/shape_frame.h"
 
 namespace cdprep {
 
