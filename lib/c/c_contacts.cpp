@@ -28,7 +28,8 @@ static_assert(CDPREP_VERTEX == static_cast<int>(FeatureKind::vertex) &&
               CDPREP_FACE == static_cast<int>(FeatureKind::face));
 static_assert(CDPREP_CONTACT_OVERLAP == static_cast<int>(contact_overlap) &&
               CDPREP_CONTACT_INTERNAL_EDGE == static_cast<int>(contact_internal_edge) &&
-              CDPREP_CONTACT_FROM_BEHIND == static_cast<int>(contact_from_behind));
+              CDPREP_CONTACT_FROM_BEHIND == static_cast<int>(contact_from_behind) &&
+              CDPREP_CONTACT_DEEP == static_cast<int>(contact_deep));
 
 constexpr std::uint32_t kManifold = kMostManifoldPoints;
 static_assert(sizeof(cdprep_contact::points) / sizeof(cdprep_contact_point) == kManifold);

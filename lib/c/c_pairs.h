@@ -60,7 +60,8 @@ inline constexpr PairQuestion kDistance = {Ask::distance, uses_body, kBvhOrPiece
 inline constexpr PairQuestion kWithin = {Ask::within, 0, kBvhOrPieces};
 inline constexpr PairQuestion kPairsWithin = {Ask::within, uses_degenerate, kBvhOrPieces};
 inline constexpr PairQuestion kPairsWithinVisit = {Ask::within, uses_degenerate, kBvhAlone};
-inline constexpr PairQuestion kContacts = {Ask::contacts, uses_degenerate, kBvhOrPieces};
+inline constexpr PairQuestion kContacts = {Ask::contacts, uses_body | uses_degenerate,
+                                           kBvhOrPieces};
 
 /// A pair whose every field was checked, as C++ types.
 struct AskedPair {

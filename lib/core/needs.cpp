@@ -66,7 +66,7 @@ constexpr std::array<Needs, 19> kNeeds = {{
     {Ask::contacts, "contacts", "--effects contacts",
      with(with(with(kPair, kNumbered), {SectionId::source_vertex, SectionId::triangles}),
           with(with(kPieces, kPieceHulls), kContacts)),
-     Vertices::positions, with(with(kGeometry, kTighter), kSource)},
+     Vertices::positions, with(with(with(kGeometry, kTighter), kSource), kHulls)},
     {Ask::response,
      "response",
      "--effects response",

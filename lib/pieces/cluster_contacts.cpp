@@ -47,13 +47,13 @@ private:
             for (std::size_t i = first + 1; i < contacts_.size(); ++i) {
                 const Contact& other = contacts_[i];
                 const bool share = other.piece_a == near.piece_a || other.piece_b == near.piece_b;
-                if (is_taken_[i] || !share || is_behind(other) != is_behind(near)) continue;
+                if (is_taken_[i] || !share || kind(other) != kind(near)) continue;
                 if (dot(other.normal, contacts_[first].normal) >= least_) take(i);
             }
         }
     }
-    static bool is_behind(const Contact& contact) noexcept {
-        return (contact.flags & contact_from_behind) != 0;
+    static std::uint32_t kind(const Contact& contact) noexcept {
+        return contact.flags & (contact_from_behind | contact_deep);
     }
     void take(std::size_t i) noexcept {
         is_taken_[i] = true;

@@ -5,12 +5,14 @@
 #include <cassert>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 #include "cdprep/format/float_environment.h"
 #include "core/require.h"
 #include "pieces/cluster_contacts.h"
 #include "pieces/contact_choice.h"
 #include "pieces/contact_steps.h"
+#include "pieces/deep_contact.h"
 #include "pieces/list_contacts.h"
 #include "walk/contact_pairs.h"
 #include "walk/near_triangles.h"
@@ -92,12 +94,15 @@ public:
     template <class Found>
     bool run(Found&& found) noexcept {
         Contacts contacts(*this, options_.manifold);
-        return each_page(
-            [&](const NearPieces& near) { return begin_contact() && found(contacts.of(near)); });
+        return each_page([&](const NearPieces& near) {
+                   return begin_contact() && found(contacts.of(near));
+               }) &&
+               each_deep(found);
     }
-    /// Counts the pairs of pieces within the tolerance.
+    /// Counts the pairs of pieces within the tolerance, and the enclosed components.
     void count() noexcept {
         each_page([](const NearPieces&) { return true; });
+        each_enclosed([](const Enclosed&) { return true; });
     }
 
     /// Finds the contacts of a list with a limit, with their manifolds. Valid until the next query.
@@ -122,14 +127,16 @@ public:
             return candidate.is_exact = true;
         };
         const std::size_t most = std::min(options_.most, kMostListedContacts);
-        std::size_t count = 0;
-        for (const ContactCandidate& chosen : choice.choose(most, compute)) {
+        const std::size_t deep = list_deep(std::span(storage.listed_contacts).first(most));
+        std::size_t count = deep;
+        for (const ContactCandidate& chosen : choice.choose(most - deep, compute)) {
             storage.listed_contacts[count++] = chosen.slot == kNoSlot
                                                    ? contacts.of(chosen.near)
                                                    : storage.computed_contacts[chosen.slot];
         }
         verdict_.complete = verdict_.searched && count == verdict_.found;
         const auto listed = std::span(storage.listed_contacts).first(count);
+        if (deep > 0) std::sort(listed.begin(), listed.end(), is_deeper);
         if (!(options_.cluster_angle > 0)) return listed;
         return listed.first(cluster_contacts(listed, options_.cluster_angle));
     }
@@ -139,6 +146,42 @@ public:
     }
 
 private:
+    static bool is_deeper(const Contact& x, const Contact& y) noexcept {
+        return std::tie(x.upper, x.piece_a, x.piece_b) < std::tie(y.upper, y.piece_a, y.piece_b);
+    }
+
+    /// Calls visit(enclosed) for each component of one solid that is inside the other.
+    template <class Visit>
+    bool each_enclosed(Visit&& visit) noexcept {
+        if (pair_.options.body != Body::solid) return true;
+        return visit_enclosed(pair_, workspace_, [&](const Enclosed& enclosed) {
+            ++verdict_.found;
+            return visit(enclosed);
+        });
+    }
+    /// Calls found(contact) for each of them until it returns false or the work is done.
+    template <class Found>
+    bool each_deep(Found&& found) noexcept {
+        return each_enclosed([&](const Enclosed& enclosed) {
+            return begin_contact() &&
+                   found(deep_contact(pair_, enclosed, options_.manifold, workspace_.storage()));
+        });
+    }
+    /// Stores the deepest contacts of enclosed components. Returns their number.
+    [[nodiscard]] std::size_t list_deep(std::span<Contact> room) noexcept {
+        std::size_t count = 0;
+        each_deep([&](const Contact& contact) {
+            if (count < room.size()) {
+                room[count++] = contact;
+            } else if (const auto last = std::max_element(room.begin(), room.end(), is_deeper);
+                       is_deeper(contact, *last)) {
+                *last = contact;
+            }
+            return true;
+        });
+        return count;
+    }
+
     /// Calls visit(near) for each pair of pieces in order until it returns false. Returns false if
     /// it did, or if the search ran out of work.
     template <class Visit>
@@ -231,6 +274,11 @@ private:
     ContactsVerdict verdict_{0, 0, 0, 0, true, false};
 };
 
+Ask asks_of(const Pair& pair) noexcept {
+    const Ask body = pair.options.body == Body::solid ? Ask::solid : Ask::nothing;
+    return Ask::contacts | body | ask_of(pair.options.through);
+}
+
 }  // namespace
 
 ListedContacts list_contacts(const Pair& pair, Workspace& workspace,
@@ -244,7 +292,7 @@ ListedContacts list_contacts(const Pair& pair, Workspace& workspace,
 ContactsVerdict contacts(const Pair& pair, Workspace& workspace, std::span<Contact> room,
                          const ContactOptions& options) noexcept {
     const format::FloatEnvironment environment;
-    require(pair.a, pair.b, Ask::contacts | ask_of(pair.options.through));
+    require(pair.a, pair.b, asks_of(pair));
     if (options.most > 0) {
         auto [listed, verdict] = list_contacts(pair, workspace, options);
         verdict.count = std::min(listed.size(), room.size());
@@ -270,7 +318,7 @@ ContactsVerdict contacts(const Pair& pair, Workspace& workspace, std::span<Conta
 bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options) noexcept {
     format::FloatEnvironment environment;
-    require(pair.a, pair.b, Ask::contacts | ask_of(pair.options.through));
+    require(pair.a, pair.b, asks_of(pair));
     ContactSearch search(pair, workspace, options);
     return search.run([&](const Contact& contact) {
         return environment.outside([&] { return visit(contact); });

@@ -24,6 +24,7 @@ struct ContactArguments {
     std::filesystem::path b;
     PlacementWords placement;
     StructureWords structure;
+    std::string as = "surface";
     double tolerance = 0;
     bool manifold = false;
     std::uint32_t most = 0;
@@ -56,9 +57,11 @@ Exit run(const ContactArguments& arguments) {
         parse_structure(arguments.structure, "contacts", kServing);
     if (!options) return fail("query", options.error());
     const Structure through = options.value().structure;
-    const Result<Model> a = open_for(arguments.a, Ask::contacts, through);
+    const Body body = parse_body(arguments.as);
+    const Ask asks = body == Body::solid ? Ask::contacts | Ask::solid : Ask::contacts;
+    const Result<Model> a = open_for(arguments.a, asks, through);
     if (!a) return fail("query", a.error());
-    const Result<Model> b = open_for(arguments.b, Ask::contacts, through);
+    const Result<Model> b = open_for(arguments.b, asks, through);
     if (!b) return fail("query", b.error());
     const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
     if (!placements) return fail("query", placements.error());
@@ -70,7 +73,7 @@ Exit run(const ContactArguments& arguments) {
         const Pair pair = {a.value(),
                            b.value(),
                            placements.value()[i],
-                           {.degenerate = degenerate, .through = through}};
+                           {.body = body, .degenerate = degenerate, .through = through}};
         ContactsVerdict verdict{};
         const std::vector<Contact> found =
             find_contacts(pair, options_of(arguments), workspace, verdict);
@@ -87,16 +90,17 @@ void add_contacts(const Command& query, Exit& exit) {
     const Command command =
         query.add_command("contacts", "Compute contact points, normals and depths of two models");
     command.set_notes(
-        "Each line of ndjson is a pose: 'found' pairs of pieces within the tolerance, 'computed' "
-        "contacts, 'searched' and 'complete', which a limit makes false, and 'contacts'. A contact "
-        "has 'id', the same as long as its two pieces touch; 'normal', of length 1, from A to B; "
-        "'lower' and 'upper', bounds of the distance, negative where the pieces overlap: moving B "
-        "by "
-        "-lower along the normal separates them; features of both models in numbers of the "
-        "imported "
-        "files; 'members', the contacts joined in it; and with --manifold its 'points', the "
-        "deepest "
-        "first.",
+        "Each line of ndjson is a pose. 'found' counts pairs of pieces within the tolerance, and "
+        "'computed' contacts. A limit makes 'searched' and 'complete' false. Of 'contacts', each "
+        "has "
+        "an 'id', which stays the same as long as its two pieces touch. 'normal', of length 1, "
+        "points from A to B. 'lower' and 'upper' are bounds of the distance, negative where the "
+        "pieces overlap: moving B by -lower along the normal separates them. Features of both "
+        "models are in numbers of the imported files. 'members' counts the contacts joined in it. "
+        "With --manifold, 'points' begin with the deepest. With --as solid, a component that is "
+        "inside the other model makes a contact with 'deep' true: moving B by -lower along the "
+        "normal frees it. Its way out is shorter where the file has parts (bake --structures hull "
+        "--parts).",
         {"cdprep query contacts arm.cdp.h5 part.cdp.h5 --poses poses.txt --tolerance 0.01",
          "cdprep query contacts a.cdp.h5 b.cdp.h5 --tolerance 0.01 --most 16 --cluster-deg 15"});
     command.add_option("a", arguments->a, "A file baked with --effects contacts").required();

@@ -116,7 +116,7 @@ public:
           a_(a),
           b_(b),
           errors_(arguments.errors) {
-        options_.body = arguments.as == "solid" ? Body::solid : Body::surface;
+        options_.body = parse_body(arguments.as);
         options_.overlap = arguments.contact == "proper" ? Overlap::proper : Overlap::closed;
         options_.degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
         options_.through = through.structure;
@@ -484,17 +484,8 @@ Exit run(const PairArguments& arguments) {
     return Exit::success;
 }
 
-void add_as(const Command& command, PairArguments& arguments) {
-    command
-        .add_option("--as", arguments.as, "Meaning of a model: its triangles, or also the inside")
-        .type_name("BODY")
-        .check(one_of({"surface", "solid"}))
-        .show_default()
-        .group("Query");
-}
-
 void add_contact_options(const Command& command, PairArguments& arguments) {
-    add_as(command, arguments);
+    add_body(command, arguments.as);
     command
         .add_option("--contact", arguments.contact,
                     "Meaning of overlap. closed: touching counts; proper: crossing or shared area")
@@ -540,7 +531,7 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
         .check(zero_or_more())
         .show_default()
         .group("Query");
-    add_as(command, arguments);
+    add_body(command, arguments.as);
     command
         .add_option("--max-distance", arguments.errors.max_distance,
                     "Stop at this distance, in model units; larger ones are not reported")

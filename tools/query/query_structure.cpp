@@ -46,6 +46,18 @@ std::optional<Error> find_idle_option(const StructureWords& words, Structure str
 
 }  // namespace
 
+void add_body(const Command& command, std::string& word) {
+    command.add_option("--as", word, "Meaning of a model: its triangles, or also the inside")
+        .type_name("BODY")
+        .check(one_of({"surface", "solid"}))
+        .show_default()
+        .group("Query");
+}
+
+Body parse_body(const std::string& word) noexcept {
+    return word == "solid" ? Body::solid : Body::surface;
+}
+
 Result<StructureOptions> parse_structure(const StructureWords& words, const char* question,
                                          std::span<const Structure> serving) {
     const Result<Structure> structure = find_structure(words.structure, question, serving);

@@ -6,6 +6,7 @@
 
 #include "cdprep/advanced/structure.h"
 #include "cdprep/cells/overlap_through.h"
+#include "cdprep/pairs.h"
 #include "cdprep/result.h"
 #include "cli/command.h"
 
@@ -23,6 +24,12 @@ struct StructureWords {
 /// about two models.
 void add_structure(const Command& command, StructureWords& words, const char* description);
 void add_structure_steps(const Command& command, StructureWords& words);
+
+/// Adds --as, the meaning of a model: "surface" or "solid".
+void add_body(const Command& command, std::string& word);
+
+/// Returns the body that a word of --as names.
+[[nodiscard]] Body parse_body(const std::string& word) noexcept;
 
 /// Returns the structure and its options. Fails with bad_argument if the structure does not serve
 /// the query, or if an option does not apply to the structure. `question` is the query's name in

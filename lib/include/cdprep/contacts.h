@@ -25,9 +25,9 @@ struct ManifoldPoint {
     Double3 on_a;
     Double3 on_b;
     double distance;  ///< from on_a to on_b along the normal, rounded; negative: overlap
-    /// The same for the same point of the same contact after a small motion: made of the source
-    /// numbers of the vertex, or of the two edges that cross there. 0 for the only point of a
-    /// contact. In a cluster it tells its members apart as well.
+    /// Stays the same for the same point of the same contact after a small motion. It is made of the
+    /// source numbers of the vertex, or of the two edges that cross there. 0 for the only point of
+    /// a contact. In a cluster it tells its members apart as well.
     std::uint64_t id;
 };
 
@@ -37,13 +37,14 @@ enum ContactFlags : std::uint32_t {
     /// triangles touch (format/pieces.h). The distance is 0 or negative: minus the length of the
     /// shortest translation that separates the hulls.
     contact_overlap = 1,
-    /// The direction between the nearest points, or the shortest separating translation, would lean
-    /// over a flat or reflex edge, where the surface continues, or lead through a part of the hull
-    /// that no triangle covers. The normal is that of a face instead.
+    /// The normal is that of a face, because the shortest way would snag: see contacts().
     contact_internal_edge = 2,
     /// The pieces do not overlap, but one lies behind the other's triangles, inside the solid.
     /// Ignore this contact in a solver; other piece pairs give the separating direction.
     contact_from_behind = 4,
+    /// A component of one model lies inside the other, with no surface near: see contacts(). The
+    /// points are on the hulls that were separated.
+    contact_deep = 8,
 };
 
 inline constexpr std::size_t kMostManifoldPoints = 4;
@@ -53,9 +54,9 @@ inline constexpr std::size_t kMostManifoldPoints = 4;
 struct Contact {
     std::uint32_t piece_a;  ///< an index into Model::pieces().pieces
     std::uint32_t piece_b;
-    /// The same as long as the two pieces are in contact, whatever moves: the source number of a
-    /// triangle of A's piece in the high 32 bits, and of B's in the low ones. A cluster has the
-    /// smallest of its members.
+    /// Stays the same as long as the two pieces are in contact, whatever moves. The high 32 bits are
+    /// the source number of a triangle of A's piece, the low ones of B's. With contact_deep, the
+    /// half of the enclosing model is 2^32 - 1. A cluster has the smallest id of its members.
     std::uint64_t id;
     ContactFeature feature_a;
     ContactFeature feature_b;
@@ -98,7 +99,8 @@ inline constexpr std::uint64_t kWorkOfContact = 32;
 /// The extent of a list of contacts, and what limits left out.
 struct ContactsVerdict {
     std::size_t count;       ///< contacts stored in `room`
-    std::uint64_t found;     ///< pairs of pieces within the tolerance, as far as was searched
+    std::uint64_t found;     ///< pairs of pieces within the tolerance, as far as was searched, and
+                             ///< enclosed components
     std::uint64_t computed;  ///< those of them whose contact was computed
     std::uint64_t work;      ///< as ContactOptions::work counts it
     bool searched;           ///< the whole surface was searched: `work` ended nothing
@@ -109,7 +111,8 @@ struct ContactsVerdict {
 /// options.tolerance apart, exactly as pairs_within() decides. A negative tolerance or NaN gives no
 /// contacts.
 ///
-/// Without options.most, stores the first contacts in `room`, in the order of (piece_a, piece_b).
+/// Without options.most, stores the first contacts in `room`, in the order of (piece_a, piece_b),
+/// and then those of enclosed components.
 /// With an empty span it only counts them (`found`). With options.most, stores at most so many, the
 /// deepest first (by `upper`, then by pieces). If there are more, every second contact is the
 /// deepest that is left, and the others are those farthest from all that were taken. Then only
@@ -125,34 +128,44 @@ struct ContactsVerdict {
 ///     apart             shallow                 at an edge inside a surface
 ///
 /// If two pieces are apart, their contact has the nearest features of the mesh. The interval of the
-/// distance is no wider than that of convex_distance(). If their hulls overlap, and both are
-/// contained or their triangles touch, the normal is the shortest way out that does not snag: among
-/// the normals of both hulls' faces and the directions across two of their edges. A piece is
-/// contained if its hull lies within the solid. For other overlapping hulls, the contact has the
+/// distance is no wider than that of convex_distance(). Pieces overlap if their hulls do, and both
+/// are contained or their triangles touch. Then the normal is the shortest way out that does not
+/// snag. The candidates are the normals of both hulls' faces and the directions across two of their
+/// edges. A piece is contained if its hull lies within the solid. For other overlapping hulls, the contact has the
 /// distance of the triangles. If triangles do not cover a face of a hull, the triangles decide. If
 /// several pairs of points are nearest, as between parallel faces, the contact has one of them.
 ///
-/// A way snags if it leans over a flat or reflex edge, where the surface continues, or leads
-/// through a part of the hull that no triangle covers. Then the shortest way that ends at both
-/// surfaces is taken (contact_internal_edge), unless one that leads neither along a plane nor
-/// deeper into a solid is less than half as long. `upper` still tells the shortest way of all. For
-/// shallow contacts away from such edges, `lower` and `upper` are equal up to rounding. Where
-/// bodies overlap by more than the size of a piece, a contact separates its two pieces only, not
-/// the bodies: push by the deepest, and query again. Inside a solid, the inner side of a wall may
-/// be near (contact_from_behind); such a contact should not push.
+/// A way snags if it leans over a flat or reflex edge, where the surface continues. It also snags
+/// if it leads through a part of the hull that no triangle covers. Then the shortest way that ends
+/// at both surfaces is taken (contact_internal_edge). A way that leads neither along a plane nor
+/// deeper into a solid is preferred if it is less than half as long. `upper` still tells the
+/// shortest way of all. For shallow contacts away from such edges, `lower` and `upper` are equal up
+/// to rounding. Bodies may overlap by more than the size of a piece. Then a contact separates its
+/// two pieces only, not the bodies: push by the deepest, and query again. Inside a solid, the inner
+/// side of a wall may be near (contact_from_behind); such a contact should not push.
+///
+/// With Body::solid, a component that is proven to be inside the other model makes a contact of its
+/// own (contact_deep), unless triangles of the two models touch. Its pieces are one of the
+/// component and the nearest of the other model. The way out leads out of hulls that enclose the
+/// other model: its parts (`bake --structures hull --parts`), else its whole hull, else the box
+/// around it. A translation by -lower along `normal` frees the component, and none shorter than
+/// -upper does. -upper is the distance of one of its vertices from the other surface. Such a
+/// contact counts in `found`, and with options.most it is listed before others of no greater depth.
+/// An open model encloses nothing.
 ///
 /// The manifold spans the nearest pairs. Its points are corners of one face, clipped by the other,
 /// and each distance is between the two faces there. The deepest point is first, then those that
 /// span the largest area.
 ///
-/// The answer is the same on every processor. A piece inside another's hull makes no contact if it
-/// is farther than the tolerance from the other's triangles. collide() with Body::solid detects it.
+/// The answer is the same on every processor. With Body::surface, a piece inside another's hull
+/// makes no contact if it is farther than the tolerance from the other's triangles.
 ///
-/// Reads pair.options.degenerate and pair.options.through. The only structure beside the BVH is
+/// Reads the options body, degenerate and through of the pair. The only structure beside the BVH is
 /// Structure::pieces, which is slower (1.7 times for near poses, 1.1 times for others). Needs
-/// Ask::contacts of both models, and options.through its ask_of(). Takes the time of
-/// pairs_within(), plus 5 to 10 microseconds per contact and 1 more with a manifold
-/// (tests/bench/results, contacts.csv). Never allocates.
+/// Ask::contacts of both models; Body::solid also Ask::solid, and options.through its ask_of(). A
+/// deep contact reads hulls if the models serve Ask::hulls. Takes the time of pairs_within(), plus
+/// 5 to 10 microseconds per contact and 1 more with a manifold (tests/bench/results, contacts.csv).
+/// Body::solid adds the time of containment(). Never allocates.
 [[nodiscard]] ContactsVerdict contacts(const Pair& pair, Workspace& workspace,
                                        std::span<Contact> room,
                                        const ContactOptions& options = {}) noexcept;
@@ -160,9 +173,8 @@ struct ContactsVerdict {
 using ContactVisitor = Visitor<Contact>;
 
 /// Calls `visit` with every contact that contacts() finds without options.most and
-/// options.cluster_angle, each once and in the same order. Returns false if `visit` or
-/// options.work ended the search. Needs Ask::contacts of both models, and options.through its
-/// ask_of().
+/// options.cluster_angle, each once and in the same order: by pieces, then those of enclosed
+/// components. Returns false if `visit` or options.work ended the search. Needs the same.
 bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options = {}) noexcept;
 

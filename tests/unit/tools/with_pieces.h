@@ -29,9 +29,9 @@ inline convex::SurfacePieces single_triangles(std::size_t count) {
     return pieces;
 }
 
-/// A model with pieces, the hierarchy over them and what contacts need.
-inline OpenModel open_with_pieces(const TestMesh& test_mesh, PiecesOf kind = PiecesOf::surface,
-                                  const convex::SurfacePieceOptions& options = {}) {
+/// A file with pieces, the hierarchy over them and what contacts need.
+inline AlignedBytes bake_with_pieces(const TestMesh& test_mesh, PiecesOf kind = PiecesOf::surface,
+                                     const convex::SurfacePieceOptions& options = {}) {
     const AlignedBytes bare =
         bake_tiny(test_mesh.positions, test_mesh.triangles, {.double_precision = true});
     const Model model = Model::open(bare.span()).value();
@@ -46,18 +46,23 @@ inline OpenModel open_with_pieces(const TestMesh& test_mesh, PiecesOf kind = Pie
     const format::FileHeader& header = model.header();
     const convex::PieceTree tree = convex::make_piece_tree(
         mesh, pieces, {header.frame_origin, header.frame_exponent}, serial_for);
-    return open_tiny(
-        with_sections(bare, {as_section(SectionId::pieces, std::span(pieces.pieces)),
-                             as_section(SectionId::piece_triangles, std::span(pieces.triangles)),
-                             as_section(SectionId::piece_vertices, std::span(pieces.vertices)),
-                             as_section(SectionId::piece_facets, std::span(pieces.facets)),
-                             as_section(SectionId::piece_nodes, std::span(tree.nodes)),
-                             as_section(SectionId::piece_swept, std::span(tree.swept)),
-                             as_section(SectionId::piece_leaves, std::span(tree.leaves)),
-                             as_section(SectionId::piece_node_hulls, std::span(tree.hulls)),
-                             as_section(SectionId::piece_adjacency, std::span(contacts.adjacency)),
-                             as_section(SectionId::edge_convexity, std::span(contacts.convexity)),
-                             as_section(SectionId::triangle_piece, std::span(contacts.piece_of))}));
+    return with_sections(bare,
+                         {as_section(SectionId::pieces, std::span(pieces.pieces)),
+                          as_section(SectionId::piece_triangles, std::span(pieces.triangles)),
+                          as_section(SectionId::piece_vertices, std::span(pieces.vertices)),
+                          as_section(SectionId::piece_facets, std::span(pieces.facets)),
+                          as_section(SectionId::piece_nodes, std::span(tree.nodes)),
+                          as_section(SectionId::piece_swept, std::span(tree.swept)),
+                          as_section(SectionId::piece_leaves, std::span(tree.leaves)),
+                          as_section(SectionId::piece_node_hulls, std::span(tree.hulls)),
+                          as_section(SectionId::piece_adjacency, std::span(contacts.adjacency)),
+                          as_section(SectionId::edge_convexity, std::span(contacts.convexity)),
+                          as_section(SectionId::triangle_piece, std::span(contacts.piece_of))});
+}
+
+inline OpenModel open_with_pieces(const TestMesh& test_mesh, PiecesOf kind = PiecesOf::surface,
+                                  const convex::SurfacePieceOptions& options = {}) {
+    return open_tiny(bake_with_pieces(test_mesh, kind, options));
 }
 
 }  // namespace cdprep::test

@@ -28,14 +28,17 @@ enum {
     CDPREP_CONTACT_OVERLAP = 1,
     CDPREP_CONTACT_INTERNAL_EDGE = 2, /* near an edge inside a surface: the normal is a face's */
     /* the contact is on the inner side of a surface; ignore it for contact response */
-    CDPREP_CONTACT_FROM_BEHIND = 4
+    CDPREP_CONTACT_FROM_BEHIND = 4,
+    /* a component of one model is inside the other; the points are on hulls: cdprep_contacts() */
+    CDPREP_CONTACT_DEEP = 8
 };
 
 /* A contact of two convex pieces. Points are in the frame into which the models move. */
 typedef struct cdprep_contact {
     uint32_t piece_a, piece_b;
-    /* The same as long as the two pieces are in contact: the source number of a triangle of A's
-     * piece in the high 32 bits, and of B's in the low ones. */
+    /* Stays the same as long as the two pieces are in contact. The high 32 bits are the source
+     * number of a triangle of A's piece, the low ones of B's. With CDPREP_CONTACT_DEEP, the half of
+     * the enclosing model is CDPREP_NONE. */
     uint64_t id;
     cdprep_feature feature_a, feature_b; /* for an edge or face, only vertex[0] is known */
     uint32_t flags;
@@ -81,18 +84,24 @@ CDPREP_API void cdprep_contact_options_init(cdprep_contact_options* options, siz
 /* Finds the contacts of two surfaces: one for each pair of convex pieces with triangles at most
  * `tolerance` apart, exactly as cdprep_pairs_within() decides. The list is sorted by `upper`, the
  * deepest first, then by piece_a and piece_b. If there are more than `most`, every second one is
- * the deepest that is left, and the others are those farthest from all that were taken. `items`
- * get the first ones. `options` may be null.
- * Uses degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
+ * the deepest that is left. The others are those farthest from all that were taken. `items` get the
+ * first ones. `options` may be null.
+ * With CDPREP_SOLID, a component that is proven to be inside the other model makes a contact as
+ * well, unless triangles touch. Moving B by -lower along the normal frees it, and no translation
+ * shorter than -upper does. The way out is that of the other model's parts, else of its whole hull
+ * (CDPREP_ASK_HULLS), else of its box.
+ * Uses body, degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Takes the time of cdprep_pairs_within(), plus 5 to 10 microseconds per contact that is computed.
- * Needs: CDPREP_ASK_CONTACTS */
+ * CDPREP_SOLID adds the time of cdprep_containment().
+ * Needs: CDPREP_ASK_CONTACTS; CDPREP_SOLID: CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_options* options,
                                cdprep_workspace* workspace, cdprep_contact_list* list,
                                cdprep_error* error);
 
-/* Calls `visit` with all contacts in the order of (piece_a, piece_b). `most` and `cluster_angle`
- * have no meaning, because the visitor ends the search.
- * Needs: CDPREP_ASK_CONTACTS */
+/* Calls `visit` with all contacts in the order of (piece_a, piece_b), and then with those of
+ * enclosed components. `most` and `cluster_angle` have no meaning, because the visitor ends the
+ * search.
+ * Needs: as cdprep_contacts() */
 CDPREP_API int cdprep_contacts_visit(const cdprep_pair* pair, const cdprep_contact_options* options,
                                      cdprep_workspace* workspace, cdprep_contact_visitor visit,
                                      void* context, cdprep_error* error);

@@ -219,6 +219,36 @@ TEST(CApi, ContactsOfCubesAreWhereTheyAreMoved) {
     EXPECT_EQ(wrong, nullptr) << wrong;
 }
 
+// By hand: a cube in one of edge 4, 1.5 from the nearest way out, with surfaces far apart.
+TEST(CApi, ACubeInASolidCubeIsPushedOut) {
+    const auto baked = [](const TestMesh& mesh) {
+        return with_contacts(
+            with_one_piece(bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true})));
+    };
+    const AlignedBytes small_file = baked(unit_cube());
+    const AlignedBytes large_file = baked(moved_by(unit_cube(), 4, {0, 0, 0}));
+    const CModel small(small_file), large(large_file);
+    const CWorkspace workspace;
+    cdprep_pair pair;
+    cdprep_pair_init(&pair, sizeof pair);
+    pair.a = large.get();
+    pair.b = small.get();
+    pair.pose_b.rows[9] = 2.5;
+    pair.pose_b.rows[10] = pair.pose_b.rows[11] = 1.5;
+    cdprep_contact contact;
+    cdprep_contact_list list = {&contact, 1, 0, 0, 0, 0, 0, 0};
+    EXPECT_EQ(cdprep_contacts(&pair, nullptr, workspace.get(), &list, nullptr), CDPREP_OK);
+    EXPECT_EQ(list.count, 0u);
+    pair.body = CDPREP_SOLID;
+    EXPECT_EQ(cdprep_contacts(&pair, nullptr, workspace.get(), &list, nullptr), CDPREP_OK);
+    ASSERT_EQ(list.count, 1u);
+    EXPECT_EQ(contact.flags,
+              static_cast<std::uint32_t>(CDPREP_CONTACT_OVERLAP | CDPREP_CONTACT_DEEP));
+    EXPECT_NEAR(contact.normal[0], 1, 1e-12);
+    EXPECT_NEAR(contact.lower, -1.5, 1e-12);
+    EXPECT_EQ(contact.id >> 32, CDPREP_NONE);
+}
+
 TEST(Workspace, MayLiveInTheCallersMemory) {
     const TestMesh cube = unit_cube();
     const AlignedBytes file = bake_tiny(cube.positions, cube.triangles);

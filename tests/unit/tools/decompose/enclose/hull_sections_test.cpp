@@ -22,6 +22,7 @@
 #include "support/open_tiny.h"
 #include "support/reseal.h"
 #include "unit/tools/soup_of.h"
+#include "unit/tools/tiny_hull_sections.h"
 
 namespace cdprep::convex {
 namespace {
@@ -47,16 +48,6 @@ test::TestMesh two_of(test::TestMesh mesh, double apart) {
 
 HullSections sections_of(const test::TestMesh& mesh) {
     return *make_hull_sections(test::mesh_of(mesh), {}, 0, serial_for);
-}
-
-std::vector<test::TinySection> tiny_sections(const HullSections& hulls) {
-    return {as_section(SectionId::hulls, std::span(hulls.hulls)),
-            as_section(SectionId::hull_blocks, std::span(hulls.blocks)),
-            as_section(SectionId::hull_vertices, std::span(hulls.vertices)),
-            as_section(SectionId::hull_facets, std::span(hulls.facets)),
-            as_section(SectionId::hull_groups, std::span(hulls.groups)),
-            as_section(SectionId::hull_neighbours, std::span(hulls.neighbours)),
-            as_section(SectionId::hull_starts, std::span(hulls.starts))};
 }
 
 AlignedBytes baked(const test::TestMesh& mesh, const HullSections& hulls) {
