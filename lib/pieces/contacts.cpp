@@ -2,6 +2,7 @@
 #include "cdprep/contacts.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <limits>
 #include <optional>
@@ -36,14 +37,27 @@ public:
     /// Forgets all, and from now on takes only keys after `last`.
     void begin_after(const std::optional<std::uint64_t>& last) noexcept {
         count_ = 0;
+        recent_.fill(kNone);
         limit_ = kNoLimit;
         least_ = last ? *last + 1 : 0;
     }
     [[nodiscard]] bool takes(std::uint64_t key) const noexcept {
         return key >= least_ && key <= limit_;
     }
-    void add(const NearPieces& near) noexcept {
-        room_[count_++] = near;
+    /// Adds two triangles; touch() tells whether they touch, and may be costly.
+    template <class Touch>
+    void add(std::uint64_t key, std::uint32_t a, std::uint32_t b, Touch&& touch) noexcept {
+        std::uint16_t& recent = recent_[(key * kMixer) >> (64 - kRecentBits)];
+        if (recent != kNone && room_[recent].key == key) {
+            NearPieces& known = room_[recent];
+            const bool is_first = a != known.a ? a < known.a : b < known.b;
+            if (known.touch && !is_first) return;
+            const NearPieces near = {key, a, b, touch()};
+            if (near.touch != known.touch ? near.touch : is_first) known = near;
+            return;
+        }
+        recent = static_cast<std::uint16_t>(count_);
+        room_[count_++] = {key, a, b, touch()};
         if (count_ == room_.size()) reduce(room_.size() / 2);
     }
     /// Returns all that were taken, in order, each once.
@@ -68,13 +82,21 @@ private:
         const auto last = std::unique(
             begin, end, [](const NearPieces& x, const NearPieces& y) { return x.key == y.key; });
         count_ = static_cast<std::size_t>(last - begin);
+        recent_.fill(kNone);
         if (count_ <= most) return;
         count_ = most;
         limit_ = room_[count_ - 1].key;
     }
 
+    static constexpr unsigned kRecentBits = 9;
+    static constexpr std::uint64_t kMixer = 0x9e3779b97f4a7c15U;  ///< 2^64 / the golden ratio
+    static constexpr std::uint16_t kNone = 0xffff;
+    static_assert(kMaxNearPieces < kNone);
+
     std::span<NearPieces> room_;
     std::size_t count_ = 0;
+    /// Places in room_ by a hash of the key: most pairs of triangles are of pieces that are there.
+    std::array<std::uint16_t, std::size_t{1} << kRecentBits> recent_;
     std::uint64_t limit_ = kNoLimit;  ///< greater ones are not taken
     std::uint64_t least_ = 0;
 };
@@ -252,7 +274,9 @@ private:
             if (is_out_of_work((options_.work + 1) / 2)) return false;
             ++verdict_.work;
             const std::uint64_t key = std::uint64_t{piece_a[near.a]} << 32 | piece_b[near.b];
-            if (gathered_.takes(key)) gathered_.add({key, near.a, near.b, touch(near)});
+            if (gathered_.takes(key)) {
+                gathered_.add(key, near.a, near.b, [&] { return touch(near); });
+            }
             return true;
         };
         verdict_.searched =
