@@ -29,30 +29,41 @@ unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
 
 }  // namespace
 
-ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece) noexcept
+ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece, PlacedHull* large) noexcept
     : model_(&model),
       triangles_(part_of_piece(model.model->pieces().triangles, *model.model, piece,
                                &format::Piece::first_triangle)),
       contained_((model.model->pieces().pieces[piece].flags & format::piece_contained) != 0),
       hull_(feature_hull(*model.model, piece)) {
     assert(!triangles_.empty());
-    place();
+    place(piece, large);
 }
 
-void ContactSide::place() noexcept {
+void ContactSide::place(std::uint32_t piece, PlacedHull* large) noexcept {
     const std::uint32_t count = hull_.points.count;
     const std::size_t blocks = (count + format::kHullLanes - 1) / format::kHullLanes;
-    if (blocks > kMostPlaced) return;
+    std::span<format::HullBlock> room = placed_;
+    if (blocks > kMostPlaced) {
+        if (large == nullptr || blocks > large->blocks.size()) return;
+        room = large->blocks;
+    }
+    room = room.first(blocks);
+    if (blocks <= kMostPlaced || large->piece != piece) place_into(room);
+    if (blocks > kMostPlaced) large->piece = piece;
+    placed_points_.blocks = room;
+    placed_points_.count = count;
+}
+
+void ContactSide::place_into(std::span<format::HullBlock> blocks) const noexcept {
+    const std::uint32_t count = hull_.points.count;
     Double3 p{};
-    for (std::uint32_t i = 0; i < blocks * format::kHullLanes; ++i) {
+    for (std::uint32_t i = 0; i < blocks.size() * format::kHullLanes; ++i) {
         if (i < count) p = model_->position(hull_.points.corners[i]);
-        auto& at = placed_[i / format::kHullLanes].at;
+        auto& at = blocks[i / format::kHullLanes].at;
         at[0][i % format::kHullLanes] = p.x;
         at[1][i % format::kHullLanes] = p.y;
         at[2][i % format::kHullLanes] = p.z;
     }
-    placed_points_.blocks = std::span(placed_).first(blocks);
-    placed_points_.count = count;
 }
 
 double ContactSide::position_error() const noexcept {
@@ -113,11 +124,20 @@ std::uint32_t ContactSide::nearest_triangle(const Double3& near) const noexcept 
     return best;
 }
 
+/// Returns whether the normal of a triangle is clearly not along a unit direction, without a root.
+bool ContactSide::is_far_from(const Double3& direction, std::uint32_t triangle) const noexcept {
+    const Corners t = model_->corners(triangle);
+    const Double3 normal = cross(t[1] - t[0], t[2] - t[0]);
+    const double along = dot(normal, direction), squared = dot(normal, normal);
+    return squared > 0x1p-800 && squared < 0x1p800 && along * along < 0.99 * squared;
+}
+
 std::optional<PieceFeature> ContactSide::find_face(const Double3& direction,
                                                    const Double3* near) const noexcept {
     std::optional<PieceFeature> best;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        if (i >= placed_triangles_count_ && is_far_from(direction, triangles_[i])) continue;
         const PlacedTriangle t = placed(i);
         const double along = dot(t.normal, direction);
         // A surface that bounds no solid can be met from either side.

@@ -13,6 +13,7 @@
 #include "hull/hull_points.h"
 #include "hull/moved_hull.h"
 #include "pieces/piece_shape.h"
+#include "walk/workspace_storage.h"
 
 namespace cdprep {
 
@@ -67,7 +68,8 @@ public:
     /// rounding.
     static constexpr double kLevel = 1e-9;
 
-    ContactSide(const MovedModel& model, std::uint32_t piece) noexcept;
+    /// `large` keeps the moved corners of a large piece from call to call; it may be null.
+    ContactSide(const MovedModel& model, std::uint32_t piece, PlacedHull* large) noexcept;
     ContactSide(const ContactSide&) = delete;  // placed_points_ refer to placed_
     ContactSide& operator=(const ContactSide&) = delete;
     ~ContactSide() = default;
@@ -179,14 +181,15 @@ public:
     [[nodiscard]] ContactFeature in_source(const PieceFeature& feature) const noexcept;
 
 private:
-    /// The maximum number of blocks of a hull that is moved once and scanned eight corners at a
-    /// time. Most pieces have few corners, and each is queried many times.
+    /// The maximum number of blocks of a hull that this object moves itself. Corners that were
+    /// moved once are scanned eight at a time, and each is queried many times.
     static constexpr std::size_t kMostPlaced = 8;
 
     [[nodiscard]] bool is_placed() const noexcept {
         return placed_points_.count > 0;
     }
-    void place() noexcept;
+    void place(std::uint32_t piece, PlacedHull* large) noexcept;
+    void place_into(std::span<format::HullBlock> blocks) const noexcept;
     /// Returns triangle triangles()[i] as moved.
     [[nodiscard]] PlacedTriangle placed(std::size_t i) const noexcept {
         if (i < placed_triangles_count_) return placed_triangle_[i];
@@ -197,6 +200,7 @@ private:
     /// triangle with the feature.
     [[nodiscard]] double facing(const PieceFeature& feature,
                                 const Double3& direction) const noexcept;
+    [[nodiscard]] bool is_far_from(const Double3& direction, std::uint32_t triangle) const noexcept;
     [[nodiscard]] std::uint32_t nearest_triangle(const Double3& near) const noexcept;
     template <class Visit>
     void each_around(const PieceFeature& feature, Visit&& visit) const noexcept;
@@ -221,7 +225,8 @@ private:
     std::span<const std::uint32_t> triangles_;  ///< tree order
     bool contained_;
     FeatureHull hull_;
-    ConvexPoints placed_points_;  ///< in placed_; empty for a hull that is too large
+    ConvexPoints
+        placed_points_;  ///< in placed_ or a PlacedHull; empty for a hull too large for both
     std::array<format::HullBlock, kMostPlaced> placed_;
     static constexpr std::size_t kMostPlacedTriangles = 32;
     std::size_t placed_triangles_count_ = 0;

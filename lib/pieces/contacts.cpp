@@ -236,22 +236,29 @@ private:
               question_{&search.pair_.placement, search.options_, search.pair_.options.degenerate,
                         search.workspace_.storage().counts} {
             question_.options.manifold = manifold;
+            for (PlacedHull& hull : placed()) hull.piece = PlacedHull::kNoPiece;
         }
 
         [[nodiscard]] Contact of(const NearPieces& near) noexcept {
-            ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key));
+            ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key), &placed()[1]);
             return contact_of_pieces(a_of(near), b, near, question_);
         }
         /// Returns a bound of how deep the contact is; negative if it is that far apart.
         [[nodiscard]] double most_depth(const NearPieces& near) noexcept {
-            const ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key));
+            const ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key),
+                                &placed()[1]);
             return most_depth_of_pieces(a_of(near), b, near);
         }
 
     private:
+        [[nodiscard]] std::array<PlacedHull, 2>& placed() const noexcept {
+            return search_.workspace_.storage().placed_hulls;
+        }
         [[nodiscard]] ContactSide& a_of(const NearPieces& near) noexcept {
             const auto piece_a = static_cast<std::uint32_t>(near.key >> 32);
-            if (!a_ || piece_a_ != piece_a) a_.emplace(search_.moved_a_, piece_a);
+            if (!a_ || piece_a_ != piece_a) {
+                a_.emplace(search_.moved_a_, piece_a, &placed()[0]);
+            }
             piece_a_ = piece_a;
             return *a_;
         }

@@ -252,7 +252,7 @@ private:
 void put_triangle(const MovedModel& model, std::uint32_t triangle, std::uint32_t& piece,
                   ContactFeature& feature) noexcept {
     piece = model.model->pieces().of_triangle[triangle];
-    feature = ContactSide(model, piece).in_source({FeatureKind::face, triangle, 0});
+    feature = ContactSide(model, piece, nullptr).in_source({FeatureKind::face, triangle, 0});
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "cdprep/advanced/query_counts.h"
 #include "cdprep/contacts.h"
 #include "cdprep/format/geometry.h"
+#include "cdprep/format/hull.h"
 #include "cdprep/format/limits.h"
 #include "cdprep/workspace.h"
 #include "core/sort_pairs.h"
@@ -87,6 +88,15 @@ struct NearPieces {
 /// The most pairs of pieces that one walk gathers; twice as many as it keeps.
 inline constexpr std::size_t kMaxNearPieces = 4096;
 
+/// The corners of a large piece as moved, for as long as a query asks about no other of its side.
+struct PlacedHull {
+    static constexpr std::uint32_t kNoPiece = 0xffffffffU;
+    static constexpr std::size_t kMostBlocks = 128;
+
+    std::uint32_t piece = kNoPiece;
+    std::array<format::HullBlock, kMostBlocks> blocks;
+};
+
 /// A pair of pieces whose contact may be listed.
 struct ContactCandidate {
     double depth;   ///< minus Contact::upper, or at least that
@@ -122,6 +132,7 @@ struct Workspace::Storage {
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
     SortScratch sort_scratch;
     std::array<NearPieces, kMaxNearPieces> near_pieces;
+    std::array<PlacedHull, 2> placed_hulls;  ///< of A and B
     std::array<ContactCandidate, kMaxContactCandidates> contact_candidates;
     std::array<Contact, kMaxComputedContacts> computed_contacts;
     std::array<Contact, kMostListedContacts> listed_contacts;
