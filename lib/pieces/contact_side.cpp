@@ -174,7 +174,8 @@ VertexSet ContactSide::farthest_vertices(const Double3& direction) const noexcep
 }
 
 double ContactSide::reach(const Double3& direction, const Double3& from) const noexcept {
-    if (!is_placed()) return hull().proven_by_all(direction, from).bound;
+    const bool is_small = is_placed() && placed_points_.blocks.size() <= kMostPlaced;
+    if (!is_small) return hull().proven_by_all(direction, from).bound;
     constexpr double kError = 6 * 0x1p-53;  // a difference, three products and two sums
     double most = -std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < points().count; ++i) {

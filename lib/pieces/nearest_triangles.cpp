@@ -40,17 +40,26 @@ TreePair nearest_triangles(const ContactSide& a, const ContactSide& b, const Tre
     TreePair best = start;
     double least =
         triangle_distance(a.model().corners(start.a), b.model().corners(start.b), false).upper;
-    const Box3 around_b = box_of(b);
-    for (const std::uint32_t i : a.triangles()) {
-        const Corners at_a = a.model().corners(i);
-        const Box3 box = box_around(at_a);
-        if (is_beyond(box, around_b, least) || is_left_out(a, i)) continue;
-        for (const std::uint32_t j : b.triangles()) {
-            const Corners at_b = b.model().corners(j);
-            if (is_beyond(box, box_around(at_b), least) || is_left_out(b, j)) continue;
-            const double upper = triangle_distance(at_a, at_b, false).upper;
-            const bool is_first = i != best.a ? i < best.a : j < best.b;
-            if (upper < least || (upper == least && is_first)) least = upper, best = {i, j};
+    // Most triangles of a large piece are far from all of a small one.
+    const bool b_is_large = b.triangles().size() > a.triangles().size();
+    const ContactSide &large = b_is_large ? b : a, &small = b_is_large ? a : b;
+    const Box3 around_small = box_of(small);
+    for (const std::uint32_t of_large : large.triangles()) {
+        const Corners at_large = large.model().corners(of_large);
+        const Box3 box = box_around(at_large);
+        if (is_beyond(box, around_small, least) || is_left_out(large, of_large)) continue;
+        for (const std::uint32_t of_small : small.triangles()) {
+            const Corners at_small = small.model().corners(of_small);
+            if (is_beyond(box, box_around(at_small), least) || is_left_out(small, of_small)) {
+                continue;
+            }
+            const TreePair pair =
+                b_is_large ? TreePair{of_small, of_large} : TreePair{of_large, of_small};
+            const double upper = triangle_distance(b_is_large ? at_small : at_large,
+                                                   b_is_large ? at_large : at_small, false)
+                                     .upper;
+            const bool is_first = pair.a != best.a ? pair.a < best.a : pair.b < best.b;
+            if (upper < least || (upper == least && is_first)) least = upper, best = pair;
         }
     }
     return best;
