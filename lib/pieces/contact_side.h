@@ -200,7 +200,6 @@ private:
     /// triangle with the feature.
     [[nodiscard]] double facing(const PieceFeature& feature,
                                 const Double3& direction) const noexcept;
-    [[nodiscard]] bool is_far_from(const Double3& direction, std::uint32_t triangle) const noexcept;
     [[nodiscard]] std::uint32_t nearest_triangle(const Double3& near) const noexcept;
     template <class Visit>
     void each_around(const PieceFeature& feature, Visit&& visit) const noexcept;
