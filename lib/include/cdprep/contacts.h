@@ -174,7 +174,8 @@ using ContactVisitor = Visitor<Contact>;
 
 /// Calls `visit` with every contact that contacts() finds without options.most and
 /// options.cluster_angle, each once and in the same order: by pieces, then those of enclosed
-/// components. Returns false if `visit` or options.work ended the search. Needs the same.
+/// components. Returns false if `visit` or options.work ended the search. Needs Ask::contacts of both
+/// models; Body::solid also Ask::solid, and options.through its ask_of().
 bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options = {}) noexcept;
 

@@ -101,7 +101,7 @@ CDPREP_API int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_opt
 /* Calls `visit` with all contacts in the order of (piece_a, piece_b), and then with those of
  * enclosed components. `most` and `cluster_angle` have no meaning, because the visitor ends the
  * search.
- * Needs: as cdprep_contacts() */
+ * Needs: CDPREP_ASK_CONTACTS; CDPREP_SOLID: CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_contacts_visit(const cdprep_pair* pair, const cdprep_contact_options* options,
                                      cdprep_workspace* workspace, cdprep_contact_visitor visit,
                                      void* context, cdprep_error* error);
