@@ -268,9 +268,8 @@ std::string as_json(const Contact& contact) {
         ", \"overlap\": " + word((contact.flags & contact_overlap) != 0) +
         ", \"internal_edge\": " + word((contact.flags & contact_internal_edge) != 0) +
         ", \"from_behind\": " + word((contact.flags & contact_from_behind) != 0) +
-        ", \"deep\": " + word((contact.flags & contact_deep) != 0) +
-        ", \"normal\": [" + place(contact.normal, ", ") +
-        "], \"feature_a\": " + as_json(contact.feature_a) +
+        ", \"deep\": " + word((contact.flags & contact_deep) != 0) + ", \"normal\": [" +
+        place(contact.normal, ", ") + "], \"feature_a\": " + as_json(contact.feature_a) +
         ", \"feature_b\": " + as_json(contact.feature_b) + ", \"point_a\": [" +
         place(contact.point_a, ", ") + "], \"point_b\": [" + place(contact.point_b, ", ") + "]";
     if (contact.point_count == 0) return text + "}";

@@ -25,9 +25,9 @@ struct ManifoldPoint {
     Double3 on_a;
     Double3 on_b;
     double distance;  ///< from on_a to on_b along the normal, rounded; negative: overlap
-    /// Stays the same for the same point of the same contact after a small motion. It is made of the
-    /// source numbers of the vertex, or of the two edges that cross there. 0 for the only point of
-    /// a contact. In a cluster it tells its members apart as well.
+    /// Stays the same for the same point of the same contact after a small motion. It is made of
+    /// the source numbers of the vertex, or of the two edges that cross there. 0 for the only point
+    /// of a contact. In a cluster it tells its members apart as well.
     std::uint64_t id;
 };
 
@@ -54,9 +54,9 @@ inline constexpr std::size_t kMostManifoldPoints = 4;
 struct Contact {
     std::uint32_t piece_a;  ///< an index into Model::pieces().pieces
     std::uint32_t piece_b;
-    /// Stays the same as long as the two pieces are in contact, whatever moves. The high 32 bits are
-    /// the source number of a triangle of A's piece, the low ones of B's. With contact_deep, the
-    /// half of the enclosing model is 2^32 - 1. A cluster has the smallest id of its members.
+    /// Stays the same as long as the two pieces are in contact, whatever moves. The high 32 bits
+    /// are the source number of a triangle of A's piece, the low ones of B's. With contact_deep,
+    /// the half of the enclosing model is 2^32 - 1. A cluster has the smallest id of its members.
     std::uint64_t id;
     ContactFeature feature_a;
     ContactFeature feature_b;
@@ -131,9 +131,10 @@ struct ContactsVerdict {
 /// distance is no wider than that of convex_distance(). Pieces overlap if their hulls do, and both
 /// are contained or their triangles touch. Then the normal is the shortest way out that does not
 /// snag. The candidates are the normals of both hulls' faces and the directions across two of their
-/// edges. A piece is contained if its hull lies within the solid. For other overlapping hulls, the contact has the
-/// distance of the triangles. If triangles do not cover a face of a hull, the triangles decide. If
-/// several pairs of points are nearest, as between parallel faces, the contact has one of them.
+/// edges. A piece is contained if its hull lies within the solid. For other overlapping hulls, the
+/// contact has the distance of the triangles. If triangles do not cover a face of a hull, the
+/// triangles decide. If several pairs of points are nearest, as between parallel faces, the contact
+/// has one of them.
 ///
 /// A way snags if it leans over a flat or reflex edge, where the surface continues. It also snags
 /// if it leads through a part of the hull that no triangle covers. Then the shortest way that ends
@@ -174,8 +175,8 @@ using ContactVisitor = Visitor<Contact>;
 
 /// Calls `visit` with every contact that contacts() finds without options.most and
 /// options.cluster_angle, each once and in the same order: by pieces, then those of enclosed
-/// components. Returns false if `visit` or options.work ended the search. Needs Ask::contacts of both
-/// models; Body::solid also Ask::solid, and options.through its ask_of().
+/// components. Returns false if `visit` or options.work ended the search. Needs Ask::contacts of
+/// both models; Body::solid also Ask::solid, and options.through its ask_of().
 bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options = {}) noexcept;
 
