@@ -63,7 +63,7 @@ std::map<std::uint64_t, ExactRational> truth(const Model& a, const Model& b,
 /// True when all that is said of a contact holds, by the pieces' triangles and hulls.
 void check(const Contact& contact, const ExactRational& squared, const MovedModel& of_a,
            const MovedModel& of_b, const Placement& placement) {
-    const ContactSide a(of_a, contact.piece_a), b(of_b, contact.piece_b);
+    const ContactSide a(of_a, contact.piece_a, nullptr), b(of_b, contact.piece_b, nullptr);
     EXPECT_LE(contact.lower, contact.upper);
     EXPECT_NEAR(std::hypot(contact.normal.x, contact.normal.y, contact.normal.z), 1, 1e-12);
     const bool overlap = (contact.flags & contact_overlap) != 0;
