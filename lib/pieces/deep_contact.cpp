@@ -110,9 +110,10 @@ public:
         : placement_(pair.placement),
           is_of_a_(enclosed.is_of_a),
           outer_(is_of_a_ ? moved_b(pair.b, placement_) : moved_a(pair.a, placement_)),
-          vertex_(vertex_of(pair, enclosed)),
+          inner_(is_of_a_ ? moved_a(pair.a, placement_) : moved_b(pair.b, placement_)),
+          vertex_(inner_.position(inner_.model->record().components[enclosed.component].vertex)),
           outer_hulls_(*outer_.model, std::nullopt),
-          inner_hulls_(is_of_a_ ? pair.a : pair.b, enclosed.component),
+          inner_hulls_(*inner_.model, enclosed.component),
           scratch_(scratch) {}
 
     [[nodiscard]] DeepWay shortest() noexcept {
@@ -129,7 +130,7 @@ public:
     /// Returns the point of the inner hull that is last to leave.
     [[nodiscard]] Double3 last_point(const Double3& normal) const noexcept {
         const ConvexPoints inner = inner_hulls_.points(0);
-        const MovedHull hull(inner, inner_pose(placement_));
+        const MovedHull hull(inner, inner_.pose);
         return hull.point(hull.farthest_anew(is_of_a_ ? normal : -normal, 0));
     }
     [[nodiscard]] const Double3& vertex() const noexcept {
@@ -138,22 +139,11 @@ public:
     [[nodiscard]] const MovedModel& outer() const noexcept {
         return outer_;
     }
+    [[nodiscard]] const MovedModel& inner() const noexcept {
+        return inner_;
+    }
 
 private:
-    static Double3 vertex_of(const Pair& pair, const Enclosed& enclosed) noexcept {
-        const MovedModel inner =
-            enclosed.is_of_a ? moved_a(pair.a, pair.placement) : moved_b(pair.b, pair.placement);
-        return inner.position(inner.model->record().components[enclosed.component].vertex);
-    }
-    [[nodiscard]] const Pose* inner_pose(const Placement& placement) const noexcept {
-        if (is_of_a_) return placement.a_is_moved() ? &placement.pose_a() : nullptr;
-        return placement.b_is_moved() ? &placement.pose_b() : nullptr;
-    }
-    [[nodiscard]] const Pose* outer_pose() const noexcept {
-        if (is_of_a_) return placement_.b_is_moved() ? &placement_.pose_b() : nullptr;
-        return placement_.a_is_moved() ? &placement_.pose_a() : nullptr;
-    }
-
     /// Returns the placement after B has moved by `way`: A moves back where B does not move.
     [[nodiscard]] std::optional<Placement> after(const Double3& way) const noexcept {
         const auto shifted = [](const Pose& pose, const Double3& by) {
@@ -193,8 +183,8 @@ private:
     [[nodiscard]] double length_along(const Double3& normal, std::uint32_t part) const noexcept {
         const ConvexPoints outer_points = outer_hulls_.points(part);
         const ConvexPoints inner_points = inner_hulls_.points(0);
-        const MovedHull outer(outer_points, outer_pose());
-        const MovedHull inner(inner_points, inner_pose(placement_));
+        const MovedHull outer(outer_points, outer_.pose);
+        const MovedHull inner(inner_points, inner_.pose);
         const Double3 out = is_of_a_ ? -normal : normal;  // of the outer one
         const std::uint32_t far = outer.farthest_anew(out, 0);
         const Double3 origin = outer.point(far);
@@ -224,11 +214,12 @@ private:
     }
     /// Takes a normal if the way out along it is the shortest so far.
     void try_normal(const Double3& normal, DeepWay& best) const noexcept {
-        double length = 0;
+        double length = 0, farther = 0x1p-40;
         for (auto hit = first_overlap(placement_); hit;) {
             const double needed = length_along(normal, *hit);
-            // Where rounding keeps them in touch: a little farther.
-            length = needed > length ? needed : length * (1 + 0x1p-40);
+            // Where rounding keeps them in touch: a little farther, and twice as much each time.
+            if (!(needed > length)) farther *= 2;
+            length = needed > length ? needed : length * (1 + farther);
             if (!(length < best.length)) return;
             const std::optional<Placement> moved = after(length * normal);
             if (!moved) return;
@@ -242,7 +233,8 @@ private:
     const Placement& placement_;
     bool is_of_a_;
     MovedModel outer_;
-    Double3 vertex_;
+    MovedModel inner_;
+    Double3 vertex_;  ///< of the component
     EnclosingHulls outer_hulls_;
     EnclosingHulls inner_hulls_;
     Workspace::Storage& scratch_;
@@ -261,9 +253,7 @@ Contact deep_contact(const Pair& pair, const Enclosed& enclosed, Manifold manifo
                      Workspace::Storage& scratch) noexcept {
     DeepWays ways(pair, enclosed, scratch);
     const DeepWay way = ways.shortest();
-    const MovedModel& outer = ways.outer();
-    const MovedModel inner =
-        enclosed.is_of_a ? moved_a(pair.a, pair.placement) : moved_b(pair.b, pair.placement);
+    const MovedModel &outer = ways.outer(), &inner = ways.inner();
     const auto wall = nearest_triangle(outer, ways.vertex(), kInfinity, scratch);
     const auto own = nearest_triangle(inner, ways.vertex(), kInfinity, scratch);
     Contact contact{};

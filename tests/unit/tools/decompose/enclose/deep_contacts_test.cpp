@@ -97,6 +97,23 @@ TEST(DeepContacts, ACubeInACubeLeavesByTheNearestWall) {
     }
 }
 
+// Far from the origin, rounding moves corners by a share of the way out: the search ends all the
+// same.
+TEST(DeepContacts, SmallBodiesFarAwayLeaveToo) {
+    constexpr double kSize = 0x1p-10, kFar = 0x1p30;
+    for (const Baked how : kAll) {
+        SCOPED_TRACE(static_cast<int>(how));
+        const OpenModel outer = open_as(moved_by(unit_cube(), 4 * kSize, {0, 0, 0}), how);
+        const OpenModel inner = open_as(moved_by(unit_cube(), kSize, {0, 0, 0}), how);
+        const Pose turn_a = Pose::from_quaternion(1, 2, 3, 4, {kFar, kFar, -kFar}).value();
+        const Pose in_a = shift({2.5 * kSize, 1.5 * kSize, 1.75 * kSize});
+        const Pose turn_b = composed_pose(turn_a, in_a).value();
+        const auto found = ask(solids(outer, inner, Placement::world(turn_a, turn_b)));
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_NEAR(found[0].lower, -1.5 * kSize, 0x1p-18);
+    }
+}
+
 TEST(DeepContacts, SurfacesThatAreOnlySurfacesHaveNone) {
     const OpenModel outer = open_as(moved_by(unit_cube(), 4, {0, 0, 0}), Baked::parts);
     const OpenModel inner = open_as(unit_cube(), Baked::bare);
