@@ -16,4 +16,12 @@ namespace cdprep {
             ((r[6] * p.x + r[7] * p.y) + r[8] * p.z) + t.z};
 }
 
+/// Returns a direction turned into the coordinates of what `pose` moves; null: nothing moves it.
+[[nodiscard]] inline Double3 turned_back(const Pose* pose, const Double3& d) noexcept {
+    if (pose == nullptr) return d;
+    const std::array<double, 9>& r = pose->rotation();
+    return {(r[0] * d.x + r[3] * d.y) + r[6] * d.z, (r[1] * d.x + r[4] * d.y) + r[7] * d.z,
+            (r[2] * d.x + r[5] * d.y) + r[8] * d.z};
+}
+
 }  // namespace cdprep

@@ -67,13 +67,6 @@ private:
 MovedHull::MovedHull(const ConvexPoints& points, const Pose* pose) noexcept
     : points_(&points), pose_(pose) {}
 
-Double3 MovedHull::turned_back(const Double3& d) const noexcept {
-    if (pose_ == nullptr) return d;
-    const std::array<double, 9>& r = pose_->rotation();
-    return {(r[0] * d.x + r[3] * d.y) + r[6] * d.z, (r[1] * d.x + r[4] * d.y) + r[7] * d.z,
-            (r[2] * d.x + r[5] * d.y) + r[8] * d.z};
-}
-
 std::uint32_t MovedHull::scan_corners(const Double3& local) const noexcept {
     std::uint32_t best = 0;
     double most = dot(local, hull_point(*points_, 0));
@@ -107,13 +100,13 @@ std::uint32_t MovedHull::climb(const Double3& local, std::uint32_t from) const n
 }
 
 std::uint32_t MovedHull::farthest(const Double3& direction, std::uint32_t near) const noexcept {
-    const Double3 local = turned_back(direction);
+    const Double3 local = turned_back(pose_, direction);
     return can_climb() ? climb(local, near) : scan(local);
 }
 
 std::uint32_t MovedHull::farthest_anew(const Double3& direction,
                                        std::uint32_t near) const noexcept {
-    const Double3 local = turned_back(direction);
+    const Double3 local = turned_back(pose_, direction);
     if (!can_climb()) return scan(local);
     if (points_->starts.empty()) return climb(local, near);
     const std::uint32_t start = points_->starts[cell_of_direction(local)];
@@ -171,7 +164,7 @@ kernels::FarthestPoint MovedHull::proven(const Double3& direction, const Double3
                                          std::uint32_t farthest) const noexcept {
     assert(farthest < count());
     if (!can_climb()) return proven_by_all(direction, origin);
-    const Double3 local = turned_back(direction);
+    const Double3 local = turned_back(pose_, direction);
     const Double3 top = hull_point(*points_, farthest);
     const double least = -2 * slack(direction);
     Alike alike(farthest);

@@ -61,7 +61,6 @@ private:
         const std::uint32_t begin = points_->neighbour_begins[number];
         return points_->neighbours.subspan(begin, points_->neighbour_begins[number + 1] - begin);
     }
-    [[nodiscard]] Double3 turned_back(const Double3& direction) const noexcept;
     [[nodiscard]] std::uint32_t scan(const Double3& local) const noexcept;
     [[nodiscard]] std::uint32_t scan_corners(const Double3& local) const noexcept;
     [[nodiscard]] kernels::FarthestPoint proven_by_corners(const Double3& direction,

@@ -98,13 +98,7 @@ Polygon facing(const ContactSide& side, const PieceFeature& feature, const Doubl
         if (facets[f].flags != format::facet_first_of_face) continue;
         const auto& c = facets[f].corner;
         const Corners corners = {side.corner(c[0]), side.corner(c[1]), side.corner(c[2])};
-        const Double3 raw = cross(corners[1] - corners[0], corners[2] - corners[0]);
-        const double part = dot(raw, direction), squared = dot(raw, raw);
-        // Most faces look elsewhere, which a product shows without a root.
-        if (most > 0 && part * part < 0.99 * most * most * squared && squared < 0x1p800 &&
-            squared > 0x1p-800) {
-            continue;
-        }
+        if (most > 0 && is_surely_turned(corners, direction, most)) continue;
         const Double3 n = unit_normal(corners);
         const double along = dot(n, direction);
         // A surface that bounds no solid can be met from either side.

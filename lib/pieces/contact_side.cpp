@@ -27,21 +27,6 @@ unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
     return k;
 }
 
-/// Returns whether the normal of a triangle is clearly not along a unit direction. Takes no root.
-bool is_far_from(const Double3& direction, const Corners& t) {
-    const Double3 normal = cross(t[1] - t[0], t[2] - t[0]);
-    const double along = dot(normal, direction), squared = dot(normal, normal);
-    return squared > 0x1p-800 && squared < 0x1p800 && along * along < 0.99 * squared;
-}
-
-/// Returns a direction in the coordinates of a model that a pose moves; null: none does.
-Double3 turned_back(const Double3& d, const Pose* pose) {
-    if (pose == nullptr) return d;
-    const std::array<double, 9>& r = pose->rotation();
-    return {r[0] * d.x + r[3] * d.y + r[6] * d.z, r[1] * d.x + r[4] * d.y + r[7] * d.z,
-            r[2] * d.x + r[5] * d.y + r[8] * d.z};
-}
-
 }  // namespace
 
 ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece, PlacedHull* large) noexcept
@@ -57,14 +42,13 @@ ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece, PlacedHul
 void ContactSide::place(std::uint32_t piece, PlacedHull* large) noexcept {
     const std::uint32_t count = hull_.points.count;
     const std::size_t blocks = (count + format::kHullLanes - 1) / format::kHullLanes;
-    std::span<format::HullBlock> room = placed_;
-    if (blocks > kMostPlaced) {
-        if (large == nullptr || blocks > large->blocks.size()) return;
-        room = large->blocks;
-    }
-    room = room.first(blocks);
-    if (blocks <= kMostPlaced || large->piece != piece) place_into(room);
-    if (blocks > kMostPlaced) large->piece = piece;
+    const bool is_small = blocks <= kMostPlaced;
+    if (!is_small && (large == nullptr || blocks > large->blocks.size())) return;
+    const std::span<format::HullBlock> all = is_small ? std::span<format::HullBlock>(placed_)
+                                                      : std::span<format::HullBlock>(large->blocks);
+    const auto room = all.first(blocks);
+    if (is_small || large->piece != piece) place_into(room);
+    if (!is_small) large->piece = piece;
     placed_points_.blocks = room;
     placed_points_.count = count;
 }
@@ -144,10 +128,12 @@ std::optional<PieceFeature> ContactSide::find_face(const Double3& direction,
     std::optional<PieceFeature> best;
     double least = std::numeric_limits<double>::infinity();
     const MovedModel still(*model_->model, nullptr);
-    const Double3 local = turned_back(direction, model_->pose);
+    const Double3 local = turned_back(model_->pose, direction);
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-        if (i >= placed_triangles_count_ && is_far_from(local, still.corners(triangles_[i])))
+        if (i >= placed_triangles_count_ &&
+            is_surely_turned(still.corners(triangles_[i]), local, kAligned)) {
             continue;
+        }
         const PlacedTriangle t = placed(i);
         const double along = dot(t.normal, direction);
         // A surface that bounds no solid can be met from either side.

@@ -35,6 +35,17 @@ inline Double3 unit_normal(const Corners& t) noexcept {
     return unit(cross(unit(t[1] - t[0]), unit(t[2] - t[0])));
 }
 
+/// Returns whether the cosine between a unit direction and either normal of a triangle is surely
+/// less than `cosine`, which is above 0. Takes no root, and shows it of most triangles.
+inline bool is_surely_turned(const Corners& t, const Double3& direction, double cosine) noexcept {
+    const Double3 n = cross(t[1] - t[0], t[2] - t[0]);
+    const double along = dot(n, direction), squared = dot(n, n);
+    constexpr double kLeast = 0x1p-800, kMost = 0x1p800;  // no term has left the range of double
+    constexpr double kRounding = 0.99;
+    return squared > kLeast && squared < kMost &&
+           along * along < kRounding * cosine * cosine * squared;
+}
+
 /// A triangle as moved.
 struct PlacedTriangle {
     Corners at;

@@ -112,11 +112,10 @@ struct ContactsVerdict {
 /// contacts.
 ///
 /// Without options.most, stores the first contacts in `room`, in the order of (piece_a, piece_b),
-/// and then those of enclosed components.
-/// With an empty span it only counts them (`found`). With options.most, stores at most so many, the
-/// deepest first (by `upper`, then by pieces). If there are more, every second contact is the
-/// deepest that is left, and the others are those farthest from all that were taken. Then only
-/// contacts that may be listed are computed.
+/// and then those of enclosed components. With an empty span it only counts them (`found`). With
+/// options.most, stores at most so many, the deepest first (by `upper`, then by pieces). If there
+/// are more, every second contact is the deepest that is left, and the others are those farthest
+/// from all that were taken. Then only contacts that may be listed are computed.
 ///
 /// The number to use: `lower` is minus the distance by which a solver must move B along `normal`.
 ///
