@@ -91,9 +91,9 @@ void add_contacts(const Command& query, Exit& exit) {
         query.add_command("contacts", "Compute contact points, normals and depths of two models");
     command.set_notes(
         "Each line of ndjson is a pose. 'found' counts pairs of pieces within the tolerance, and "
-        "'computed' contacts. A limit makes 'searched' and 'complete' false. Of 'contacts', each "
-        "has "
-        "an 'id', which stays the same as long as its two pieces touch. 'normal', of length 1, "
+        "'computed' contacts. A limit makes 'searched' and 'complete' false. Each of "
+        "'contacts' has an 'id', which stays the same as long as its two pieces touch. 'normal', "
+        "of length 1, "
         "points from A to B. 'lower' and 'upper' are bounds of the distance, negative where the "
         "pieces overlap: moving B by -lower along the normal separates them. Features of both "
         "models are in numbers of the imported files. 'members' counts the contacts joined in it. "
