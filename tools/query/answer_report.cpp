@@ -321,9 +321,10 @@ std::string as_text(const ContactsAnswer& answer) {
     for (const Contact& contact : answer.contacts) {
         text += "\n  pieces " + number(contact.piece_a) + " and " + number(contact.piece_b) +
                 ": distance " + number(contact.lower) + " to " + number(contact.upper) +
-                ", normal " + place(contact.normal, " ") + ", " + as_text(contact.feature_a) +
-                " and " + as_text(contact.feature_b) + ", at " + place(contact.point_a, " ") +
-                " and " + place(contact.point_b, " ") +
+                ((contact.flags & contact_deep) != 0 ? ", enclosed" : "") + ", normal " +
+                place(contact.normal, " ") + ", " + as_text(contact.feature_a) + " and " +
+                as_text(contact.feature_b) + ", at " + place(contact.point_a, " ") + " and " +
+                place(contact.point_b, " ") +
                 (contact.members > 1 ? ", " + number(contact.members) + " joined" : "");
         for (std::uint32_t i = 0; i < contact.point_count; ++i) {
             const ManifoldPoint& point = contact.points[i];

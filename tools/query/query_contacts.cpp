@@ -97,15 +97,16 @@ void add_contacts(const Command& query, Exit& exit) {
         "points from A to B. 'lower' and 'upper' are bounds of the distance, negative where the "
         "pieces overlap: moving B by -lower along the normal separates them. Features of both "
         "models are in numbers of the imported files. 'members' counts the contacts joined in it. "
-        "With --manifold, 'points' begin with the deepest. With --as solid, a component that is "
-        "inside the other model makes a contact with 'deep' true: moving B by -lower along the "
-        "normal frees it. Its way out is shorter where the file has parts (bake --structures hull "
-        "--parts).",
+        "With --manifold, 'points' begin with the deepest. With --as solid, a component inside the "
+        "other model makes a contact with 'deep' true: moving B by -lower along the normal frees "
+        "it. This needs files baked with --effects contacts,collide. The way out is shorter where "
+        "the enclosing file has parts: --structures hull --parts N.",
         {"cdprep query contacts arm.cdp.h5 part.cdp.h5 --poses poses.txt --tolerance 0.01",
          "cdprep query contacts a.cdp.h5 b.cdp.h5 --tolerance 0.01 --most 16 --cluster-deg 15"});
     command.add_option("a", arguments->a, "A file baked with --effects contacts").required();
     command.add_option("b", arguments->b, "A file baked with --effects contacts").required();
     add_placements(command, arguments->placement);
+    add_body(command, arguments->as);
     command
         .add_option("--tolerance", arguments->tolerance,
                     "Largest distance of two pieces that counts, in model units")
