@@ -13,7 +13,8 @@ namespace cdprep::cli {
 /// continues for kPatience after the signal, the process ends with 130, wherever its threads
 /// are. Outputs have no name before they are complete, so nothing is left behind. A second
 /// signal ends the process at once. A write beyond the permitted file size fails instead of
-/// ending the process.
+/// ending the process. While the system syncs a file to a busy disk, or frees the one that it
+/// replaces, no process ends: that may take longer.
 void watch_for_interrupts();
 
 /// The time that a stage may continue after a signal, for loops that test the flag. The system
