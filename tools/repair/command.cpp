@@ -215,9 +215,9 @@ void add_repair(const Command& app, Exit& exit) {
     const Command command = app.add_command("repair", "Repair a mesh and account for every change");
     command.set_notes(
         "The exit code is 1 when the output does not reach the preset's goal, has no triangle "
-        "or has more crossings than the input. The output is written in each case. 2-manifold "
-        "refers to vertex numbers, as the output stores them; validate first merges vertices "
-        "with equal positions, and may report what repair separated.",
+        "or has more crossings than the input. The output is written in each case. Whether it "
+        "is 2-manifold is judged by its vertex numbers. validate first merges vertices with "
+        "equal positions, and may report what repair separated.",
         {"cdprep repair scan.ply -o fixed.ply --preset solid",
          "cdprep repair part.obj -o part.stl --seam-width 0.01"});
     add_input(command, arguments->input);

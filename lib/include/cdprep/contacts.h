@@ -26,8 +26,8 @@ struct ManifoldPoint {
     Double3 on_b;
     double distance;  ///< from on_a to on_b along the normal, rounded; negative: overlap
     /// Stays the same for the same point of the same contact after a small motion. It is made of
-    /// the source numbers of the vertex, or of the two edges that cross there. 0 for the only point
-    /// of a contact. In a cluster it tells its members apart as well.
+    /// the source numbers of the vertex, or of the two crossing edges. 0 for the only point of a
+    /// contact. In a cluster it tells its members apart as well.
     std::uint64_t id;
 };
 
@@ -89,8 +89,8 @@ struct ContactOptions {
     /// The maximum work, 0 for no limit: each pair of near triangles counts 1, and each contact
     /// kWorkOfContact. The search for near triangles takes at most half of it.
     std::uint64_t work = 0;
-    /// Contacts whose normals are at most this far apart, radians, and which are linked by common
-    /// pieces, become one with at most four points. 0: none do. Needs `most`.
+    /// Joins contacts of common pieces whose normals are at most this far apart, in radians. A
+    /// joined contact has at most four points. 0: joins none. Needs `most`.
     double cluster_angle = 0;
 };
 
@@ -145,11 +145,11 @@ struct ContactsVerdict {
 /// side of a wall may be near (contact_from_behind); such a contact should not push.
 ///
 /// With Body::solid, a component that is proven to be inside the other model makes a contact of its
-/// own (contact_deep), unless triangles of the two models touch. Its pieces are one of the
-/// component and the nearest of the other model. The way out leads out of hulls that enclose the
-/// other model: its parts (`bake --structures hull --parts`), else its whole hull, else the box
-/// around it. A translation by -lower along `normal` frees the component, and none shorter than
-/// -upper does. -upper is the distance of one of its vertices from the other surface. Such a
+/// own (contact_deep). None is made where triangles of the two models touch. Its pieces are one of
+/// the component and the nearest of the other model. The way out leads out of hulls that enclose
+/// the other model. They are its parts (`bake --structures hull --parts`), else its whole hull,
+/// else the box around it. A translation by -lower along `normal` frees the component. None shorter
+/// than -upper does: that is the distance of one of its vertices from the other surface. Such a
 /// contact counts in `found`, and with options.most it is listed before others of no greater depth.
 /// An open model encloses nothing.
 ///
@@ -172,9 +172,9 @@ struct ContactsVerdict {
 
 using ContactVisitor = Visitor<Contact>;
 
-/// Calls `visit` with every contact that contacts() finds without options.most and
-/// options.cluster_angle, each once and in the same order: by pieces, then those of enclosed
-/// components. Returns false if `visit` or options.work ended the search. Needs Ask::contacts of
+/// Calls `visit` once with every contact that contacts() finds without options.most and
+/// options.cluster_angle. The order is the same: by pieces, then those of enclosed components.
+/// Returns false if `visit` or options.work ended the search. Needs Ask::contacts of
 /// both models; Body::solid also Ask::solid, and options.through its ask_of().
 bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options = {}) noexcept;

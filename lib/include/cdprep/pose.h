@@ -53,9 +53,9 @@ private:
     friend Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept;
 };
 
-/// Returns a_from_b = world_from_a^-1 world_from_b, computed in double by one fixed formula:
-/// R = Ra^T Rb and T = Ra^T (Tb - Ta), each sum from left to right. The relative rounding error is
-/// about 1e-16. If parts of one turned assembly must still touch, use Placement::world.
+/// Returns a_from_b = world_from_a^-1 world_from_b. Computes R = Ra^T Rb and T = Ra^T (Tb - Ta) in
+/// double, each sum from left to right. The relative rounding error is about 1e-16. If parts of one
+/// turned assembly must still touch, use Placement::world.
 [[nodiscard]] Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept;
 
 /// Returns the pose that moves by `b_from_c` first and then by `a_from_b`, by one fixed formula in

@@ -73,8 +73,8 @@ struct TetraNode {
     std::uint32_t key;
     std::uint32_t first;  ///< leaf: its first reference; inner node: its first child
     std::uint32_t count;  ///< leaf: references; inner node: children
-    /// The least and greatest n . (x - C) of the part of the triangles in the closed cone. n is the
-    /// unit vector (+-1, +-1, +-1) / sqrt(3) of the octant. Frame units
+    /// The least and greatest distance from the center along n, over the points x of the triangles
+    /// in the closed cone: n . (x - C). n is the octant's (+-1, +-1, +-1) / sqrt(3). Frame units
     /// (2^FileHeader::frame_exponent), rounded outwards. radius_min is 0 with TetraBounding::tetra.
     float radius_min;
     float radius_max;

@@ -68,8 +68,8 @@ enum class Quality : std::uint8_t {
     best,
     /// For objects that are rebuilt at run time. Cuts across the longest axis, as near to half as
     /// full subtrees allow. The build takes two fifths of the time. On scans, surface_cost() is 5
-    /// to 15 % higher. collide() and overlaps() take 2 to 9 % longer in the median, and 60 % longer
-    /// at worst.
+    /// to 15 % higher. Queries of collide() and overlaps() take 2 to 9 % longer in the median. The
+    /// worst took 60 % longer.
     fast,
 };
 

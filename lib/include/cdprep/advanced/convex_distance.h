@@ -16,7 +16,7 @@ namespace cdprep {
 // computed without rounding.
 //
 // A query is about the hulls of the points as `placement` moves them (level E1 in GLOSSARY.md).
-// transform_point() rounds each point once; nothing is rounded after that. The hulls are solid: a
+// transform_point() rounds each point once. Nothing is rounded after that. The hulls are solid: a
 // hull inside another one touches it. A hull without points touches nothing.
 //
 // No query allocates. A step takes O(sqrt(n)) time if the hull has neighbours, otherwise O(n). From

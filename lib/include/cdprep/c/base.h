@@ -25,8 +25,8 @@
  *   only for max_distance, max_t and the limits of boxes. No answer holds NaN or infinity.
  * - On failure, answers are unknown: counts and `found` are 0; `hit`, `inside` and similar fields
  *   are CDPREP_UNKNOWN. Room for lists may hold anything. Answers are unchanged if their number is
- *   not known: the query is null or not initialised, or a count is more than memory holds.
- *   cdprep_pose_move() and cdprep_model_corners() also leave their answers unchanged.
+ *   not known: the query is null or not initialised, or a count is more than memory holds. So they
+ *   are after a failure of cdprep_pose_move() or cdprep_model_corners().
  * - Lengths are in model units. Limits are inclusive. Numbers of triangles and vertices are those
  *   of the imported file, or of the arrays that a model was built from.
  * - A list has room for some answers; `count` is the number of all answers. Too little room is no
@@ -37,8 +37,8 @@
  * - Callbacks return; they must not throw or call longjmp(). A visitor may run queries with another
  *   workspace. It runs in the caller's floating-point environment. No environment changes an
  *   answer.
- * - Null is refused. A closed or foreign pointer can crash a call, and so can a damaged file with
- *   CDPREP_MAP_TRUSTED or a mapped file that is truncated while open. Nothing else can. */
+ * - Null is refused. Three things can crash a call: a closed or foreign pointer, a damaged file
+ *   with CDPREP_MAP_TRUSTED, and a mapped file that is truncated while open. */
 
 #ifndef CDPREP_EXPORT /* predefine it to reuse another library's scheme */
 #if defined(_WIN32) && defined(CDPREP_BUILDING)
@@ -256,9 +256,10 @@ CDPREP_API int cdprep_pose_compose(const cdprep_pose* a_from_b, const cdprep_pos
 CDPREP_API int cdprep_pose_inverse(const cdprep_pose* a_from_b, cdprep_pose* b_from_a,
                                    cdprep_error* error);
 
-/* Moves `count` points, 3 numbers each, by the formula of all queries: ((R00 x + R01 y) + R02 z) +
- * T0 and so on, in double, without contraction. A query that moves a model is exact for these
- * points. `moved` may be `points`. On failure nothing is stored. */
+/* Moves `count` points, 3 numbers each, by the formula of all queries. x becomes ((R00 x + R01 y) +
+ * R02 z) + T0, and y and z likewise. The numbers are doubles; nothing is contracted. A query that
+ * moves a model is exact for these points. `moved` may be `points`. On failure nothing is stored.
+ */
 CDPREP_API int cdprep_pose_move(const cdprep_pose* pose, const double* points, size_t count,
                                 double* moved, cdprep_error* error);
 

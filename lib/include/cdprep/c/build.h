@@ -58,12 +58,17 @@ CDPREP_API int cdprep_model_build_size(const cdprep_build_options* options, size
  *
  * Invalid numbers are named by vertex and by triangle: `options.positions[7]` is vertex 7,
  * `options.triangles[12]` is triangle 12. Memory is checked after them, and the workspace last.
- * Errors: CDPREP_WHY_NULL for missing positions or triangles; CDPREP_WHY_NO_MEANING if both
- * positions are set, and for an allocator in addition to memory; CDPREP_WHY_NOT_BAKED if no build
- * serves `ask`, with the `bake` option for it; CDPREP_WHY_NOT_FINITE; CDPREP_WHY_OUT_OF_RANGE for
- * more than 2^31 - 1 vertices or triangles, a position beyond 2^1000 (beyond the floats with
- * CDPREP_SINGLE), a vertex that does not exist and the alignment; CDPREP_WHY_TOO_SMALL;
- * CDPREP_WHY_BUSY; CDPREP_OVER_BUDGET. */
+ * Errors:
+ * - CDPREP_WHY_NULL: positions or triangles are missing.
+ * - CDPREP_WHY_NO_MEANING: both positions are set, or an allocator in addition to memory.
+ * - CDPREP_WHY_NOT_BAKED: no build serves `ask`; the message names the `bake` option for it.
+ * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite.
+ * - CDPREP_WHY_OUT_OF_RANGE: There are more than 2^31 - 1 vertices or triangles. Or a position is
+ *   beyond 2^1000, or beyond the floats with CDPREP_SINGLE. Or a vertex does not exist. Or `memory`
+ *   is not aligned.
+ * - CDPREP_WHY_TOO_SMALL: `size` is less than the mesh takes.
+ * - CDPREP_WHY_BUSY: another call uses the workspace.
+ * - CDPREP_OVER_BUDGET: there is not enough memory. */
 CDPREP_API int cdprep_model_build(const cdprep_build_options* options, void* memory, size_t size,
                                   cdprep_workspace* workspace, cdprep_model** model,
                                   cdprep_error* error);

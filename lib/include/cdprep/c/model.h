@@ -58,9 +58,11 @@ CDPREP_API void cdprep_open_options_init(cdprep_open_options* options, size_t si
  * several components, 4 per vertex.
  * A mapped file must not be changed in place or truncated while it is open. Replacing it by
  * renaming another file is safe.
- * Errors: CDPREP_UNREADABLE; CDPREP_WHY_NOT_BAKED if the file lacks what `ask` requires, with the
- * `bake` option that adds it; CDPREP_WHY_NO_MEANING for a name, because the path is the name;
- * CDPREP_OVER_BUDGET. */
+ * Errors:
+ * - CDPREP_UNREADABLE: the file is missing, damaged or of another kind.
+ * - CDPREP_WHY_NOT_BAKED: it lacks what `ask` requires; the message names the `bake` option.
+ * - CDPREP_WHY_NO_MEANING: a name is set, but the path is the name.
+ * - CDPREP_OVER_BUDGET: there is not enough memory. */
 CDPREP_API int cdprep_model_open(const char* utf8_path, const cdprep_open_options* options,
                                  cdprep_model** model, cdprep_error* error);
 

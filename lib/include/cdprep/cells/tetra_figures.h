@@ -43,9 +43,9 @@ struct TetraFigures {
                                          std::span<const format::Double3> positions,
                                          std::span<const format::Triangle> triangles);
 
-/// Returns the size that the published implementation would need, in bytes: 340 for the root, 88
-/// for any other node, including empty ones, and 4 for a reference. Returns 0 without nodes. The
-/// formula is that of "A comparative study of implemented collision detection strategies".
+/// Returns the size in bytes that the published implementation would need. The root takes 340, any
+/// other node 88, even an empty one, and a reference 4. Returns 0 without nodes. The formula is
+/// that of "A comparative study of implemented collision detection strategies".
 [[nodiscard]] std::uint64_t seed_formula_bytes(const TetraFigures& figures) noexcept;
 
 }  // namespace cdprep
