@@ -212,7 +212,7 @@ std::string accuracy_page_data(const AccuracyReport& report) {
             rung.erase("pairs_by_pose");
         }
     }
-    return script_json(json);
+    return script_json(compact(json));
 }
 
 }  // namespace cdprep::report

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"
 
@@ -80,7 +81,7 @@ std::string bake_json(const std::vector<BakeReport>& reports) {
     json["models"] = nlohmann::ordered_json::array();
     for (const BakeReport& report : reports) json["models"].push_back(to_json(report));
     // File names need not be UTF-8; JSON must.
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return indented(json);
 }
 
 }  // namespace cdprep::report

@@ -8,7 +8,7 @@
 namespace cdprep::report {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 study::PeerAnswers answers_of(const json& peer) {
     study::PeerAnswers answers;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"
 
@@ -69,7 +70,7 @@ std::string hull_json(const HullReport& report) {
     Json json = {{"input", report.input}, {"exit", report.exit}};
     if (report.error) {
         json["error"] = *report.error;
-        return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+        return indented(json);
     }
     json["output"] = report.output;
     json["per"] = report.scope;
@@ -78,7 +79,7 @@ std::string hull_json(const HullReport& report) {
     json["seconds"] = report.seconds;
     json["hulls"] = Json::array();
     for (const HullFigures& hull : report.hulls) json["hulls"].push_back(json_of(hull));
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return indented(json);
 }
 
 }  // namespace cdprep::report

@@ -8,6 +8,7 @@
 #include "cdprep/format/sections.h"
 #include "hull/baked_hulls.h"
 #include "text/bounds_name.h"
+#include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"
 #include "text/space_name.h"
@@ -157,7 +158,7 @@ std::string info_json(const std::string& file, const Model& model,
     }
     json["provenance"] = provenance(model);
     // File names need not be UTF-8; JSON must.
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return indented(json);
 }
 
 }  // namespace cdprep::report

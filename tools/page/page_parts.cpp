@@ -28,6 +28,23 @@ std::string escaped(std::string_view text) {
     return safe;
 }
 
+std::string script_json(std::string_view json) {
+    std::string safe;
+    safe.reserve(json.size());
+    for (const char letter : json) {
+        if (letter == '<') {
+            safe += "\\u003c";
+        } else if (letter == '>') {
+            safe += "\\u003e";
+        } else if (letter == '&') {
+            safe += "\\u0026";
+        } else {
+            safe += letter;
+        }
+    }
+    return safe;
+}
+
 std::string script_element(const std::string& id, const char* type, const std::string& content) {
     return "<script type=\"" + std::string(type) + "\" id=\"" + id + "\">" + content +
            "</script>\n";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "repair/repair_report.h"
+#include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"
 
@@ -259,7 +260,7 @@ std::string repair_json(const RepairFileReport& report) {
         add_origins(json, "triangle_source", "triangle_step", report.triangle_origin);
         add_origins(json, "vertex_source", "vertex_step", report.vertex_origin);
     }
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return compact(json) + "\n";
 }
 
 std::string repair_summary_json(const mesh::RepairReport& repair) {
@@ -271,7 +272,7 @@ std::string repair_summary_json(const mesh::RepairReport& repair) {
                  {"settled", repair.settled}};
     json["steps"] = Json::array();
     for (const mesh::StepReport& step : repair.steps) json["steps"].push_back(summary(step));
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return compact(json);
 }
 
 }  // namespace cdprep::report

@@ -37,6 +37,10 @@ std::string compact(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string indented(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string valid_utf8(std::string_view text) {
     return Json::parse(compact(Json(text))).get<std::string>();
 }

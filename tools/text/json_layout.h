@@ -16,6 +16,10 @@ namespace cdprep::report {
 /// Returns JSON on one line. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string compact(const nlohmann::ordered_json& json);
 
+/// Returns JSON with one value per line, indented by two blanks a step, and a line end. Bytes that
+/// are not UTF-8 are replaced.
+[[nodiscard]] std::string indented(const nlohmann::ordered_json& json);
+
 /// Returns the text with the bytes that are not UTF-8 replaced, as laid_out() replaces them.
 [[nodiscard]] std::string valid_utf8(std::string_view text);
 

@@ -10,7 +10,7 @@
 namespace cdprep::report {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 Error unreadable(const std::string& name, const std::string& why) {
     return {ErrorCode::unreadable, name + ": cannot be the baseline: " + why +

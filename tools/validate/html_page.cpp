@@ -15,13 +15,14 @@
 #include "page/base64.h"
 #include "page/page_parts.h"
 #include "page/page_text.h"
+#include "text/json_layout.h"
 #include "validate/page_marks.h"
 #include "validate/page_surface.h"
 
 namespace cdprep::report {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 constexpr std::size_t kLeastPlaces = 10;       // per finding, on any page
 constexpr std::size_t kMostPagePlaces = 1000;  // per finding
@@ -257,7 +258,7 @@ std::string mesh_elements(const PageMesh& mesh, std::size_t index, const Limits&
                         {"nodes", nodes.names()},
                         {"verdicts", verdicts_json(mesh, limits.components)},
                         {"components", verdicts > 0 ? verdicts - 1 : 0}};
-    return script_element(id, "application/json", script_json(value)) + drawing.elements;
+    return script_element(id, "application/json", script_json(compact(value))) + drawing.elements;
 }
 
 json summary_json(const PageMesh& mesh) {
@@ -292,7 +293,8 @@ std::string data_elements(std::span<const PageMesh> meshes, const Limits& limits
     json summaries = json::array();
     for (const PageMesh& mesh : meshes) summaries.push_back(summary_json(mesh));
     const json page = {{"rules", rules_json()}, {"meshes", std::move(summaries)}};
-    std::string elements = script_element("page-data", "application/json", script_json(page));
+    std::string elements =
+        script_element("page-data", "application/json", script_json(compact(page)));
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         elements += mesh_elements(meshes[i], i, limits);
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"
 #include "text/space_name.h"
@@ -144,7 +145,7 @@ std::string approximate_json(const ApproximateReport& report) {
         json["seconds"] = report.seconds;
         if (report.has_table) json["table"] = table_json(report);
     }
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return compact(json) + "\n";
 }
 
 }  // namespace cdprep::report

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"
 
@@ -131,7 +132,7 @@ std::string pieces_json(const SurfacePiecesReport& report) {
         }
         if (report.has_table) json["table"] = table_json(pieces);
     }
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    return compact(json) + "\n";
 }
 
 }  // namespace cdprep::report
