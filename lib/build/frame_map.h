@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "cdprep/advanced/build_bvh.h"
+#include "exact/powers_of_two.h"
 
 namespace cdprep::build {
 
@@ -75,15 +76,12 @@ class FrameMap {
 public:
     explicit FrameMap(const Frame& frame)
         : origin_{frame.origin.x, frame.origin.y, frame.origin.z},
-          // Two steps, so that neither power of two leaves the range of double.
-          scale_{std::ldexp(1.0, frame.exponent / 2),
-                 std::ldexp(1.0, frame.exponent - frame.exponent / 2)},
-          back_{std::ldexp(1.0, -(frame.exponent / 2)),
-                std::ldexp(1.0, -(frame.exponent - frame.exponent / 2))} {}
+          scale_(frame.exponent),
+          back_(-frame.exponent) {}
 
     /// Returns a length in frame units. Rounds only below the normal range.
     [[nodiscard]] double scaled(double length) const {
-        return length * scale_[0] * scale_[1];
+        return scale_(length);
     }
 
     /// Returns the frame coordinate of x, rounded at most twice.
@@ -101,7 +99,7 @@ public:
         const double virtual_x = difference + virtual_origin;
         const double tail = (x - virtual_x) + (virtual_origin - origin);
         const double at = scaled(difference);
-        const bool rounded = tail != 0 || at * back_[1] * back_[0] != difference;
+        const bool rounded = tail != 0 || back_(at) != difference;
         constexpr double kBelowEveryFloat = 0x1p-1000;
         const double slack = rounded ? std::fabs(at) * 0x1p-51 + kBelowEveryFloat : 0;
         return {float_below(at - slack), float_above(at + slack)};
@@ -109,8 +107,8 @@ public:
 
 private:
     std::array<double, 3> origin_;
-    std::array<double, 2> scale_;
-    std::array<double, 2> back_;
+    Scale scale_;
+    Scale back_;
 };
 
 }  // namespace cdprep::build

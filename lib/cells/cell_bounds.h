@@ -8,6 +8,7 @@
 
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/octree.h"
+#include "exact/powers_of_two.h"
 #include "walk/box_placement.h"
 
 namespace cdprep {
@@ -50,19 +51,16 @@ public:
     explicit FrameOf(const Model& model) noexcept
         : origin_{model.header().frame_origin.x, model.header().frame_origin.y,
                   model.header().frame_origin.z},
-          first_factor_(two_to(model.header().frame_exponent / 2)),
-          second_factor_(
-              two_to(model.header().frame_exponent - model.header().frame_exponent / 2)) {}
+          scale_(model.header().frame_exponent) {}
 
     /// Returns a frame coordinate in double, off by at most 2^-53 of itself.
     [[nodiscard]] double frame(std::size_t axis, double x) const noexcept {
-        return (x - origin_[axis]) * first_factor_ * second_factor_;
+        return scale_(x - origin_[axis]);
     }
 
 private:
     std::array<double, 3> origin_;
-    double first_factor_;  ///< two, so that neither leaves the range when the result does not
-    double second_factor_;
+    Scale scale_;
 };
 
 /// Rounds a number outwards to float. The number may be off by 2^-52 of itself and by 2^-46 (frame

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "exact/powers_of_two.h"
 #include "exact/vectors.h"
 
 // All work is relative to q and scaled by a power of two so that the largest corner coordinate is
@@ -104,9 +105,8 @@ PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t
     }
     if (size == 0) return {q, 0, 0, 0};
     const int exponent = -std::ilogb(size);
-    for (Vector& v : corner) {
-        v = {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
-    }
+    const Scale forth(exponent), back(-exponent);
+    for (Vector& v : corner) v = {forth(v.x), forth(v.y), forth(v.z)};
     const auto& [a, b, c] = corner;
     const double farthest = std::max({length(a), length(b), length(c)});
     const Vector n = cross(b - a, c - a);
@@ -128,7 +128,6 @@ PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t
     const double by_error =
         eta < inradius ? best.distance - eta : on_edges - candidate_error - inradius;
     const double lower = std::max(by_error, support_bound(corner, best, farthest));
-    const auto back = [&](double x) { return std::ldexp(x, -exponent); };
     // The last factor covers the roundings of these sums. Scaling back may round a subnormal; one
     // step outwards covers that.
     constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "exact/double_double.h"
+#include "exact/powers_of_two.h"
 
 // Two triangles that do not touch are nearest in one of two ways (Larsen, Gottschalk, Lin and
 // Manocha 1999): at an edge of each, nine pairs with corners included; or at a corner of one and
@@ -171,21 +172,6 @@ Interval interval_of(const Triangle<T>& a, const Triangle<T>& b, const Nearest<T
     const double lower = static_cast<double>((least - greatest) / length) - error;
     return {std::max(0.0, lower), upper};
 }
-
-/// Multiplies by a power of two, in two steps because one factor may leave the range.
-class Scale {
-public:
-    explicit Scale(int exponent) noexcept
-        : first_(std::ldexp(1.0, exponent / 2)),
-          second_(std::ldexp(1.0, exponent - exponent / 2)) {}
-    double operator()(double x) const noexcept {
-        return x * first_ * second_;
-    }
-
-private:
-    double first_;
-    double second_;
-};
 
 template <class T>
 Triangle<T> scaled(const Corners& corners, const Double3& origin, const Scale& scale) {

@@ -2,27 +2,15 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "cdprep/model.h"
 #include "cdprep/pose.h"
+#include "exact/powers_of_two.h"
 #include "kernels/kernels.h"
 
 namespace cdprep {
-
-/// Returns 2^exponent; without a library call if the result is a normal number.
-inline double two_to(int exponent) noexcept {
-    constexpr int kBias = 1023;
-    if (exponent <= -kBias || exponent > kBias) return std::ldexp(1.0, exponent);
-    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + kBias) << 52);
-}
-
-/// Returns x * 2^exponent in two steps. No step leaves the range unless the result does.
-inline double scaled(double x, int exponent) noexcept {
-    return x * two_to(exponent / 2) * two_to(exponent - exponent / 2);
-}
 
 /// The relative placement of the two hierarchies' boxes, in float. Its slack makes every box test
 /// conservative for the vertices as the query moves them: no test separates a pair that shares a
