@@ -1,80 +1,67 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "repair/moved_distance.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/Simple_cartesian.h>
-
-#include <CGAL/AABB_triangle_primitive.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <utility>
 #include <vector>
 
+#include "cdprep/build.h"
 #include "cdprep/exact/triangles.h"
+#include "cdprep/format/file_header.h"
+#include "cdprep/points.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::mesh {
 namespace {
 
-using FloatKernel = CGAL::Simple_cartesian<double>;
-using Primitive =
-    CGAL::AABB_triangle_primitive<FloatKernel, std::vector<FloatKernel::Triangle_3>::iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<FloatKernel, Primitive>>;
-
 constexpr double kRelative = 1e-4;
 constexpr double kOfModel = 1e-9;
 constexpr std::size_t kMostPieces = 200'000;  ///< for all triangles of one direction
 
-FloatKernel::Point_3 point(const Double3& p) {
-    return {p.x, p.y, p.z};
-}
-
-/// Finds a triangle near a point. The tree rounds, so this may not be the nearest triangle; but
-/// the surface is at most as far as it. A lower bound may therefore be too large by the
-/// rounding.
+/// Triangles that are asked for the one nearest to a point.
 class Surface {
 public:
     explicit Surface(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
+        std::vector<Double3> positions;
+        std::vector<Triangle> numbers;
         for (const Corners& t : triangles_) {
-            shapes_.emplace_back(point(t[0]), point(t[1]), point(t[2]));
+            const auto first = static_cast<std::uint32_t>(positions.size());
+            positions.insert(positions.end(), t.begin(), t.end());
+            numbers.push_back({{first, first + 1, first + 2}});
         }
-        tree_.insert(shapes_.begin(), shapes_.end());
-        const std::vector<Hint> hints = hints_for_queries();
-        tree_.accelerate_distance_queries(hints.begin(), hints.end());
+        const auto arrays = build::build_model(
+            positions, numbers,
+            {.bounds = build::BvhBounds::aligned, .quality = build::Quality::fast});
+        if (!arrays) return;
+        memory_.resize(build::RuntimeModel::bytes(arrays.value()).value() / sizeof(Block) + 1);
+        model_ = build::RuntimeModel::in(std::as_writable_bytes(std::span(memory_)), arrays.value())
+                     .value();
     }
 
-    [[nodiscard]] const Corners& nearest(const Double3& p) const {
-        const auto found = tree_.closest_point_and_primitive(point(p));
-        return triangles_[static_cast<std::size_t>(found.second - shapes_.begin())];
+    /// Returns the nearest point, whose `triangle` is a number for triangle(). Nothing if there are
+    /// no triangles, or a coordinate is too large for a model.
+    [[nodiscard]] std::optional<ClosestPoint> nearest(const Double3& p) const {
+        if (!model_) return std::nullopt;
+        return closest_point(model_->model(), p, workspace_);
     }
-    [[nodiscard]] bool empty() const {
-        return triangles_.empty();
+    [[nodiscard]] const Corners& triangle(std::uint32_t number) const {
+        return triangles_[number];
     }
 
 private:
-    using Hint = std::pair<FloatKernel::Point_3, Primitive::Id>;
-
-    /// Returns one first corner per position. CGAL's own hints, one per triangle, are split in
-    /// two recursively; many at one point overflow the stack.
-    std::vector<Hint> hints_for_queries() {
-        std::vector<Hint> hints;
-        for (auto shape = shapes_.begin(); shape != shapes_.end(); ++shape) {
-            hints.emplace_back(shape->vertex(0), shape);
-        }
-        std::sort(hints.begin(), hints.end());
-        const auto same_place = [](const Hint& a, const Hint& b) { return a.first == b.first; };
-        hints.erase(std::unique(hints.begin(), hints.end(), same_place), hints.end());
-        return hints;
-    }
+    struct alignas(format::kSectionAlignment) Block {
+        std::array<std::byte, format::kSectionAlignment> bytes;
+    };
 
     std::vector<Corners> triangles_;
-    mutable std::vector<FloatKernel::Triangle_3> shapes_;
-    Tree tree_;
+    std::vector<Block> memory_;
+    std::optional<build::RuntimeModel> model_;
+    mutable Workspace workspace_;
 };
 
 double apart(const Double3& a, const Double3& b) {
@@ -127,15 +114,16 @@ std::vector<Corners> cut_in_middles(const Corners& c) {
 /// Bounds the distance of a piece from the surface. The distance to one triangle is convex, so
 /// it is largest at a corner of the piece. The bound is the least over the triangles nearest to
 /// the corners. If these are far apart, the longest side bounds better: no point of the piece is
-/// farther than that from some corner.
+/// farther than that from some corner. Without a nearest triangle the bound is infinite.
 Piece bounded(const Corners& corners, const Surface& surface, double& lower) {
     double most = 0;
     std::array<Corners, 3> near;
     for (std::size_t k = 0; k < 3; ++k) {
-        near[k] = surface.nearest(corners[k]);
-        const PointTriangleDistance found = exact::point_triangle_distance(corners[k], near[k]);
+        const std::optional<ClosestPoint> found = surface.nearest(corners[k]);
+        if (!found) return {corners, std::numeric_limits<double>::infinity()};
+        near[k] = surface.triangle(found->triangle);
         most = std::max(most, distance_at_most(corners[k], near[k]));
-        lower = std::max(lower, found.lower);
+        lower = std::max(lower, found->lower);
     }
     const double side = std::max({apart(corners[0], corners[1]), apart(corners[1], corners[2]),
                                   apart(corners[2], corners[0])});
@@ -155,16 +143,12 @@ MovedDistance farthest(const std::vector<Corners>& triangles, const Surface& sur
                        double diagonal) {
     MovedDistance distance;
     if (triangles.empty()) return distance;
-    if (surface.empty()) {
-        distance.upper = std::numeric_limits<double>::infinity();
-        return distance;
-    }
     std::priority_queue<Piece> pieces;
     for (const Corners& t : triangles) {
         pieces.push(bounded(t, surface, distance.lower));
     }
     std::size_t left = kMostPieces;
-    while (left > 0 &&
+    while (left > 0 && std::isfinite(pieces.top().upper) &&
            pieces.top().upper > distance.lower * (1 + kRelative) + kOfModel * diagonal) {
         const Corners corners = pieces.top().corners;
         pieces.pop();
