@@ -96,15 +96,17 @@ private:
 
 /// A triangle that is cut along its intersections with other triangles.
 class CutTriangle {
+    using Shape = ExactKernel::Triangle_3;
+    using Segment = std::array<Point, 2>;
+    using Sides = std::array<int, 3>;
+
 public:
     CutTriangle(const RepairMesh& mesh, std::uint32_t t, ExactPoints& points)
-        : points_(points), triangle_(mesh.triangles[t]) {
-        const Corners corners = corners_of(mesh, t);
-        axis_ = best_axis(corners);
-        for (std::size_t k = 0; k < 3; ++k) {
-            corner_[k] = exact(corners[k]);
-            insert(corner_[k]);
-        }
+        : points_(points),
+          corners_(corners_of(mesh, t)),
+          shape_(shape_of(corners_)),
+          axis_(best_axis(corners_)) {
+        for (int k = 0; k < 3; ++k) insert(shape_[k]);
     }
 
     static Corners corners_of(const RepairMesh& mesh, std::uint32_t t) {
@@ -112,22 +114,24 @@ public:
         return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
     }
 
+    /// Cuts along the part of the other triangle that is in this one. What two planes have in
+    /// common ends where a side of one triangle meets the other triangle.
     void cut_along(const Corners& other) {
-        const auto common = CGAL::intersection(
-            ExactKernel::Triangle_3(corner_[0], corner_[1], corner_[2]),
-            ExactKernel::Triangle_3(exact(other[0]), exact(other[1]), exact(other[2])));
-        if (!common) return;
-        if (const auto* point = boost::get<Point>(&*common)) {
-            insert(*point);
-        } else if (const auto* segment = boost::get<ExactKernel::Segment_3>(&*common)) {
-            cut(segment->source(), segment->target());
-        } else if (const auto* whole = boost::get<ExactKernel::Triangle_3>(&*common)) {
-            for (int k = 0; k < 3; ++k) cut(whole->vertex(k), whole->vertex(k + 1));
-        } else if (const auto* polygon = boost::get<std::vector<Point>>(&*common)) {
-            for (std::size_t k = 0; k < polygon->size(); ++k) {
-                cut((*polygon)[k], (*polygon)[(k + 1) % polygon->size()]);
-            }
+        const Sides of_other = exact::plane_signs(corners_, other);
+        const std::vector<Segment> found = common_parts(other, of_other, shape_);
+        if (of_other == Sides{0, 0, 0}) {
+            for (const Segment& part : found) cut(part[0], part[1]);
+            return;
         }
+        std::vector<Point> ends;
+        for (const Segment& part : found) ends.insert(ends.end(), part.begin(), part.end());
+        const Sides own = exact::plane_signs(other, corners_);
+        for (const Segment& part : common_parts(corners_, own, shape_of(other))) {
+            ends.insert(ends.end(), part.begin(), part.end());
+        }
+        if (ends.empty()) return;
+        const auto [least, greatest] = std::minmax_element(ends.begin(), ends.end());
+        cut(*least, *greatest);
     }
 
     /// Returns the pieces, with the winding of the triangle.
@@ -135,8 +139,8 @@ public:
         for (auto v = flat_.finite_vertices_begin(); v != flat_.finite_vertices_end(); ++v) {
             if (v->info().value == kNone) v->info().value = points_.number_of(lifted(v->point()));
         }
-        const bool turned = CGAL::orientation(flat(corner_[0], axis_), flat(corner_[1], axis_),
-                                              flat(corner_[2], axis_)) == CGAL::RIGHT_TURN;
+        const bool turned = CGAL::orientation(flat(shape_[0], axis_), flat(shape_[1], axis_),
+                                              flat(shape_[2], axis_)) == CGAL::RIGHT_TURN;
         std::vector<Triangle> pieces;
         for (auto f = flat_.finite_faces_begin(); f != flat_.finite_faces_end(); ++f) {
             Triangle piece{{f->vertex(0)->info().value, f->vertex(1)->info().value,
@@ -148,30 +152,58 @@ public:
     }
 
 private:
+    static Shape shape_of(const Corners& c) {
+        return Shape{exact(c[0]), exact(c[1]), exact(c[2])};
+    }
+
+    /// Returns what each side of a triangle has in common with another; a point as a segment.
+    /// CGAL::intersection() of two triangles does the same, but doubles the time to compile.
+    static std::vector<Segment> common_parts(const Corners& corners, const Sides& sides,
+                                             const Shape& other) {
+        std::vector<Segment> parts;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            if (sides[k] * sides[next] > 0) continue;
+            const auto common = CGAL::intersection(
+                ExactKernel::Segment_3(exact(corners[k]), exact(corners[next])), other);
+            if (!common) continue;
+            if (const auto* point = boost::get<Point>(&*common)) {
+                parts.push_back({*point, *point});
+            } else {
+                const auto& segment = boost::get<ExactKernel::Segment_3>(*common);
+                parts.push_back({segment.source(), segment.target()});
+            }
+        }
+        return parts;
+    }
+
     Flattened::Vertex_handle insert(const Point& p) {
         const auto vertex = flat_.insert(flat(p, axis_));
         if (vertex->info().value == kNone) vertex->info().value = points_.number_of(p);
         return vertex;
     }
     void cut(const Point& a, const Point& b) {
+        if (a == b) {
+            insert(a);
+            return;
+        }
         flat_.insert_constraint(insert(a), insert(b));
     }
 
     /// Returns the point of the triangle's plane that projects to p.
     [[nodiscard]] Point lifted(const Flat& p) const {
-        const Flat a = flat(corner_[0], axis_), b = flat(corner_[1], axis_),
-                   c = flat(corner_[2], axis_);
+        const Flat a = flat(shape_[0], axis_), b = flat(shape_[1], axis_),
+                   c = flat(shape_[2], axis_);
         const ExactKernel::FT whole = CGAL::determinant(b - a, c - a);
         const ExactKernel::FT along_b = CGAL::determinant(p - a, c - a) / whole;
         const ExactKernel::FT along_c = CGAL::determinant(b - a, p - a) / whole;
-        return corner_[0] + along_b * (corner_[1] - corner_[0]) +
-               along_c * (corner_[2] - corner_[0]);
+        return shape_[0] + along_b * (shape_[1] - shape_[0]) + along_c * (shape_[2] - shape_[0]);
     }
 
     ExactPoints& points_;
-    Triangle triangle_;
-    int axis_ = 0;
-    std::array<Point, 3> corner_;
+    Corners corners_;
+    Shape shape_;
+    int axis_;
     Flattened flat_;
 };
 
