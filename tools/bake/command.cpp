@@ -193,11 +193,12 @@ Exit run(Arguments& arguments) {
 
 /// Adds the options for the content and the path of the baked file.
 void add_output_options(const Command& command, Arguments& arguments) {
-    const Option output = command
-                              .add_option("-o,--output", arguments.output,
-                                          "The baked file. Default: the input's name with .cdp.h5")
-                              .type_name("FILE")
-                              .group("Output");
+    const Option output =
+        command
+            .add_option("-o,--output", arguments.output,
+                        "The baked file. Default: the input's name, ending in .cdp.h5")
+            .type_name("FILE")
+            .group("Output");
     command.add_option("--output-dir", arguments.output_folder, "The folder of the baked files")
         .type_name("FOLDER")
         .excludes(output)

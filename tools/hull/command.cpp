@@ -160,8 +160,8 @@ void add_hull(const Command& app, Exit& exit) {
         .group("Hull");
     command
         .add_option("--per", arguments->scope,
-                    "One hull for the whole mesh, for each component (triangles that share "
-                    "vertices), or for each node of the file")
+                    "One hull for the whole mesh, each component (triangles that share vertices) "
+                    "or each node of the file")
         .type_name("SCOPE")
         .check(one_of({"whole", "component", "node"}))
         .show_default()

@@ -85,7 +85,7 @@ void add_inaccessible(const Command& query, Exit& exit) {
                     "Also write the model with these triangles in colour: .ply or .obj")
         .type_name("FILE")
         .group("Report");
-    command.add_flag("--count", arguments->count, "Count the triangles, do not list them")
+    command.add_flag("--count", arguments->count, "Count the triangles without listing them")
         .group("Query");
     add_jobs(command, arguments->threads);
     add_answer_format(command, arguments->format);

@@ -546,20 +546,18 @@ const char* structure_text(PairQuestion question) {
         case PairQuestion::collide:
             return "Structure of both files to search: bvh; octree, octree-adaptive, hashed-octree "
                    "or tetra-tree (bake --structures); or pieces (bake --effects pieces). All give "
-                   "the same answers. hull: test the convex hulls instead";
+                   "the same answers. hull: test the convex hulls instead of the meshes";
         case PairQuestion::overlap:
             return "Structure of both files to search: bvh; octree, octree-adaptive, hashed-octree "
                    "or tetra-tree (bake --structures); or pieces (bake --effects pieces). All give "
                    "the same answers. hashed-octree-literal: a published search that misses pairs";
         case PairQuestion::distance:
             return "Structure of both files to search: bvh, or pieces (bake --effects pieces). "
-                   "Both "
-                   "give the same answers. hull: distance of the convex hulls (bake --structures "
-                   "hull)";
+                   "Both give the same answers. hull: distance of the convex hulls (bake "
+                   "--structures hull)";
         default:
             return "Structure of both files to search: bvh, or pieces (bake --effects pieces). "
-                   "Both "
-                   "give the same answers";
+                   "Both give the same answers";
     }
 }
 
@@ -607,7 +605,7 @@ void add_question(const Command& query, PairQuestion question, const char* name,
     }
     if (question == PairQuestion::overlap) {
         const Option count =
-            command.add_flag("--count", arguments->count, "Count the pairs, do not list them")
+            command.add_flag("--count", arguments->count, "Count the pairs without listing them")
                 .group("Query");
         command
             .add_flag("--segments", arguments->segments,

@@ -82,8 +82,8 @@ struct Needs {
 /// Returns the bits that this version knows.
 [[nodiscard]] Ask known_asks() noexcept;
 
-/// Returns the sections to open or to bake for all of `asks`: those that are needed or used. It
-/// includes both kinds of positions; a file has one of them.
+/// Returns the sections to open or to bake for all of `asks`: those that are needed or used. The
+/// result includes positions_f32 and positions_f64, although a file has only one of them.
 [[nodiscard]] format::SectionSet sections_for(Ask asks) noexcept;
 
 /// Returns the bits that a file with these sections serves. `has_exact_leaves` means that its

@@ -27,7 +27,7 @@ struct ManifoldPoint {
     double distance;  ///< from on_a to on_b along the normal, rounded; negative: overlap
     /// Stays the same for the same point of the same contact after a small motion. It is made of
     /// the source numbers of the vertex, or of the two crossing edges. 0 for the only point of a
-    /// contact. In a cluster it tells its members apart as well.
+    /// contact. In a cluster, it also differs between points of different members.
     std::uint64_t id;
 };
 
@@ -96,28 +96,27 @@ struct ContactOptions {
 
 inline constexpr std::uint64_t kWorkOfContact = 32;
 
-/// The extent of a list of contacts, and what limits left out.
+/// How complete a list of contacts is, and what the limits left out.
 struct ContactsVerdict {
     std::size_t count;       ///< contacts stored in `room`
     std::uint64_t found;     ///< pairs of pieces within the tolerance, as far as was searched, and
                              ///< enclosed components
     std::uint64_t computed;  ///< those of them whose contact was computed
     std::uint64_t work;      ///< as ContactOptions::work counts it
-    bool searched;           ///< the whole surface was searched: `work` ended nothing
+    bool searched;           ///< The search covered the whole surface; false if `work` ended it
     bool complete;           ///< all contacts are in `room`, or in the clusters there
 };
 
-/// Finds the contacts of two surfaces: one for each pair of convex pieces with triangles at most
-/// options.tolerance apart, exactly as pairs_within() decides. A negative tolerance or NaN gives no
-/// contacts.
+/// Finds one contact for each pair of convex pieces that have triangles at most options.tolerance
+/// apart. This test is exact, as in pairs_within(). A negative tolerance or NaN gives no contacts.
 ///
 /// Without options.most, stores the first contacts in `room`, in the order of (piece_a, piece_b),
 /// and then those of enclosed components. With an empty span it only counts them (`found`). With
 /// options.most, stores at most so many, the deepest first (by `upper`, then by pieces). If there
-/// are more, every second contact is the deepest that is left, and the others are those farthest
-/// from all that were taken. Then only contacts that may be listed are computed.
+/// are more, the choice alternates between the deepest remaining contact and the one farthest from
+/// all chosen ones. Then only contacts that may be listed are computed.
 ///
-/// The number to use: `lower` is minus the distance by which a solver must move B along `normal`.
+/// If `lower` is negative, a solver must move B by -lower along `normal` to separate the pieces.
 ///
 ///     +---+                 +---+                    +---+
 ///     | B |                 | B |                    | B |
@@ -126,32 +125,33 @@ struct ContactsVerdict {
 ///     ---------  A                                   --> -upper: shorter, but sideways
 ///     apart             shallow                 at an edge inside a surface
 ///
-/// If two pieces are apart, their contact has the nearest features of the mesh. The interval of the
-/// distance is no wider than that of convex_distance(). Pieces overlap if their hulls do, and both
-/// are contained or their triangles touch. Then the normal is the shortest way out that does not
-/// snag. The candidates are the normals of both hulls' faces and the directions across two of their
-/// edges. A piece is contained if its hull lies within the solid. For other overlapping hulls, the
-/// contact has the distance of the triangles. If triangles do not cover a face of a hull, the
-/// triangles decide. If several pairs of points are nearest, as between parallel faces, the contact
-/// has one of them.
+/// If two pieces are apart, their contact has the nearest features of the mesh. The distance
+/// interval is no wider than that of convex_distance(). Pieces overlap if their hulls do, and both
+/// are contained or their triangles touch. Then `normal` is the direction of the shortest
+/// separating translation that does not snag. The candidates are the normals of both hulls' faces
+/// and the directions across two of their edges. A piece is contained if its hull lies within the
+/// solid. For other overlapping hulls, the contact has the distance of the triangles. If triangles
+/// do not cover a face of a hull, the triangles decide. If several pairs of points are nearest, as
+/// between parallel faces, the contact has one of them.
 ///
-/// A way snags if it leans over a flat or reflex edge, where the surface continues. It also snags
-/// if it leads through a part of the hull that no triangle covers. Then the shortest way that ends
-/// at both surfaces is taken (contact_internal_edge). A way that leads neither along a plane nor
-/// deeper into a solid is preferred if it is less than half as long. `upper` still tells the
-/// shortest way of all. For shallow contacts away from such edges, `lower` and `upper` are equal up
-/// to rounding. Bodies may overlap by more than the size of a piece. Then a contact separates its
-/// two pieces only, not the bodies: push by the deepest, and query again. Inside a solid, the inner
-/// side of a wall may be near (contact_from_behind); such a contact should not push.
+/// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. It also
+/// snags if it leads through a part of the hull that no triangle covers. Then the shortest
+/// translation that does not snag is used, and contact_internal_edge is set. A translation that
+/// snags is used instead if it is less than half as long, and leads neither along a plane nor
+/// deeper into a solid. `upper` is still minus the length of the shortest separating translation.
+/// For shallow contacts away from such edges, `lower` and `upper` are equal up to rounding. Bodies
+/// may overlap by more than the size of a piece. Then a contact separates its two pieces only, not
+/// the bodies: push by the deepest, and query again. Inside a solid, the inner side of a wall may
+/// be near (contact_from_behind); such a contact should not push.
 ///
 /// With Body::solid, a component that is proven to be inside the other model makes a contact of its
-/// own (contact_deep). None is made where triangles of the two models touch. Its pieces are one of
-/// the component and the nearest of the other model. The way out leads out of hulls that enclose
-/// the other model. They are its parts (`bake --structures hull --parts`), else its whole hull,
-/// else the box around it. A translation by -lower along `normal` frees the component. None shorter
-/// than -upper does: that is the distance of one of its vertices from the other surface. Such a
-/// contact counts in `found`, and with options.most it is listed before others of no greater depth.
-/// An open model encloses nothing.
+/// own (contact_deep). No such contact is made if any triangles of the two models touch. It names
+/// one piece of the component and the nearest piece of the other model. The translation moves the
+/// component out of hulls that enclose the other model. They are its parts (`bake --structures hull
+/// --parts`), else its whole hull, else the box around it. A translation by -lower along `normal`
+/// frees the component. No translation shorter than -upper frees it: that is the distance of one of
+/// its vertices from the other surface. Such a contact counts in `found`, and with options.most it
+/// is listed before others of no greater depth. An open model encloses nothing.
 ///
 /// The manifold spans the nearest pairs. Its points are corners of one face, clipped by the other,
 /// and each distance is between the two faces there. The deepest point is first, then those that

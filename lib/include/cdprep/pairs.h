@@ -46,8 +46,9 @@ struct PairOptions {
     Body body = Body::surface;
     Overlap overlap = Overlap::closed;
     Degenerate degenerate = Degenerate::keep;
-    /// The structure of both files through which the query is computed. It changes speed only, but
-    /// for the triangles that distance() names. A query without a search through it uses the BVH.
+    /// The structure of both files through which the query is computed. It changes only speed,
+    /// except that distance() may name other triangles. A query that does not support the structure
+    /// uses the BVH.
     Structure through = Structure::bvh;
 };
 
@@ -69,8 +70,8 @@ struct Pair {
 /// The containment of a component of one model in the other.
 struct Containment {
     Answer answer = Answer::no;
-    /// The winding number that decided. It is an integer if exact, the generalised one
-    /// (solid angle / 4 pi) if `answer` is unknown, and 0 if `answer` is no.
+    /// The winding number that decided. An integer if `answer` is yes, and 0 if it is no. If
+    /// `answer` is unknown, the generalised winding number: solid angle / 4 pi.
     double winding = 0;
     bool a_inside_b = false;  ///< unless `answer` is no: true for A in B, false for B in A
 };
@@ -80,7 +81,8 @@ struct Collision {
     /// yes: the surfaces touch or, with Body::solid, one model is proven inside the other.
     /// unknown: the surfaces do not touch, and `containment` is unknown.
     Answer hit = Answer::no;
-    /// Set with Body::solid if the surfaces do not touch; otherwise its answer is no.
+    /// collide() computes it only for Body::solid, if the surfaces do not touch. Otherwise its
+    /// answer is no.
     Containment containment;
 };
 
@@ -127,7 +129,7 @@ struct TrianglePair {
 /// model overlaps nothing.
 ///
 /// Reads options.overlap, degenerate and through. Needs Ask::overlap of both models, and
-/// options.through its ask_of(). Takes O(log n + pairs) time for compact surfaces, O(n m) in the
+/// options.through its ask_of(). Takes O(log n + pairs) time for typical meshes, O(n m) in the
 /// worst case. With a cache, a pose without contact takes as long as collide(). Through octrees and
 /// tetra-trees, it uses about 20 KiB of stack. Never allocates.
 [[nodiscard]] std::size_t overlaps(const Pair& pair, Workspace& workspace,
@@ -135,7 +137,7 @@ struct TrianglePair {
 
 using PairVisitor = Visitor<TrianglePair>;
 
-/// Calls `visit` with every pair that overlaps() finds, each once, as it is found. Stores and sorts
+/// Calls `visit` once for each pair that overlaps() finds, as the search finds it. Stores and sorts
 /// nothing. The order is the same for equal input on equal processors, otherwise unspecified.
 /// Returns false if `visit` ended the search. Reads options.overlap and degenerate. Needs
 /// Ask::overlap of both models.
@@ -147,9 +149,9 @@ bool visit_overlaps(const Pair& pair, Workspace& workspace, PairVisitor visit) n
 
 /// Marks the triangles of each model that overlap any triangle of the other, and returns the number
 /// of pairs. The mark of source triangle i is bit i % 64 of element i / 64. Clears `bits_a` and
-/// `bits_b` first. Each must have an element for every 64 triangles of its model; otherwise nothing
-/// is marked in it. Faster than overlaps() if many pairs share few triangles. Reads options.overlap
-/// and degenerate. Needs Ask::overlap of both models.
+/// `bits_b` first. Each needs an element for every 64 triangles of its model. A shorter array gets
+/// no marks. Faster than overlaps() if many pairs share few triangles. Reads options.overlap and
+/// degenerate. Needs Ask::overlap of both models.
 std::size_t mark_overlaps(const Pair& pair, Workspace& workspace, std::span<std::uint64_t> bits_a,
                           std::span<std::uint64_t> bits_b) noexcept;
 
@@ -166,21 +168,21 @@ struct Crossing {
 /// Finds every pair that overlaps() finds, with the common segment of its two triangles. Returns
 /// the number of pairs and stores the first of them in `room`, as overlaps() does.
 ///
-/// Coordinates are those of the placement: A's frame if B moves. The edges that end a segment are
-/// chosen exactly, for the vertices as transform_point() moves them. Each coordinate is then
-/// rounded once. The result is the nearest double, unless the coordinate lies within 2^-45 units in
-/// the last place of the midpoint between two (crossing_segments_laws_test). Except for those ties,
-/// neighbours that share an edge share the end on it, bit for bit. Subnormal coordinates may be off
-/// by one unit.
+/// Coordinates are those of the placement: A's frame if B moves. The edges on which a segment ends
+/// are determined exactly, for the vertices as transform_point() moves them. Each coordinate is
+/// then rounded once. The result is the nearest double, unless the coordinate lies within 2^-45
+/// units in the last place of the midpoint between two (crossing_segments_laws_test). Except for
+/// those ties, triangles that share an edge get bit-identical segment ends on it. Subnormal
+/// coordinates may be off by one unit.
 ///
 /// Reads options.overlap and degenerate. Needs Ask::overlap of both models. Takes some microseconds
 /// more per pair than overlaps(), and about 20 KiB of stack. Never allocates.
 [[nodiscard]] std::size_t crossings(const Pair& pair, Workspace& workspace,
                                     std::span<Crossing> room) noexcept;
 
-/// Calls `visit` with every crossing that crossings() finds, each once, as it is found, in the
-/// order of visit_overlaps(). Returns false if `visit` ended the search. Reads options.overlap and
-/// degenerate. Needs Ask::overlap of both models.
+/// Calls `visit` once for each crossing that crossings() finds, as the search finds it. The order
+/// is that of visit_overlaps(). Returns false if `visit` ended the search. Reads options.overlap
+/// and degenerate. Needs Ask::overlap of both models.
 bool visit_crossings(const Pair& pair, Workspace& workspace, Visitor<Crossing> visit) noexcept;
 
 /// The limits of a distance query. The search ends at either permitted error. With both 0, the
@@ -205,22 +207,23 @@ struct Distance {
 /// Returns the distance of two surfaces. Returns nothing if it exceeds options.max_distance or a
 /// model is empty.
 ///
-/// The distance is 0 exactly if the surfaces touch or, with Body::solid, one model is proven inside
-/// the other. Witnesses of touching surfaces are a common point; those of contained solids are the
-/// surfaces' nearest points.
+/// The distance is 0 if and only if the surfaces touch or, with Body::solid, one model is proven
+/// inside the other. If the surfaces touch, both witnesses are a common point. For contained
+/// solids, they are the surfaces' nearest points.
 ///
 /// Among pairs of triangles with equal `upper`, the result has the lowest numbers. Pairs that are
 /// equally near in exact arithmetic may differ in the last bits of `upper`. Any of them may be the
 /// result, but always the same one. Through Structure::pieces, the result may be another pair of
 /// touching triangles.
 ///
-/// The interval contains the distance between the vertices as transform_point() moves them. Without
-/// permitted errors its width is at most 1e-12 of the distance plus 1e-15 of the largest coordinate
-/// (triangle_distance_laws_test). With them it is at most that, or as permitted.
+/// The interval contains the exact distance of the surfaces whose vertices transform_point() moved.
+/// Without permitted errors its width is at most 1e-12 of the distance plus 1e-15 of the largest
+/// coordinate (triangle_distance_laws_test). With permitted errors, the width is at most the larger
+/// of this bound and the permitted error.
 ///
 /// Reads pair.options.body and through; the only structure beside the BVH is Structure::pieces.
 /// Needs Ask::distance of both models; Body::solid also Ask::solid, and options.through its
-/// ask_of(). Takes O(log n) time for compact surfaces. Visits every triangle in the worst case,
+/// ask_of(). Takes O(log n) time for typical meshes. Visits every triangle in the worst case,
 /// such as concentric spheres. Never allocates.
 [[nodiscard]] std::optional<Distance> distance(const Pair& pair, Workspace& workspace,
                                                const DistanceOptions& options = {}) noexcept;
@@ -240,23 +243,22 @@ struct Distance {
 
 /// Finds every pair of triangles that are at most `tolerance` apart, in model units; inclusive.
 ///
-/// Returns the number of pairs. Stores the first of them in `room`, in the order and with the
-/// meaning of overlaps(). A tolerance of 0 gives the pairs of overlaps() with Overlap::closed; an
-/// infinite one gives all pairs. A negative tolerance or NaN gives none, and an empty model has
-/// none.
+/// Returns the number of pairs. Stores the first of them in `room`, as overlaps() does. A tolerance
+/// of 0 gives the pairs of overlaps() with Overlap::closed; an infinite one gives all pairs. A
+/// negative tolerance or NaN gives none, and an empty model has none.
 ///
 /// Exact for the vertices as transform_point() moves them. The distance of a degenerate triangle is
 /// that of its segment or point, unless it is skipped.
 ///
 /// Reads options.degenerate and through; the only structure beside the BVH is Structure::pieces.
 /// Needs Ask::within of both models, and options.through its ask_of(). Takes O(log n + pairs) time
-/// for compact surfaces and tolerances that are small compared with them, O(n m) in the worst case.
+/// for typical meshes and tolerances that are small compared with them, O(n m) in the worst case.
 /// Never allocates.
 [[nodiscard]] std::size_t pairs_within(const Pair& pair, double tolerance, Workspace& workspace,
                                        std::span<TrianglePair> room) noexcept;
 
-/// Calls `visit` with every pair that pairs_within() finds, each once, as it is found, in the
-/// order of visit_overlaps(). Returns false if `visit` ended the search. Reads what pairs_within()
+/// Calls `visit` once for each pair that pairs_within() finds, as the search finds it. The order is
+/// that of visit_overlaps(). Returns false if `visit` ended the search. Reads what pairs_within()
 /// reads. Needs Ask::within of both models, and options.through its ask_of().
 ///
 ///     std::vector<bool> is_near(pair.a.get().triangle_count());

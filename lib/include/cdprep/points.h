@@ -103,7 +103,7 @@ struct RayOptions {
 /// with equal t the first has the lowest source triangle. A model without triangles is never hit,
 /// and a direction of zero hits nothing.
 ///
-/// Needs Ask::ray. Takes O(log n) time for compact surfaces. Never allocates.
+/// Needs Ask::ray. Takes O(log n) time for typical meshes. Never allocates.
 [[nodiscard]] std::optional<RayHit> cast_ray(const Model& model, const Ray& ray,
                                              Workspace& workspace,
                                              const RayOptions& options = {}) noexcept;

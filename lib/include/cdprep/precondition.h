@@ -4,13 +4,13 @@
 namespace cdprep {
 
 /// Receives one sentence when a C++ query is called that its model or its workspace cannot serve.
-/// This is an error of the caller that no answer could report. The handler may log the sentence,
-/// write a dump or end the program. If it returns, the program is aborted.
+/// This is an error of the caller that the query's result cannot report. The handler may log the
+/// sentence, write a dump or end the program. If it returns, the program is aborted.
 using PreconditionHandler = void (*)(const char* sentence);
 
-/// Sets the handler of the whole program and returns the previous one. Null sets the default, which
-/// prints the sentence to standard error. Any thread may call it. This handler is the library's
-/// only mutable global. The C API never calls it, but returns CDPREP_BAD_ARGUMENT.
+/// Sets the process-wide handler and returns the previous one. Null sets the default, which prints
+/// the sentence to standard error. Any thread may call it. This handler is the library's only
+/// mutable global. The C API never calls it, but returns CDPREP_BAD_ARGUMENT.
 PreconditionHandler set_precondition_handler(PreconditionHandler handler) noexcept;
 
 }  // namespace cdprep

@@ -83,8 +83,8 @@ struct FileHeader {
     std::uint64_t file_size;    ///< bytes, HDF5 part included
     /// checksum() of the user block with this field zero.
     std::uint64_t header_checksum;
-    /// content_hash(): of the sections' ids, sizes, counts and checksums, and of the header's facts
-    /// about the model. The same input, options and tool version give the same hash.
+    /// The result of content_hash() over the sections' ids, sizes, counts and checksums, and the
+    /// header's facts about the model. The same input, options and tool version give the same hash.
     std::uint64_t content_hash;
     /// Bytes 8 to 47 of the HDF5 superblock. A tool that rewrites the file moves the sections but
     /// copies this block; then the bytes no longer match.

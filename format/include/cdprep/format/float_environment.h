@@ -51,9 +51,9 @@ void set_default_float_control() noexcept;
 /// and two comparisons, eight instructions on x86-64.
 ///
 /// Engines flush subnormal numbers to zero on their threads, and -ffast-math does so for a whole
-/// program. Some programs round in another direction or trap exceptions. Exactness is proven for
-/// the default environment only, so each entry of the library begins with a guard. A guard must
-/// stay on the thread that made it.
+/// program. Some programs set another rounding mode or trap floating-point exceptions. Exactness is
+/// proven for the default environment only, so each entry of the library begins with a guard. A
+/// guard must stay on the thread that made it.
 class FloatEnvironment {
 public:
     FloatEnvironment() noexcept : callers_(float_control()) {

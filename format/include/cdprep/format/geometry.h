@@ -48,10 +48,10 @@ struct BvhNode {
 /// of the boxes of the BvhNode with the same number.
 ///
 /// A box is centre + sum of t_k axis_k with |t_k| <= half_k. The third axis is axis[0] x axis[1].
-/// Axis 0 is the one along which the box is thinnest. Axes are unit and orthogonal up to the
-/// rounding of float. The half extents are enlarged so that the box contains every vertex below.
-/// This holds for the axes as stored, and the third axis rounded either way. Frame coordinates.
-/// Unused boxes have centre 0, axes x and y, half -1.
+/// Axis 0 is the one along which the box is thinnest. Axes are orthonormal up to float rounding.
+/// The half extents are enlarged so that the box contains every vertex below. This holds for the
+/// axes as stored, and the third axis rounded either way. Frame coordinates. Unused boxes have
+/// centre 0, axes x and y, half -1.
 struct OrientedNode {
     std::array<std::array<std::array<float, kBvhWidth>, 3>, 2> axis;  ///< [axis][component][box]
     std::array<std::array<float, kBvhWidth>, 3> centre;               ///< [component][box]
@@ -74,9 +74,9 @@ struct SweptSide {
 /// A swept sphere contains the points at most `radius` from its middle, which is centre + t_0
 /// axis_0 + t_1 axis_1 with |t_k| <= half_k. For a point both halves are 0, for a line the second.
 /// A reader of points needs only the first 128 bytes of a node, a reader of lines 256. Axes are
-/// unit and orthogonal up to the rounding of float. Axis 0 is the one along which the surface
-/// spreads most. With the axes as stored, every vertex below is contained in exact arithmetic.
-/// Frame coordinates. Unused swept spheres have centre 0, axes x and y, halves and radius 0.
+/// orthonormal up to float rounding. Axis 0 is the one along which the surface spreads most. With
+/// the axes as stored, every vertex below is contained in exact arithmetic. Frame coordinates.
+/// Unused swept spheres have centre 0, axes x and y, halves and radius 0.
 struct SweptNode {
     std::array<std::array<float, kBvhWidth>, 3> centre;  ///< [component][box]
     std::array<float, kBvhWidth> radius;                 ///< >= 0

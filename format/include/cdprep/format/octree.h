@@ -31,9 +31,9 @@ inline constexpr std::uint64_t kKeyMixer = 0x9e3779b97f4a7c15U;
 ///
 /// Plane i of an axis, 0 <= i <= 2^21, lies at origin + i * step. The product is exact, because
 /// step has at most 32 significant bits. The sum is rounded to double once. Planes of rising number
-/// rise strictly. A cell of level l is the closed box between two planes 2^(21 - l) apart along
-/// each axis. The root, level 0, contains every vertex and more than a step beyond. So cells of
-/// every level are exact, whatever the model's size.
+/// rise strictly. A cell of level l is the closed box between planes i and i + 2^(21 - l) of each
+/// axis. The root, level 0, contains every vertex and more than a step beyond. So cells of every
+/// level are exact, whatever the model's size.
 struct OctreeGrid {
     Double3 origin;           ///< model units
     double step;              ///< model units, > 0
@@ -100,8 +100,8 @@ struct AdaptiveOctree {
 };
 
 /// A cell that some triangle touches: a closed box. The root's box is that of AdaptiveOctree. The
-/// planes through `split` divide a node's box into those of its children, numbered like
-/// OctreeNode's. Nodes are stored level by level, root first, siblings side by side. Leaves'
+/// planes through `split` divide a node's box into its children's boxes. Children are numbered as
+/// in OctreeNode. Nodes are stored level by level, root first, siblings side by side. Leaves'
 /// references follow each other in the order of the nodes.
 struct AdaptiveOctreeNode {
     /// The split point, model units. Along each axis it is strictly inside the node's box or at its

@@ -36,8 +36,8 @@ struct Piece {
 
 /// Bits of PieceFacet::flags.
 enum PieceFacetFlags : std::uint32_t {
-    /// The triangles of the piece do not cover the face of this facet. A contact with it is not yet
-    /// a contact with the surface.
+    /// The piece's triangles do not fully cover the hull face that contains this facet. A contact
+    /// with it is not yet a contact with the surface.
     facet_virtual = 1,
     facet_first_of_face = 2,  ///< the first of a maximal coplanar face of the hull
 };

@@ -8,9 +8,9 @@
 namespace cdprep::format {
 
 /// Bits of Verdict::facts: facts about a mesh or one component of it. A bit that is not set means
-/// that the fact is false. The exception is self_crossing, which has a meaning only with
-/// crossings_examined. All facts are decided after vertices with equal positions were joined and
-/// triangles with a repeated corner were left out. If no triangle is left, all but
+/// that the fact is false. The exception is self_crossing, which is valid only if
+/// crossings_examined is set. All facts are decided after vertices with equal positions were joined
+/// and triangles with a repeated corner were left out. If no triangle is left, all but
 /// crossings_examined are unset, and promise_surface is the only promise.
 enum VerdictFacts : std::uint32_t {
     verdict_closed = 1,               ///< every edge is used by two triangles or more

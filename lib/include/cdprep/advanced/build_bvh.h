@@ -75,8 +75,8 @@ enum class Quality : std::uint8_t {
 
 struct BvhOptions {
     ParallelFor parallel_for = serial_for;
-    /// Without oriented boxes, overlap queries take 1.1 to 1.3 times as long. With Quality::fast
-    /// they then take 1.3 to 1.5 times as long.
+    /// Without oriented boxes, overlap queries take 1.1 to 1.3 times as long. With Quality::fast it
+    /// is 1.3 to 1.5 times.
     BvhBounds bounds = BvhBounds::oriented;
     Quality quality = Quality::best;
 };

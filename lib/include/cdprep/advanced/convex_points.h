@@ -26,11 +26,11 @@ struct ConvexPoints {
     /// points, which is best for fewer than kClimbFrom.
     std::span<const std::uint32_t> neighbour_begins;
     /// The numbers of the points at the other ends of each point's edges. They are the exact hull
-    /// edges, diagonals of coplanar facets included. A point that is higher than all its neighbours
-    /// must be the highest.
+    /// edges, including the diagonals between coplanar facets. A point that is higher than all its
+    /// neighbours must be the highest.
     std::span<const std::uint32_t> neighbours;
-    /// For each direction_cell(), a point that is far in its directions; or empty. Any point is
-    /// correct; a good one saves steps.
+    /// For each direction_cell(), a point that is far in its directions; or empty. Any point gives
+    /// the correct result. A point near the farthest one saves steps.
     std::span<const std::uint32_t> starts;
     /// An alternative to blocks, for hulls of few points and without neighbours. Point i is number
     /// corners[i] of `floats` or, if that is empty, of `doubles`.

@@ -24,7 +24,7 @@ public:
         return number;
     }
 
-    /// Unites the sets of two numbers. Returns whether they were different sets.
+    /// Unites the sets of two numbers. Returns whether the two sets were different before.
     bool unite(std::uint32_t a, std::uint32_t b) {
         a = root_of(a);
         b = root_of(b);

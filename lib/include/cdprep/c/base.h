@@ -214,9 +214,9 @@ CDPREP_API int cdprep_workspace_counts(cdprep_workspace* workspace, cdprep_count
 
 /* --- Poses ------------------------------------------------------------------------------------
  *
- * A pose is a rigid motion: it moves a point p to R p + T. A function refuses a pose that is not
- * rigid. Every entry of |R^T R - I| must be at most 1e-12, and R must not mirror. Convert matrices
- * of engines with cdprep_pose_nearest(). */
+ * A pose is a rigid motion: it moves a point p to R p + T. Every function rejects a pose that is
+ * not rigid. Every entry of |R^T R - I| must be at most 1e-12, and R must not mirror. Convert
+ * matrices of engines with cdprep_pose_nearest(). */
 
 typedef struct cdprep_pose {
     double rows[12]; /* R row by row, then T in model units */
@@ -224,7 +224,7 @@ typedef struct cdprep_pose {
 
 enum { CDPREP_ROWS = 0, CDPREP_COLUMNS = 1 };
 
-/* Makes a pose from a quaternion w + xi + yj + zk of any length except 0. Each entry of R is within
+/* Makes a pose from a quaternion w + xi + yj + zk of any nonzero length. Each entry of R is within
  * 2^-50 of the exact one. On failure, *pose is all 0, which no function accepts as a pose. The same
  * holds for the functions below that make a pose. */
 CDPREP_API int cdprep_pose_from_quaternion(const double wxyz[4], const double translation[3],

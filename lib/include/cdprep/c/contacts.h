@@ -81,11 +81,11 @@ typedef int (*cdprep_contact_visitor)(void* context, const cdprep_contact* conta
 
 CDPREP_API void cdprep_contact_options_init(cdprep_contact_options* options, size_t size);
 
-/* Finds the contacts of two surfaces: one for each pair of convex pieces with triangles at most
- * `tolerance` apart, exactly as cdprep_pairs_within() decides. The list is sorted by `upper`, the
- * deepest first, then by piece_a and piece_b. If there are more than `most`, every second one is
- * the deepest that is left. The others are those farthest from all that were taken. `items` get the
- * first ones. `options` may be null.
+/* Finds one contact for each pair of convex pieces that have triangles at most `tolerance` apart.
+ * This test is exact, as in cdprep_pairs_within(). The list is sorted by `upper`, the deepest
+ * first, then by piece_a and piece_b. If there are more than `most`, the choice alternates between
+ * the deepest remaining contact and the one farthest from all chosen ones. `items` get the first
+ * ones. `options` may be null.
  * With CDPREP_SOLID, a component that is proven to be inside the other model makes a contact as
  * well, unless triangles touch. Moving B by -lower along the normal frees it, and no translation
  * shorter than -upper does. The way out is that of the other model's parts, else of its whole hull

@@ -173,12 +173,12 @@ typedef struct cdprep_mass {
     double inertia[6]; /* about the centre, density 1, model axes: xx, yy, zz, xy, yz, zx */
 } cdprep_mass;
 
-/* Stores the mass properties of a closed model. The file of an open model has none.
+/* Stores the mass properties of a closed model. If the mesh is not closed, its file has none.
  * Needs: CDPREP_ASK_RESPONSE */
 CDPREP_API int cdprep_model_mass(const cdprep_model* model, cdprep_mass* mass, cdprep_error* error);
 
-/* Bits of cdprep_verdict.facts. A bit that is not set is false. SELF_CROSSING is known only if
- * CROSSINGS_EXAMINED is set. */
+/* Bits of cdprep_verdict.facts. If a bit is not set, its fact is false. SELF_CROSSING is known only
+ * if CROSSINGS_EXAMINED is set. */
 enum {
     CDPREP_FACT_CLOSED = 1,
     CDPREP_FACT_TWO_MANIFOLD = 2,

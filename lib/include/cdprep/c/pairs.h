@@ -10,12 +10,13 @@
  * vertices as the poses move them (cdprep_pose_move()). A model without triangles touches
  * nothing. */
 
-/* The model whose vertices move. The choice matters in the last bits, because moving rounds. */
+/* The model whose vertices the query moves: A, B or both. The choice matters in the last bits,
+ * because moving rounds. */
 enum {
     CDPREP_MOVE_B = 0, /* B moves into A's frame, by pose_a^-1 pose_b; A does not move */
     CDPREP_MOVE_A = 1, /* A moves into B's frame, by pose_b^-1 pose_a; B does not move */
-    /* Both move, each by its own pose. Parts of one assembly that share vertices and a pose
-     * still share them: touching stays touching. */
+    /* Both move, each by its own pose. If two parts have common vertices and equal poses, these
+     * vertices stay identical, so the parts still touch. */
     CDPREP_MOVE_BOTH = 2
 };
 /* The point set that represents a model. */
@@ -33,9 +34,9 @@ enum {
     CDPREP_KEEP_DEGENERATE = 0, /* they count as the segment or point that they are */
     CDPREP_SKIP_DEGENERATE = 1  /* they are ignored */
 };
-/* The structure through which a query is computed. It changes the time, not the answer, but
- * cdprep_distance() through pieces may name other triangles that touch. For a structure other than
- * the BVH, a model must also serve its CDPREP_ASK_ bit. */
+/* The structure through which a query is computed. It changes the time but not the answer.
+ * Exception: cdprep_distance() through pieces may name another pair of touching triangles. For a
+ * structure other than the BVH, a model must also serve its CDPREP_ASK_ bit. */
 enum {
     CDPREP_THROUGH_BVH = 0,
     CDPREP_THROUGH_OCTREE = 1,
@@ -46,8 +47,9 @@ enum {
 };
 
 /* The result of earlier queries on one pair of models. The next query starts from it, and is faster
- * if the models have moved little. All zero is a new cache. Any content is safe: what a query did
- * not write counts as new. Use one for each pair of models and thread. */
+ * if the models have moved little. A zero-filled struct is a new cache. Any content is safe:
+ * content that no query wrote is treated as a new cache. Use one for each pair of models and
+ * thread. */
 typedef struct cdprep_cache {
     uint64_t words[32];
 } cdprep_cache;
@@ -81,7 +83,7 @@ typedef struct cdprep_collision {
 } cdprep_collision;
 
 /* Stores whether two models collide. Stops at the first pair of triangles found. Surfaces collide
- * if they have a common point; one inside the other without contact does not collide. Solids also
+ * if they have a common point. Nested surfaces that do not touch do not collide. Solids also
  * collide if a component of one is inside the other. A component inside an open surface gives
  * `containment` CDPREP_UNKNOWN with the generalised winding number, and `hit` CDPREP_UNKNOWN.
  * Uses body, overlap, degenerate; through: any, for surfaces and solids.
@@ -122,10 +124,10 @@ typedef struct cdprep_overlap_list {
 /* Receives each answer and the caller's context; returning 0 ends the search. */
 typedef int (*cdprep_overlap_visitor)(void* context, const cdprep_overlap* overlap);
 
-/* Lists all pairs of triangles that overlap, sorted by a, then b. If there is too little room, it
- * keeps the smallest.
+/* Lists all pairs of triangles that overlap, sorted by a, then b. If there are more pairs than
+ * `room`, the list keeps the smallest pairs.
  * Uses overlap, degenerate; through: any.
- * Takes O(log n + pairs) time for compact surfaces, O(n m) in the worst case.
+ * Takes O(log n + pairs) time for typical meshes, O(n m) in the worst case.
  * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_overlaps(const cdprep_pair* pair, cdprep_workspace* workspace,
                                cdprep_overlap_list* list, cdprep_error* error);
@@ -174,11 +176,11 @@ typedef struct cdprep_crossing_list {
 
 typedef int (*cdprep_crossing_visitor)(void* context, const cdprep_crossing* crossing);
 
-/* Both find all pairs of cdprep_overlaps() with their common segments, in the frame into which the
- * models move. The list is in the order of (a, b); if there is too little room, it keeps the
- * smallest. Visits are in no particular order. The ends are chosen exactly and then rounded once
- * (at most half a unit in the last place, plus 2^-45). Neighbours share them bit for bit, except
- * where that 2^-45 decides the rounding.
+/* Both functions find the pairs of cdprep_overlaps() with their common segments. Coordinates are in
+ * the frame into which the models move. The list is in the order of (a, b); if there is too little
+ * room, it keeps the smallest. Visits are in no particular order. The ends are chosen exactly and
+ * then rounded once (at most half a unit in the last place, plus 2^-45). Neighbours share them bit
+ * for bit, except where that 2^-45 decides the rounding.
  * Uses overlap, degenerate. Takes some microseconds more per pair than cdprep_overlaps().
  * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_crossings(const cdprep_pair* pair, cdprep_workspace* workspace,
@@ -206,32 +208,35 @@ typedef struct cdprep_nearest {
     double on_a[3], on_b[3]; /* nearest points, up to rounding, in the frame the models move to */
 } cdprep_nearest;
 
-/* Stores the distance of two models. It is 0, exactly, for surfaces that touch. It is also 0 for
- * solids of which one is proven inside the other, with the nearest points of the surfaces. Without
- * permitted errors the interval is at most 1e-12 of the distance plus 1e-15 of the largest
- * coordinate wide. Among pairs of triangles with equal `upper`, the result has the lowest numbers,
+/* Stores the distance of two models. It is 0, exactly, for surfaces that touch. It is also 0 if one
+ * solid is proven inside the other; the points are then the surfaces' nearest points. Without
+ * permitted errors, the interval's width is at most 1e-12 of the distance plus 1e-15 of the largest
+ * coordinate. Among pairs of triangles with equal `upper`, the result has the lowest numbers,
  * except through pieces. `options` may be null.
  * Uses body; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
- * Takes O(log n) time for compact surfaces; visits every triangle in the worst case.
+ * Takes O(log n) time for typical meshes; visits every triangle in the worst case.
  * Needs: CDPREP_ASK_DISTANCE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_distance(const cdprep_pair* pair, const cdprep_distance_options* options,
                                cdprep_workspace* workspace, cdprep_nearest* nearest,
                                cdprep_error* error);
 
-/* Stores whether two surfaces are at most `tolerance` apart, which is 0 or more. Exact to the last
- * bit. Uses through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES. Takes less time than a distance.
+/* Stores whether two surfaces are at most `tolerance` apart. `tolerance` must be at least 0. Exact
+ * to the last bit. Uses through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES. Takes less time than a
+ * distance.
  * Needs: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_within(const cdprep_pair* pair, double tolerance, cdprep_workspace* workspace,
                              uint32_t* within, cdprep_error* error);
 
 /* Lists all pairs of triangles that are at most `tolerance` apart, sorted by a, then b. Exact.
  * Uses degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
+ *
  * Needs: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_pairs_within(const cdprep_pair* pair, double tolerance,
                                    cdprep_workspace* workspace, cdprep_overlap_list* list,
                                    cdprep_error* error);
 
 /* Calls `visit` with each of these pairs, in no particular order. Uses degenerate.
+ *
  * Needs: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_pairs_within_visit(const cdprep_pair* pair, double tolerance,
                                          cdprep_workspace* workspace, cdprep_overlap_visitor visit,
@@ -241,7 +246,8 @@ CDPREP_API int cdprep_pairs_within_visit(const cdprep_pair* pair, double toleran
  * in the same order. All pairs are checked first. If one is invalid, no query runs, and
  * error.argument names it ("pairs[3].pose_b"). The size in the head of the first pair is the stride
  * of the array. No two pairs may share a cache. A batch is faster than single calls from about ten
- * queries. Each function uses and needs what the single query does. */
+ * queries. Each function uses the same fields and needs the same CDPREP_ASK_ bits as its single
+ * query. */
 CDPREP_API int cdprep_collide_many(const cdprep_pair* pairs, size_t count,
                                    cdprep_workspace* workspace, cdprep_collision* collisions,
                                    cdprep_error* error);

@@ -28,9 +28,10 @@ typedef struct cdprep_closest_point {
     double lower, upper; /* bounds of the exact distance, model units */
 } cdprep_closest_point;
 
-/* Stores the points of a model's surface that are nearest to `count` points. `answers` has room for
- * `count` results. A point inside a solid is as far away as its walls. Takes O(log n) time for most
- * points.
+/* Stores the points of a model's surface that are nearest to `count` points. `answers` must have
+ * room for `count` results. A point inside a solid is as far away as its walls. Takes O(log n) time
+ * for most points.
+ *
  * Needs: CDPREP_ASK_CLOSEST */
 CDPREP_API int cdprep_points_closest(const cdprep_point_query* query, cdprep_workspace* workspace,
                                      cdprep_closest_point* answers, cdprep_error* error);
@@ -79,7 +80,7 @@ typedef struct cdprep_ray_hit_list {
 
 typedef int (*cdprep_ray_visitor)(void* context, const cdprep_ray_hit* hit);
 
-/* Stores the first hit of each ray; `hits` has room for `count` results. Whether a ray hits a
+/* Stores the first hit of each ray; `hits` must have room for `count` results. Whether a ray hits a
  * triangle is exact, edges and vertices included: a ray cannot pass between two triangles that
  * share an edge. Both sides count. A ray in the plane of a triangle hits where it enters. t is
  * rounded. Two hits with nearly equal t may be reported in either order, and a hit near max_t may

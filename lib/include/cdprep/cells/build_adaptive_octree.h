@@ -13,7 +13,7 @@
 
 namespace cdprep::build {
 
-/// An octree whose nodes choose their split points (format/octree.h).
+/// An octree with a split point chosen for each node (format/octree.h).
 struct AdaptiveOctree {
     format::AdaptiveOctree tree{};
     std::vector<format::AdaptiveOctreeNode> nodes;

@@ -57,9 +57,8 @@ inline constexpr std::size_t kScratchPerNode = 96;
 /// below. For example, level 21 around a triangle that fills the cube has 2^42 cells. If
 /// coordinates are NaN, the result is meaningless; the readers of files reject them.
 ///
-/// Takes O(levels * references) time. The memory beside the result is at most the sum of
-/// kScratchPerVertex, kScratchPerReference and kScratchPerNode, each times its number. Throws only
-/// std::bad_alloc.
+/// Takes O(levels * references) time. Scratch memory is at most kScratchPerVertex * vertices +
+/// kScratchPerReference * references + kScratchPerNode * nodes bytes. Throws only std::bad_alloc.
 [[nodiscard]] Octree build_octree(std::span<const format::Double3> positions,
                                   std::span<const format::Triangle> triangles,
                                   const OctreeOptions& options = {});

@@ -79,9 +79,9 @@ inline std::uint32_t find_node_in_order(const OctreeIndex& index, std::uint64_t 
     return static_cast<std::uint32_t>(at - index.nodes.begin());
 }
 
-/// Computes find_leaf() by the sorted leaves. There must be nodes. Leaves do not overlap. So if a
-/// leaf holds `code`, it is the one with the last beginning that is not after `code`. That leaf may
-/// end before `code`, because empty cells are not stored.
+/// Returns the result of find_leaf(), found by binary search in the sorted leaves. There must be
+/// nodes. Leaves do not overlap. So if a leaf holds `code`, it is the one with the last beginning
+/// that is not after `code`. That leaf may end before `code`, because empty cells are not stored.
 inline std::uint32_t find_sorted_leaf(const OctreeIndex& index, std::uint64_t code) noexcept {
     const std::uint64_t cell = code >> (3 * (format::kOctreeBits - index.top_level));
     assert(cell + 1 < index.top.size());
@@ -96,8 +96,8 @@ inline std::uint32_t find_sorted_leaf(const OctreeIndex& index, std::uint64_t co
     return key_at(code, format::level_of(key)) == key ? node : kNoNode;
 }
 
-/// Computes find_leaf() by a chained table. The deepest stored cell that holds `code` is a leaf, or
-/// an inner node whose child there is empty.
+/// Returns the result of find_leaf(), found in a chained hash table. The deepest stored cell that
+/// holds `code` is a leaf, or an inner node whose child there is empty.
 template <auto kSlotOf>
 std::uint32_t find_chained_leaf(const OctreeIndex& index, std::span<const std::uint32_t> table,
                                 std::uint64_t code) noexcept {

@@ -9,7 +9,7 @@
 
 namespace cdprep::build {
 
-/// The limits of the division of space by a structure.
+/// The limits at which a structure stops dividing space.
 struct TreeLimits {
     std::uint32_t level;      ///< no node is deeper
     std::uint32_t threshold;  ///< a node with fewer triangles is not divided

@@ -33,7 +33,7 @@ struct TetraFigures {
     friend bool operator==(const TetraFigures&, const TetraFigures&) = default;
 };
 
-/// Returns the figures of a model's tetra-tree. All but `triangles` are 0 if the model was baked
+/// Returns statistics of a model's tetra-tree. All but `triangles` are 0 if the model was baked
 /// without one. Layers are 0 if the model was opened without positions and triangles. Takes O(nodes
 /// + references) time, tens of nanoseconds per reference. Allocates four bytes per triangle.
 [[nodiscard]] TetraFigures tetra_figures(const Model& model);
