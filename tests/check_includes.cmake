@@ -16,7 +16,8 @@ set(lib_rooms
     "hull: core exact kernels"
     "pieces: core exact hull walk"
     "query: core exact pieces walk"
-    "cells: build core exact kernels walk"
+    "cells: core exact kernels walk"
+    "cells/build: build cells core exact"
     "c: core kernels pieces walk")
 set(tools_rooms
     "command_line: text"

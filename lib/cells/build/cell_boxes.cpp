@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/cell_boxes.h"
+#include "cells/build/cell_boxes.h"
 
 #include <algorithm>
 #include <cassert>

@@ -7,7 +7,7 @@
 
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/cells/build_tetra_tree.h"
-#include "cells/cone_children.h"
+#include "cells/build/cone_children.h"
 #include "cells/cone_faces.h"
 
 namespace cdprep::build {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/tetra_steps.h"
+#include "cells/build/tetra_steps.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +9,7 @@
 #include "build/oriented_axes.h"
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/octree.h"
-#include "cells/cone_maximum.h"
+#include "cells/build/cone_maximum.h"
 #include "core/numbers.h"
 
 // Each node is bounded separately, from all lists below it. cone_maximum() bounds the part in the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "cells/tetra_steps.h"
+#include "cells/build/tetra_steps.h"
 
-#include "cells/cone_maximum.h"
+#include "cells/build/cone_maximum.h"
 
 namespace cdprep::build {
 

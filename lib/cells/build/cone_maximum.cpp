@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/cone_maximum.h"
+#include "cells/build/cone_maximum.h"
 
 #include <algorithm>
 #include <limits>

@@ -12,8 +12,8 @@
 #include "cdprep/cells/build_octree.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/octree.h"
-#include "cells/cone_children.h"
-#include "cells/tetra_steps.h"
+#include "cells/build/cone_children.h"
+#include "cells/build/tetra_steps.h"
 #include "core/guarded_for.h"
 #include "exact/winding.h"
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "cdprep/format/float_environment.h"
-#include "cells/cell_boxes.h"
-#include "cells/octree_grid.h"
-#include "cells/octree_steps.h"
+#include "cells/build/cell_boxes.h"
+#include "cells/build/octree_grid.h"
+#include "cells/build/octree_steps.h"
 #include "core/guarded_for.h"
 
 namespace cdprep::build {

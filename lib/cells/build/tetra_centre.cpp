@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/tetra_steps.h"
+#include "cells/build/tetra_steps.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/choose_split.h"
+#include "cells/build/choose_split.h"
 
 #include <algorithm>
 #include <array>

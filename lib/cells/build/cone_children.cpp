@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/cone_children.h"
+#include "cells/build/cone_children.h"
 
 #include <bit>
 #include <cassert>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/octree_steps.h"
+#include "cells/build/octree_steps.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/octree_grid.h"
+#include "cells/build/octree_grid.h"
 
 #include <algorithm>
 #include <cassert>
