@@ -220,12 +220,16 @@ void add_accuracy(const Command& app, Exit& exit) {
         .group("Report");
     command
         .add_flag("--quick", arguments->is_quick,
-                  "Use fewer poses, rounds and rungs: seconds instead of one or two minutes")
+                  "Use fewer poses, rounds and methods: takes seconds instead of one or two "
+                  "minutes")
         .group("Study");
     command.add_option("--seed", arguments->seed, "Seed of the poses")
         .show_default()
         .group("Study");
-    command.add_option("--ladder", arguments->ladders, "Comma-separated ladders. Default: all")
+    command
+        .add_option("--ladder", arguments->ladders,
+                    "Comma-separated ladders, each a series of methods from coarse to fine. "
+                    "Default: all")
         .type_name("LIST")
         .delimiter(',')
         .check(one_of(

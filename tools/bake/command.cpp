@@ -256,9 +256,9 @@ void add_bake(const Command& app, Exit& exit) {
     add_mesh_options(command, arguments->options);
     command
         .add_option("--bounds", arguments->bounds,
-                    "Bounds of triangles besides aligned boxes. aabb: none. obb: oriented boxes. "
-                    "pss, lss, rss: spheres swept over a point, a line, a rectangle. auto: "
-                    "obb+rss with the effects distance and within, else obb")
+                    "Bounding volumes to store in addition to axis-aligned boxes. aabb: none. "
+                    "obb: oriented boxes. pss, lss, rss: spheres swept over a point, a line, a "
+                    "rectangle. auto: obb+rss with the effects distance and within, else obb")
         .type_name("BOUNDS")
         .check(one_of({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
         .show_default()

@@ -199,8 +199,8 @@ constexpr const char* kGroup = "Structures";
 void add_cell_rules(const Command& command, StructureArguments& arguments) {
     command
         .add_option("--split", arguments.split,
-                    "Split planes of octree-adaptive. median: of the triangles' centres; area: "
-                    "least area times triangles. Default: by the preset")
+                    "Split planes of octree-adaptive. median: the median of the triangles' "
+                    "centres; area: the least sum of area times triangles. Default: by the preset")
         .type_name("RULE")
         .check(one_of({"median", "area"}))
         .group(kGroup);

@@ -31,7 +31,7 @@ inline constexpr std::array<ExitText, 8> kExitTexts = {{
     {Exit::unwritable, "output not written"},
     {Exit::over_budget, "limit of memory, size or time exceeded"},
     {Exit::internal, "internal error"},
-    {Exit::interrupted, "interrupted, or the reader of the output has ended"},
+    {Exit::interrupted, "interrupted, or the output pipe was closed"},
 }};
 
 }  // namespace cdprep::cli

@@ -129,8 +129,9 @@ void add_study_options(const Command& command, Arguments& arguments) {
         .group("Study");
     command
         .add_flag("--quick", options.quick,
-                  "Use few poses, one round, and each model in one pair unless --pairs says paper "
-                  "or all. Skip the literal hashed octree in Table 4")
+                  "Use few poses, one round, and each model in one pair unless --pairs says "
+                  "paper or all. Leave 'hashed octree, literal', a published search that misses "
+                  "pairs, out of Table 4")
         .group("Study");
     command
         .add_option("--rounds", options.rounds,

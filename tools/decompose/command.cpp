@@ -212,26 +212,28 @@ void add_enclosing_options(const Command& command, EncloseOptions& enclosed, con
     const char* const enclosing = "Enclosing pieces";
     command
         .add_option("--max-error", enclosed.max_error,
-                    "As few pieces as stick out by at most this distance, in model units")
+                    "Use as few pieces as possible that stick out by at most this distance, in "
+                    "model units")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .excludes(exact)
         .group(enclosing);
     command
         .add_option("--parts", enclosed.parts,
-                    "At most N pieces that stick out as little as the search finds")
+                    "Use at most N pieces, which stick out as little as the search can achieve")
         .check(whole_from(1))
         .excludes(exact)
         .group(enclosing);
     command
         .add_option("--max-parts", enclosed.max_parts,
-                    "An engine's limit of pieces; it wins over --max-error")
+                    "Maximum number of pieces, such as an engine's limit; takes precedence over "
+                    "--max-error")
         .check(whole_from(1))
         .excludes(exact)
         .group(enclosing);
     command
         .add_option("--max-vertices", enclosed.max_vertices,
-                    "An engine's limit of vertices per piece")
+                    "Maximum number of vertices per piece, such as an engine's limit")
         .check(whole_from(convex::kFewestEnclosingVertices, 1U << 30U))
         .group(enclosing);
     command
@@ -273,11 +275,12 @@ void add_decompose(const Command& app, Exit& exit) {
     command.set_notes(
         "By default, cuts the surface into pieces that lie on their own convex hulls: exactly, "
         "or within --tolerance. Works for every mesh; no piece crosses a boundary, a "
-        "non-manifold edge or an edge with opposite windings. Names of nodes do not matter.\n\n"
-        "With --max-error or --parts, encloses the solid in few convex pieces instead. The "
-        "distance by which they stick out is proved and reported. Components and nodes stay "
-        "separate. Nodes named UCX_..., ...-convex or ..._convex become their hulls.\n\n"
-        "The exit code is 1 when the request could not be met; the best result is written.",
+        "non-manifold edge or an edge with opposite windings. Names of nodes do not "
+        "matter.\n\nWith --max-error or --parts, encloses the solid in few convex pieces "
+        "instead. The distance by which they stick out is proved and reported. Components and "
+        "nodes stay separate. A node named UCX_..., ...-convex or ..._convex is replaced by its "
+        "convex hull.\n\nIf the request cannot be met, the best result is written and the exit "
+        "code is 1.",
         {"cdprep decompose part.obj -o pieces.ply",
          "cdprep decompose robot.obj -o robot.urdf --max-error 0.5 --unit mm",
          "cdprep decompose chair.glb -o parts.glb --parts 16 --max-vertices 64"});
@@ -285,8 +288,8 @@ void add_decompose(const Command& app, Exit& exit) {
     command
         .add_option("-o,--output", arguments->output,
                     "The pieces: .obj with a group for each, or .ply with colours. Enclosing "
-                    "pieces: .obj, .glb, .urdf or .sdf with a mesh beside it for each piece, .mjcf "
-                    "or .xml")
+                    "pieces: .obj, .glb, .mjcf, .xml, or .urdf or .sdf with one mesh file per "
+                    "piece")
         .type_name("FILE")
         .group("Output");
     const Option exact = add_surface_options(command, *arguments);

@@ -519,14 +519,14 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
     }
     command
         .add_option("--relative-error", arguments.errors.relative_error,
-                    "Largest width of the interval, as a share of its lower bound")
+                    "Permitted width of the distance interval, as a share of its lower bound")
         .type_name("SHARE")
         .check(zero_or_more())
         .show_default()
         .group("Query");
     command
         .add_option("--absolute-error", arguments.errors.absolute_error,
-                    "Largest width of the interval, in model units")
+                    "Permitted width of the distance interval, in model units")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .show_default()
@@ -597,8 +597,8 @@ void add_question(const Command& query, PairQuestion question, const char* name,
     if (question == PairQuestion::collide) {
         command
             .add_option("--level-of-detail", arguments->level_of_detail,
-                        "Test the facets of this level of both tetra-trees instead. The answer is "
-                        "yes, no or unknown, with the distance of the facets from the surfaces")
+                        "Test the facets of this level of both tetra-trees, not the triangles. "
+                        "The answer is yes, no or unknown, with the level's error for each model")
             .type_name("LEVEL")
             .check(whole_from(0U, format::kMaxTetraLevel))
             .group("Structure");

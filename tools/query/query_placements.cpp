@@ -48,7 +48,9 @@ void add_placements(const Command& command, PlacementWords& words) {
             .type_name("FILE")
             .group(group);
     const Option pose =
-        command.add_option("--pose", words.pose, "One such pose").type_name("POSE").group(group);
+        command.add_option("--pose", words.pose, "One pose of B in A's frame, in the same form")
+            .type_name("POSE")
+            .group(group);
     poses.excludes(pose);
     for (const Option world :
          {command.add_option("--pose-a", words.pose_a, "Pose of A in the world"),
@@ -59,7 +61,8 @@ void add_placements(const Command& command, PlacementWords& words) {
     }
     command
         .add_option("--placement", words.placement,
-                    "With two world poses. relative: move B by the relative pose; world: move both")
+                    "For --pose-a and --pose-b. relative: move B by the relative pose; world: "
+                    "move both")
         .type_name("KIND")
         .check(one_of({"relative", "world"}))
         .show_default()

@@ -47,7 +47,9 @@ std::optional<Error> find_idle_option(const StructureWords& words, Structure str
 }  // namespace
 
 void add_body(const Command& command, std::string& word) {
-    command.add_option("--as", word, "Meaning of a model: its triangles, or also the inside")
+    command
+        .add_option("--as", word,
+                    "Points of a model. surface: its triangles; solid: also what they enclose")
         .type_name("BODY")
         .check(one_of({"surface", "solid"}))
         .show_default()
@@ -84,8 +86,9 @@ void add_structure(const Command& command, StructureWords& words, const char* de
 void add_structure_steps(const Command& command, StructureWords& words) {
     command
         .add_option("--leaf-test", words.leaf_test,
-                    "Exact test of two triangles, not for bvh and pieces. guigue-devillers: signs "
-                    "of planes (default); feito: six edges against triangles. Both always agree")
+                    "Exact test of two triangles, for structures other than bvh and pieces. "
+                    "guigue-devillers: signs against planes (default); feito: six edges against "
+                    "triangles. Both give the same answers")
         .type_name("TEST")
         .check(one_of({"guigue-devillers", "feito"}))
         .group("Structure");
@@ -98,8 +101,9 @@ void add_structure_steps(const Command& command, StructureWords& words) {
         .group("Structure");
     command
         .add_option("--search", words.search,
-                    "Cell search of hashed-octree: sorted leaves with a top table, a hash table by "
-                    "the key's modulus, or by a mixed key (default). Answers do not change")
+                    "Cell search of hashed-octree. sorted: binary search of sorted leaves; "
+                    "modulus: hash by the key's remainder; mixed: hash by a mixed key (default). "
+                    "Answers do not change")
         .type_name("SEARCH")
         .check(one_of({"sorted", "modulus", "mixed"}))
         .group("Structure");

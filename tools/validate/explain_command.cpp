@@ -36,7 +36,7 @@ Exit run(const ExplainArguments& arguments) {
 
 void add_explain(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<ExplainArguments>();
-    const Command command = app.add_command("explain", "Explain a rule of validate");
+    const Command command = app.add_command("explain", "Explain a rule of 'cdprep validate'");
     command.set_notes("", {"cdprep explain", "cdprep explain CDP0203"});
     command.add_option("rule", arguments->rule,
                        "An id such as CDP0203, or a name such as sliver. Default: list all rules");

@@ -19,20 +19,20 @@ namespace cdprep {
 [[nodiscard]] std::optional<std::uint32_t> find_hull(const Model& model, format::HullScope scope,
                                                      std::uint32_t number = 0) noexcept;
 
-/// Returns the corners of a hull in the form for queries. They refer to the file and are valid as
-/// long as the model. Needs Ask::hulls. `hull` must be below model.hulls().hulls.size(). The hull
-/// of an empty set has the count 0.
+/// Returns the corners of a hull, as input for queries. They refer to the file's memory and are
+/// valid as long as the model. Needs Ask::hulls. `hull` must be below model.hulls().hulls.size().
+/// The hull of an empty set has the count 0.
 [[nodiscard]] ConvexPoints convex_points(const Model& model, std::uint32_t hull) noexcept;
 
-/// Returns the corners of the hull of a convex piece in the form for queries. They refer to the
-/// file and are valid as long as the model. They are the vertices that pieces().vertices lists for
-/// the piece, in that order. `piece` must be below model.pieces().pieces.size(). Needs Ask::pieces.
-/// Takes O(1) time.
+/// Returns the corners of a convex piece's hull, as input for queries. They refer to the file's
+/// memory and are valid as long as the model. They are the vertices that pieces().vertices lists
+/// for the piece, in that order. `piece` must be below model.pieces().pieces.size(). Needs
+/// Ask::pieces. Takes O(1) time.
 [[nodiscard]] ConvexPoints piece_points(const Model& model, std::uint32_t piece) noexcept;
 
-/// Returns the same hull with its surface, for closest_features(). Its points are those of
-/// piece_points(). Its facets and their corners are numbered within the piece. Needs Ask::contacts.
-/// Takes O(1) time.
+/// Returns the hull of a convex piece with its facets, for closest_features(). Its points are those
+/// of piece_points(). Its facets and their corners are numbered within the piece. Needs
+/// Ask::contacts. Takes O(1) time.
 [[nodiscard]] FeatureHull feature_hull(const Model& model, std::uint32_t piece) noexcept;
 
 }  // namespace cdprep

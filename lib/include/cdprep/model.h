@@ -40,7 +40,7 @@ struct OpenOptions {
     /// The sections to open, if the file has them, in addition to those of `asks`. Unset: those of
     /// `asks` only, or every section if `asks` is Ask::nothing.
     std::optional<SectionSet> sections = std::nullopt;
-    /// The name of bytes in memory, for messages. A path names itself.
+    /// The name of bytes in memory, for messages. For a file, messages use its path.
     std::string_view name = "memory";
     /// For a path. Bytes in memory are used in place.
     OpenMode mode = OpenMode::map;
@@ -63,13 +63,13 @@ struct Refusal {
 /// const members and all queries may run on any number of threads at once.
 ///
 /// A mapped file must not change while the Model lives:
-/// - Replacing it by a rename is safe: the Model keeps the old file, even if that has no name any
-///   more. `cdprep bake` writes in this way.
+/// - Replacing it by a rename is safe: the Model keeps the old file mapped. `cdprep bake` writes in
+///   this way.
 /// - If it is truncated, or a network share or disk fails, access to a missing page stops the
 ///   program with SIGBUS on POSIX. No check beforehand can prevent this.
 /// - If it is rewritten in place, queries may see the new, unchecked bytes. Answers may then be
 ///   wrong, and a query may read outside the file or not end.
-/// Open with OpenMode::copy if others may do so.
+/// Open with OpenMode::copy if other processes may truncate or rewrite the file.
 ///
 /// No answer depends on the caller's floating-point environment: rounding mode, flushing of
 /// subnormal numbers, unmasked exceptions. Each call computes in the default environment and
@@ -93,7 +93,7 @@ public:
     [[nodiscard]] static Result<Model> open(const std::filesystem::path& path,
                                             const OpenOptions& options = {});
 
-    /// The same with options.asks: opens the sections that `asks` needs or uses, and no others.
+    /// The same with options.asks = asks: opens only the sections that `asks` needs or uses.
     ///
     ///     auto arm = cdprep::Model::open("arm.cdp.h5", cdprep::Ask::collide);
     [[nodiscard]] static Result<Model> open(const std::filesystem::path& path, Ask asks);
@@ -129,7 +129,7 @@ public:
     [[nodiscard]] SectionSet sections() const noexcept;
 
     /// Returns the features that this model serves, computed once at opening. A query that it does
-    /// not serve stops the program with a sentence (precondition.h).
+    /// not serve aborts the program with a message (precondition.h).
     [[nodiscard]] Ask asks() const noexcept {
         return served_;
     }
@@ -159,8 +159,8 @@ public:
 
     /// Returns whether bvh().leaves is not empty and holds model coordinates without loss.
     [[nodiscard]] bool has_exact_leaves() const noexcept;
-    /// Returns whether the directed uses of every edge cancel. Winding numbers then exist, and
-    /// queries about solids have exact answers.
+    /// Returns whether every edge is used equally often in both directions. Winding numbers then
+    /// exist, and queries about solids have exact answers.
     [[nodiscard]] bool is_balanced() const noexcept;
 
 private:

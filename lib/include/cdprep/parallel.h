@@ -16,9 +16,9 @@ namespace cdprep {
 ///
 /// Use it for one query that takes a millisecond or more, such as two large models that overlap
 /// deeply. Calls `parallel_for` at most twice, each time for at most one task per workspace.
-/// A task that starts late finds less work or none. If `room` is not empty but too short for all
-/// pairs, the query runs once more on one thread, which keeps the smallest. Reads options.overlap
-/// and degenerate. Needs Ask::overlap of both models. Never allocates.
+/// A task that starts late finds less work or none. If `room` is not empty but too short, one
+/// thread repeats the query to keep the smallest pairs. Reads options.overlap and degenerate. Needs
+/// Ask::overlap of both models. Never allocates.
 [[nodiscard]] std::size_t split_overlaps(const Pair& pair, std::span<Workspace> workspaces,
                                          ParallelFor parallel_for,
                                          std::span<TrianglePair> room) noexcept;
@@ -29,8 +29,8 @@ namespace cdprep {
 ///
 /// One thread works for each workspace, of which there must be at least one. Calls `parallel_for`
 /// at most once. Processes min(pairs.size(), answers.size()) pairs. Never allocates. Starting a
-/// batch takes a few microseconds, which pays from about ten pairs. The same holds for the batches
-/// below. Needs Ask::collide of both models of a pair; Body::solid also Ask::solid.
+/// batch takes a few microseconds, so it pays off from about ten pairs. These rules also hold for
+/// the batches below. Needs Ask::collide of both models of a pair; Body::solid also Ask::solid.
 ///
 ///     std::vector<cdprep::Workspace> workspaces(4);
 ///     std::vector<cdprep::Collision> answers(pairs.size());

@@ -63,9 +63,9 @@ struct Inclusion {
 /// tetra-tree reads the triangles of one cone; octrees read those of the cells along a ray.
 /// Structure::pieces is treated as Structure::bvh. A query on an open model always uses the BVH.
 ///
-/// Exact for balanced models. Needs Ask::inside and ask_of() the structure. Takes O(log n + hits)
-/// time; through cells O(level + triangles in one cone) or O(cells along the ray + their
-/// triangles). QueryCounts::ray_triangles counts these triangles. Never allocates.
+/// Exact for balanced models. Needs Ask::inside and ask_of() the structure. The BVH takes O(log n +
+/// hits) time, a tetra-tree O(level + triangles in one cone). An octree takes O(cells along the ray
+/// + their triangles). QueryCounts::ray_triangles counts these triangles. Never allocates.
 [[nodiscard]] Inclusion points_inside(const Model& model, const Double3& p, Workspace& workspace,
                                       Structure through = Structure::bvh) noexcept;
 
@@ -94,14 +94,13 @@ struct RayOptions {
 
 /// Returns the first point where `ray` meets the surface, or nothing.
 ///
-/// Each hit is decided exactly, by the signs of the volumes that origin and direction, as given,
-/// span with the edges. A ray along an edge or through a vertex hits, so that none passes between
-/// neighbours. Both sides of a triangle count. A ray in the plane of a triangle hits where it
-/// enters.
+/// Each hit is decided exactly for the given origin and direction, by the signs of tetrahedron
+/// volumes. A ray along an edge or through a vertex hits, so that none passes between neighbours.
+/// Both sides of a triangle count. A ray in the plane of a triangle hits where it enters.
 ///
-/// `t` and `point` are rounded. They decide which hit is first and what max_t excludes; of hits
-/// with equal t the first has the lowest source triangle. A model without triangles is never hit,
-/// and a direction of zero hits nothing.
+/// `t` and `point` are rounded. The rounded t decides which hit is first and which hits max_t
+/// excludes. Among equal t, the lowest source number comes first. A model without triangles is
+/// never hit, and a direction of zero hits nothing.
 ///
 /// Needs Ask::ray. Takes O(log n) time for typical meshes. Never allocates.
 [[nodiscard]] std::optional<RayHit> cast_ray(const Model& model, const Ray& ray,
@@ -116,9 +115,9 @@ struct RayOptions {
 
 /// Finds every triangle that `ray` hits, each once, at its first point on the ray.
 ///
-/// Returns the number of hits. Stores the first of them in `hits`, in the order of t and then of
-/// triangles. With an empty span it only counts. Which triangles are hit is as exact as cast_ray().
-/// A ray through an edge or vertex hits all triangles there. Needs Ask::ray.
+/// Returns the number of hits. Sorts the hits by t, then by triangle, and stores as many of the
+/// first ones as fit in `hits`. With an empty span it only counts. Hits are decided exactly, as in
+/// cast_ray(). A ray through an edge or vertex hits all triangles there. Needs Ask::ray.
 [[nodiscard]] std::size_t all_ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                                        std::span<RayHit> hits,
                                        const RayOptions& options = {}) noexcept;
@@ -202,17 +201,18 @@ bool visit_touching_triangles(const Model& model, const Shape& shape, Workspace&
 
 /// The distance of a shape from a surface, and points where it is attained.
 struct ShapeDistance {
-    double lower;            ///< the distance is at least this, model units
-    double upper;            ///< and at most this: [lower, upper] contains the exact distance
-    Double3 on_model;        ///< on the surface as moved, up to rounding; nearest to the shape
-    Double3 on_shape;        ///< on the box or triangle; for a sphere or capsule, on its axis
+    double lower;      ///< the distance is at least this, model units
+    double upper;      ///< and at most this: [lower, upper] contains the exact distance
+    Double3 on_model;  ///< on the surface as moved, up to rounding; nearest to the shape
+    /// on the box or triangle; for a sphere or capsule, on its centre or segment
+    Double3 on_shape;
     std::uint32_t triangle;  ///< the triangle with on_model; source number
 };
 
-/// Returns the distance of `shape` from the surface of `model`. It is 0, exactly, if they touch.
-/// For a sphere or capsule, it is the distance of the centre or segment minus the radius. Returns
-/// nothing if the distance exceeds options.max_distance, the shape is one that can touch nothing,
-/// or the model has no triangles.
+/// Returns the distance of `shape` from the surface of `model`. The distance is exactly 0 if they
+/// touch. For a sphere or capsule, it is the distance of the centre or segment minus the radius.
+/// Returns nothing if the distance exceeds options.max_distance or the model has no triangles. The
+/// same holds for shapes that touch nothing, such as a sphere with a negative radius.
 ///
 /// The interval contains the distance to the vertices as transform_point() moves them. Its width is
 /// at most 1e-12 of the distance plus 1e-15 of the largest coordinate. For spheres and capsules, it

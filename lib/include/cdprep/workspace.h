@@ -20,8 +20,8 @@ public:
     /// Makes a workspace for every query except those through octrees and tetra-trees.
     Workspace();
 
-    /// Makes a workspace for these too; it takes 360 KiB more. `cells` is cells() of
-    /// <cdprep/cells.h>.
+    /// Makes a workspace that also serves queries through octrees and tetra-trees. It takes 360 KiB
+    /// more. `cells` is cells() of <cdprep/cells.h>.
     ///
     ///     cdprep::Workspace workspace(cdprep::cells());
     explicit Workspace(const CellSearches& cells);
@@ -38,8 +38,8 @@ public:
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
-    /// Adds the work of the following queries with this workspace to `*counts` (query_counts.h);
-    /// null stops that. Counting that is off costs 0.2 % of the instructions of a query.
+    /// Adds the work of later queries with this workspace to `*counts` (query_counts.h); null turns
+    /// counting off. While counting is off, it costs 0.2 % of a query's instructions.
     void count_into(QueryCounts* counts) noexcept;
 
     struct Storage;  ///< private to the library

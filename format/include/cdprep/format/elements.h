@@ -10,7 +10,7 @@ namespace cdprep::format {
 /// The number types of section elements; little-endian, IEEE 754.
 enum class Scalar : std::uint8_t { u8, u32, i32, u64, f32, f64 };
 
-/// Returns the size of one number in bytes.
+/// Returns the size in bytes of one number of this type.
 [[nodiscard]] std::uint32_t scalar_size(Scalar scalar) noexcept;
 
 /// Returns the name in FORMAT.md: "u8", "f64" and so on.

@@ -50,8 +50,8 @@ struct BvhNode {
 /// A box is centre + sum of t_k axis_k with |t_k| <= half_k. The third axis is axis[0] x axis[1].
 /// Axis 0 is the one along which the box is thinnest. Axes are orthonormal up to float rounding.
 /// The half extents are enlarged so that the box contains every vertex below. This holds for the
-/// axes as stored, and the third axis rounded either way. Frame coordinates. Unused boxes have
-/// centre 0, axes x and y, half -1.
+/// stored axes, however a reader rounds the third axis. Frame coordinates. Unused boxes have centre
+/// 0, axes x and y, half -1.
 struct OrientedNode {
     std::array<std::array<std::array<float, kBvhWidth>, 3>, 2> axis;  ///< [axis][component][box]
     std::array<std::array<float, kBvhWidth>, 3> centre;               ///< [component][box]

@@ -55,7 +55,8 @@ struct OctreeNode {
     std::uint32_t count;  ///< kInnerNode | mask of children, or number of references
 };
 
-/// Returns the level of a key with a leading one. Returns 0 for 0, which is not a key.
+/// Returns the level of a key with a leading one. Returns 0 if `key` is 0, which is not a valid
+/// key.
 constexpr std::uint32_t level_of(std::uint64_t key) noexcept {
     return static_cast<std::uint32_t>(std::bit_width(key | 1) - 1) / 3;
 }

@@ -18,7 +18,7 @@ struct PiecesOf {
     std::span<const std::uint32_t> piece_triangles;  ///< numbers in `triangles`
 };
 
-/// The content of sections piece_nodes, piece_swept and piece_leaves.
+/// The contents of the sections piece_nodes, piece_swept and piece_leaves.
 struct PieceBoxes {
     std::vector<format::BvhNode> nodes;
     std::vector<format::SweptNode> swept;

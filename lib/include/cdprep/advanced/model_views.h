@@ -40,7 +40,7 @@ struct SectionViewOf<format::Text> {
 template <class Element>
 using SectionView = typename SectionViewOf<Element>::type;
 
-// The rows name elements as cdprep::format does.
+// The rows of section_table.inc name element types of cdprep::format without the namespace.
 namespace views {
 
 using namespace format;

@@ -16,8 +16,8 @@ namespace cdprep {
 ///
 /// Use one cache for each pair of models and thread, for any queries. A cache of another pair only
 /// costs time, and so does one of a build::RuntimeModel before its last refit(). Make a new cache
-/// if the memory of a model was changed in place by other means. The members belong to the library;
-/// all zero is a new cache.
+/// if anything other than refit() changed a model's memory in place. The members belong to the
+/// library; all zero is a new cache.
 struct PairCache {
     std::uint32_t holds = 0;                   ///< bits: 1 pair, 2 placement, 4 the pair touched
     std::uint32_t triangle_a = 0;              ///< of the pair, tree order

@@ -12,8 +12,9 @@ namespace cdprep::build {
 /// result depends neither on the old positions nor on options.parallel_for. Oriented boxes are
 /// fitted anew, or dropped if options.bounds has none. Ignores options.quality.
 ///
-/// `bvh` comes from build_bvh() or rebuild_bvh() over `triangles`; its requirements on positions
-/// apply. The order stays good while neighbours stay neighbours. The cost shows when to rebuild:
+/// `bvh` must come from build_bvh() or rebuild_bvh() over `triangles`. `positions` must meet the
+/// requirements of build_bvh(). The order stays good while neighbours stay neighbours. The cost
+/// shows when to rebuild:
 ///
 ///     double cost = refit_bvh(bvh, positions, triangles);
 ///     if (cost > 1.5 * cost_when_built) {

@@ -19,14 +19,14 @@
  *   because they hold the mesh.
  * - Arguments are checked before anything is computed. The fields of a struct are checked in this
  *   order: size and tag; enumerators; numbers; poses; fields without meaning for the query. Then
- *   follow the queries that the model serves, and whether the workspace is in use. Of several
- *   errors one is reported. In a batch, one invalid entry refuses the whole batch.
+ * follow the queries that the model serves, and whether the workspace is in use. If there are
+ * several errors, one is reported. One invalid entry makes the whole batch fail.
  * - Numbers are finite and at most 2^1000 in magnitude. NaN is always refused. Infinity is allowed
  *   only for max_distance, max_t and the limits of boxes. No answer holds NaN or infinity.
  * - On failure, answers are unknown: counts and `found` are 0; `hit`, `inside` and similar fields
- *   are CDPREP_UNKNOWN. Room for lists may hold anything. Answers are unchanged if their number is
- *   not known: the query is null or not initialised, or a count is more than memory holds. So they
- *   are after a failure of cdprep_pose_move() or cdprep_model_corners().
+ * are CDPREP_UNKNOWN. Room for lists may hold anything. Answers stay unchanged if their number is
+ * not known: the query is null or not initialised, or a count is too large for memory. They also
+ * stay unchanged if cdprep_pose_move() or cdprep_model_corners() fails.
  * - Lengths are in model units. Limits are inclusive. Numbers of triangles and vertices are those
  *   of the imported file, or of the arrays that a model was built from.
  * - A list has room for some answers; `count` is the number of all answers. Too little room is no
@@ -148,8 +148,8 @@ typedef struct cdprep_workspace_options {
     uint32_t lanes;
     uint32_t counting; /* CDPREP_NO; CDPREP_YES: count the work of queries */
     /* Null. Otherwise it calls task(work, 0) ... task(work, count - 1), once each, in any order, on
-     * any threads, and returns when all have returned. The calling thread runs the tasks that `run`
-     * did not run. */
+     * any threads, and returns when all have returned. If `run` skips tasks, the calling thread
+     * runs them afterwards. */
     void (*run)(void* context, size_t count, cdprep_task task, const void* work);
     void* context;                     /* passed to `run` */
     const cdprep_allocator* allocator; /* null: the heap; read once */
@@ -166,11 +166,11 @@ CDPREP_API void cdprep_workspace_options_init(cdprep_workspace_options* options,
 CDPREP_API int cdprep_workspace_size(const cdprep_workspace_options* options, size_t* size,
                                      cdprep_error* error);
 
-/* Makes a workspace in the caller's memory. This must start at a multiple of CDPREP_ALIGNMENT, have
- * at least cdprep_workspace_size() bytes, and outlive the workspace. With null memory of size 0,
- * the allocator makes one allocation. `options` may be null. On failure *workspace is null.
- * Errors: CDPREP_WHY_TOO_SMALL, CDPREP_WHY_OUT_OF_RANGE for the alignment, CDPREP_WHY_NO_MEANING
- * for an allocator in addition to memory; CDPREP_OVER_BUDGET. */
+/* Makes a workspace in the caller's memory. The memory must start at a multiple of
+ * CDPREP_ALIGNMENT, have at least cdprep_workspace_size() bytes, and outlive the workspace. If
+ * `memory` is null and `size` is 0, the allocator makes one allocation. `options` may be null. On
+ * failure *workspace is null. Errors: CDPREP_WHY_TOO_SMALL, CDPREP_WHY_OUT_OF_RANGE for the
+ * alignment, CDPREP_WHY_NO_MEANING for an allocator in addition to memory; CDPREP_OVER_BUDGET. */
 CDPREP_API int cdprep_workspace_make(const cdprep_workspace_options* options, void* memory,
                                      size_t size, cdprep_workspace** workspace,
                                      cdprep_error* error);
@@ -257,8 +257,9 @@ CDPREP_API int cdprep_pose_inverse(const cdprep_pose* a_from_b, cdprep_pose* b_f
                                    cdprep_error* error);
 
 /* Moves `count` points, 3 numbers each, by the formula of all queries. x becomes ((R00 x + R01 y) +
- * R02 z) + T0, and y and z likewise. The numbers are doubles; nothing is contracted. A query that
- * moves a model is exact for these points. `moved` may be `points`. On failure nothing is stored.
+ * R02 z) + T0, and y and z likewise. It is computed in double, without fused multiply-add. A query
+ * that moves a model is exact for these points. `moved` may be `points`. On failure nothing is
+ * stored.
  */
 CDPREP_API int cdprep_pose_move(const cdprep_pose* pose, const double* points, size_t count,
                                 double* moved, cdprep_error* error);

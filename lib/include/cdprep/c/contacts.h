@@ -19,7 +19,7 @@ typedef struct cdprep_feature {
 typedef struct cdprep_contact_point {
     double on_a[3], on_b[3];
     double distance; /* from on_a to on_b along the normal; negative: overlap */
-    uint64_t id;     /* the same for the same point after a small motion; 0 for an only point */
+    uint64_t id;     /* stays the same after a small motion; 0 for the only point of a contact */
 } cdprep_contact_point;
 
 /* Bits of cdprep_contact.flags. */
@@ -72,8 +72,8 @@ typedef struct cdprep_contact_options {
     /* 0: no limit; otherwise the maximum work: each pair of near triangles counts 1, and each
      * contact 32. The search for near triangles takes at most half of it. */
     uint64_t work;
-    /* 0: no clusters. Otherwise contacts whose normals are at most this far apart, radians, and
-     * which are linked by common pieces, become one with at most four points. */
+    /* 0: no clusters. Otherwise joins contacts that are linked by common pieces and whose normals
+     * differ by at most this, in radians. A joined contact has at most four points. */
     double cluster_angle;
 } cdprep_contact_options;
 
@@ -88,8 +88,8 @@ CDPREP_API void cdprep_contact_options_init(cdprep_contact_options* options, siz
  * ones. `options` may be null.
  * With CDPREP_SOLID, a component that is proven to be inside the other model makes a contact as
  * well, unless triangles touch. Moving B by -lower along the normal frees it, and no translation
- * shorter than -upper does. The way out is that of the other model's parts, else of its whole hull
- * (CDPREP_ASK_HULLS), else of its box.
+ * shorter than -upper does. The component is moved out of the other model's parts, else its whole
+ * hull (CDPREP_ASK_HULLS), else its box.
  * Uses body, degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Takes the time of cdprep_pairs_within(), plus 5 to 10 microseconds per contact that is computed.
  * CDPREP_SOLID adds the time of cdprep_containment().
@@ -133,9 +133,9 @@ CDPREP_API int cdprep_hull_find(const cdprep_model* model, uint32_t scope, uint3
  * Needs: as cdprep_hull_find() */
 CDPREP_API int cdprep_hull_mesh(const cdprep_hull* hull, cdprep_mesh* mesh, cdprep_error* error);
 
-/* The result of the last query on one pair of hulls, where the next one starts. All zero is a new
- * cache; any content is safe. It never changes a yes or a no. Among equally near points, it may
- * change which ones are found. */
+/* The result of the last query on one pair of hulls, where the next one starts. A zero-filled
+ * struct is a new cache; any content is safe. It never changes a yes or a no. Among equally near
+ * points, it may change which ones are found. */
 typedef struct cdprep_hull_cache {
     uint64_t words[8];
 } cdprep_hull_cache;
@@ -158,8 +158,7 @@ CDPREP_API int cdprep_hulls_collide(const cdprep_hull_pair* pair, uint32_t* hit,
                                     cdprep_error* error);
 
 /* Stores the distance of two hulls; it is 0 if they have a common point. Without permitted errors,
- * the interval is at most 1e-12 of upper plus 1e-14 of the size of both wide. `options` may be
- * null.
+ * the interval's width is at most 1e-12 of upper plus 1e-14 of A - B's size. `options` may be null.
  * Needs: as cdprep_hull_find() */
 CDPREP_API int cdprep_hulls_distance(const cdprep_hull_pair* pair,
                                      const cdprep_distance_options* options,

@@ -43,7 +43,8 @@ enum {
 
 typedef struct cdprep_open_options {
     cdprep_head head;
-    uint32_t ask;     /* 0: whatever the file has; else all of these bits, or opening fails */
+    uint32_t ask;     /* 0: whatever the file serves; else opening fails unless it serves all these
+        bits */
     uint32_t mode;    /* CDPREP_MAP */
     const char* name; /* null: the name of bytes in memory, for messages; UTF-8, read once */
     const cdprep_allocator* allocator; /* null: the heap; copied */
@@ -76,8 +77,8 @@ CDPREP_API int cdprep_model_open_memory(const void* bytes, size_t size,
 /* Closes a model. Null does nothing. No call may be using the model. */
 CDPREP_API void cdprep_model_close(cdprep_model* model);
 
-/* Returns CDPREP_OK if a model serves all bits of `ask`. Otherwise returns the refusal that a query
- * with this need would get: CDPREP_WHY_NOT_BAKED or CDPREP_WHY_NOT_OPENED, with the sentence. */
+/* Returns CDPREP_OK if a model serves all bits of `ask`. Otherwise fails as a query that needs
+ * `ask` would: with CDPREP_WHY_NOT_BAKED or CDPREP_WHY_NOT_OPENED. */
 CDPREP_API int cdprep_model_serves(const cdprep_model* model, uint32_t ask, cdprep_error* error);
 
 /* Reads a byte of every page that queries of these kinds may read, so that the first query does not
@@ -103,7 +104,7 @@ typedef struct cdprep_model_info {
 CDPREP_API int cdprep_model_describe(const cdprep_model* model, cdprep_model_info* info,
                                      cdprep_error* error);
 
-/* The facts about one triangle. CDPREP_NONE if the imported file does not give a number. */
+/* The facts about one triangle. A number that the imported file does not give is CDPREP_NONE. */
 typedef struct cdprep_corners {
     double point[3][3];  /* by corner, then x, y, z; model units, exactly as stored */
     uint32_t vertex[3];  /* numbers of the imported file; for merged vertices the lowest */
@@ -144,9 +145,9 @@ typedef struct cdprep_array {
     size_t stride;    /* bytes from one element to the next */
 } cdprep_array;
 
-/* Stores the place of a section in memory. It is not copied, is in the order of the file (tree
- * order for triangles), and is valid as long as the model. FORMAT.md lists the sections and their
- * elements. Section 24 (repaired_from) holds the number of each triangle before a repair.
+/* Stores the address of a section; nothing is copied. Elements are in the order of the file (tree
+ * order for triangles). The address is valid as long as the model. FORMAT.md lists the sections and
+ * their elements. Section 24 (repaired_from) holds the number of each triangle before a repair.
  * Errors: CDPREP_WHY_OUT_OF_RANGE for a number without a section; CDPREP_WHY_NOT_BAKED and
  * CDPREP_WHY_NOT_OPENED for a section that is not there. */
 CDPREP_API int cdprep_model_section(const cdprep_model* model, uint32_t section,
@@ -161,8 +162,8 @@ enum {
 };
 
 /* Stores the place of a text in memory: UTF-8, valid as long as the model. It does not end with a
- * zero: use the length. It is null and 0 if the file has none. `number` must be 0 for the first two
- * kinds.
+ * zero: use the length. If the file has no such text, *text is null and *length is 0. `number` must
+ * be 0 for the first two kinds.
  * Errors: CDPREP_WHY_OUT_OF_RANGE for a kind or a number that does not exist. */
 CDPREP_API int cdprep_model_text(const cdprep_model* model, uint32_t kind, uint32_t number,
                                  const char** text, size_t* length, cdprep_error* error);
@@ -216,9 +217,9 @@ CDPREP_API int cdprep_model_verdict(const cdprep_model* model, uint32_t number,
                                     cdprep_verdict* verdict, cdprep_error* error);
 
 /* Stores the maximum distance between the outer and inner facets of a level of the tetra-tree, in
- * model units. It is the error of cdprep_collide_at_level(). Levels beyond the deepest give its
- * error. On failure *bound is 0. Takes O(cones of the level) time. In the library cdprep_cells.
- * Needs: CDPREP_ASK_TETRA_TREE */
+ * model units. It is the error of cdprep_collide_at_level(). Beyond the deepest level, the error is
+ * that of the deepest level. On failure *bound is 0. Takes O(cones of the level) time. In the
+ * library cdprep_cells. Needs: CDPREP_ASK_TETRA_TREE */
 CDPREP_API int cdprep_model_level_error(const cdprep_model* model, uint32_t level, double* bound,
                                         cdprep_error* error);
 

@@ -29,8 +29,8 @@ typedef struct cdprep_closest_point {
 } cdprep_closest_point;
 
 /* Stores the points of a model's surface that are nearest to `count` points. `answers` must have
- * room for `count` results. A point inside a solid is as far away as its walls. Takes O(log n) time
- * for most points.
+ * room for `count` results. The distance is to the surface, also for a point inside a solid. Takes
+ * O(log n) time for most points.
  *
  * Needs: CDPREP_ASK_CLOSEST */
 CDPREP_API int cdprep_points_closest(const cdprep_point_query* query, cdprep_workspace* workspace,
@@ -43,8 +43,8 @@ typedef struct cdprep_point_state {
 } cdprep_point_state;
 
 /* Stores whether `count` points are inside a model, that is, whether their winding numbers are not
- * 0. Exact for closed models (cdprep_model_info.closed). `through` may be any but
- * CDPREP_THROUGH_PIECES. Takes O(log n + hits) time per point.
+ * 0. Exact for closed models (cdprep_model_info.closed). `through` may be any structure except
+ *    CDPREP_THROUGH_PIECES. Takes O(log n + hits) time per point.
  * Needs: CDPREP_ASK_INSIDE */
 CDPREP_API int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* workspace,
                                     cdprep_point_state* answers, cdprep_error* error);
@@ -100,8 +100,8 @@ CDPREP_API int cdprep_rays_any(const cdprep_ray_query* query, cdprep_workspace* 
 CDPREP_API int cdprep_rays_all(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                cdprep_ray_hit_list* lists, cdprep_error* error);
 
-/* Calls `visit` with each hit of one ray, in no particular order. A `count` other than 1 has no
- * meaning, because a hit does not name its ray.
+/* Calls `visit` with each hit of one ray, in no particular order. `count` must be 1, because a hit
+ * does not name its ray.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_visit(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                  cdprep_ray_visitor visit, void* context, cdprep_error* error);

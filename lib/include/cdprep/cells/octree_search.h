@@ -127,11 +127,11 @@ inline std::uint32_t find_node(const OctreeIndex& index, CellSearch search,
     return find_node_in_order(index, key);
 }
 
-/// Returns the leaf whose half-open cell holds the finest cell `code`, which is below 2^63. Returns
-/// kNoNode if no triangle touches its cell. Every search gives the same answer, that of a descent
-/// from the root. CellSearch::sorted takes O(log of the leaves in one cell of top_level) time, for
-/// one bisection. The others go up from the deepest level, and search O(levels between that and the
-/// answer) chains.
+/// Returns the leaf whose half-open cell contains the finest cell with z-curve code `code`. `code`
+/// is below 2^63. Returns kNoNode if no triangle touches its cell. Every search gives the same
+/// answer, that of a descent from the root. CellSearch::sorted takes O(log of the leaves in one
+/// cell of top_level) time, for one bisection. The others go up from the deepest level, and search
+/// O(levels between that and the answer) chains.
 inline std::uint32_t find_leaf(const OctreeIndex& index, CellSearch search,
                                std::uint64_t code) noexcept {
     if (index.nodes.empty()) return kNoNode;

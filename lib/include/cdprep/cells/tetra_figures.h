@@ -38,7 +38,7 @@ struct TetraFigures {
 /// + references) time, tens of nanoseconds per reference. Allocates four bytes per triangle.
 [[nodiscard]] TetraFigures tetra_figures(const Model& model);
 
-/// Returns the same figures of a tree over these triangles that is not in a file.
+/// Returns the same figures for a tetra-tree in memory that was built over these triangles.
 [[nodiscard]] TetraFigures tetra_figures(const build::TetraTree& tree,
                                          std::span<const format::Double3> positions,
                                          std::span<const format::Triangle> triangles);

@@ -29,8 +29,8 @@ namespace cdprep::exact {
 /// Returns the sign, -1, 0 or 1, of det[a-c, b-c]: positive when a, b, c turn
 /// counter-clockwise. Takes nanoseconds; microseconds at worst.
 ///
-/// Five stages: a filter in double, equal points, machine integers, expansions (Shewchuk 1997),
-/// integers of any length.
+/// Tries in turn a filter in double, a test for equal points, fixed-width integers, expansions
+/// (Shewchuk 1997) and big integers.
 [[nodiscard]] int orient2d(const Double2& a, const Double2& b, const Double2& c) noexcept;
 
 /// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]. It is positive when d lies behind the
