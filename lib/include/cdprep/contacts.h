@@ -137,7 +137,7 @@ struct ContactsVerdict {
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. It also
 /// snags if it leads through a part of the hull that no triangle covers. Then the shortest
 /// translation that does not snag is used, and contact_internal_edge is set. A translation that
-/// snags is used instead if it is less than half as long, and leads neither along a plane nor
+/// snags is used instead if it is less than half as long. It must lead neither along a plane nor
 /// deeper into a solid. `upper` is still minus the length of the shortest separating translation.
 /// For shallow contacts away from such edges, `lower` and `upper` are equal up to rounding. Bodies
 /// may overlap by more than the size of a piece. Then a contact separates its two pieces only, not
