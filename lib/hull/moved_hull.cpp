@@ -160,6 +160,11 @@ kernels::FarthestPoint MovedHull::proven_by_all(const Double3& direction,
     return result;
 }
 
+double MovedHull::bound_along(const Double3& direction, const Double3& origin) const noexcept {
+    const Double3 p = point(farthest(direction, 0)) - origin;
+    return dot(p, direction) + kValueError * dot_size(p, direction) + 2 * slack(direction);
+}
+
 kernels::FarthestPoint MovedHull::proven(const Double3& direction, const Double3& origin,
                                          std::uint32_t farthest) const noexcept {
     assert(farthest < count());

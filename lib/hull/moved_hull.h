@@ -47,6 +47,12 @@ public:
     [[nodiscard]] kernels::FarthestPoint proven_by_all(const Double3& direction,
                                                        const Double3& origin) const noexcept;
 
+    /// Returns a bound of how far any point is from `origin` along a direction. It is less sharp
+    /// than that of proven_by_all(), by some rounding errors of the hull's size, and takes less
+    /// time. Includes rounding, but not underflow.
+    [[nodiscard]] double bound_along(const Double3& direction,
+                                     const Double3& origin) const noexcept;
+
     /// Calls visit(number, point) for every point.
     template <class Visit>
     void each_point(Visit&& visit) const noexcept {

@@ -94,15 +94,23 @@ Polygon facing(const ContactSide& side, const PieceFeature& feature, const Doubl
     double most = dot(own.normal, direction) - 1e-12;  // prefers the whole face to its part
     Double3 normal = own.normal;
     const auto facets = side.facets();
+    std::array<float, PlacedHull::kMostFacets> room;
+    const std::span<const float> cosines = side.face_cosines(direction, room);
+    // A surface that bounds no solid can be met from either side.
+    const auto facing = [&](auto cosine) {
+        return side.is_contained() ? cosine : std::fabs(cosine);
+    };
+    float least = -2;
+    for (const float cosine : cosines) least = std::max(least, facing(cosine));
+    least -= 2 * ContactSide::kCosineError;
     for (std::uint32_t f = 0; f < facets.size(); ++f) {
+        if (!cosines.empty() && facing(cosines[f]) < least) continue;
         if (facets[f].flags != format::facet_first_of_face) continue;
         const auto& c = facets[f].corner;
         const Corners corners = {side.corner(c[0]), side.corner(c[1]), side.corner(c[2])};
         if (most > 0 && is_surely_turned(corners, direction, most)) continue;
         const Double3 n = unit_normal(corners);
-        const double along = dot(n, direction);
-        // A surface that bounds no solid can be met from either side.
-        const double faces = side.is_contained() ? along : std::fabs(along);
+        const double along = dot(n, direction), faces = facing(along);
         if (faces > most) most = faces, best = f, normal = along < 0 ? -n : n;
     }
     if (!best) return own;

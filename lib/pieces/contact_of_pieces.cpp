@@ -21,6 +21,8 @@ constexpr double kOfSize = 1e-12;
 /// The maximum number of a piece's triangles whose normals are tried as ways out of a hull that is
 /// too large to try all.
 constexpr std::size_t kMostNormals = 128;
+/// Of a larger piece, only the normals nearest to the penetration depth's are tried.
+constexpr std::size_t kMostNearNormals = 16;
 /// The cosine of the angle between two unit directions up to which rounding may turn one behind the
 /// other.
 constexpr double kBeside = 1e-9;
@@ -207,11 +209,36 @@ private:
         const auto add = [&](const Double3& normal) {
             if (dot(normal, normal) > 0) ways.add(normal, about_way_out(normal));
         };
-        for (const std::uint32_t t : first_triangles(a_)) add(a_.normal_of(t));
-        for (const std::uint32_t t : first_triangles(b_)) add(-b_.normal_of(t));
+        each_normal(a_, depth.normal, add);
+        each_normal(b_, -depth.normal, [&](const Double3& normal) { add(-normal); });
     }
-    static std::span<const std::uint32_t> first_triangles(const ContactSide& side) noexcept {
-        return side.triangles().first(std::min(side.triangles().size(), kMostNormals));
+    /// Calls visit(normal) for the normals of triangles, or of the faces that face a unit direction
+    /// most.
+    template <class Visit>
+    static void each_normal(const ContactSide& side, const Double3& direction,
+                            Visit&& visit) noexcept {
+        std::array<float, PlacedHull::kMostFacets> room;
+        const auto triangles = side.triangles();
+        const auto cosines = triangles.size() <= kMostNormals ? std::span<const float>()
+                                                              : side.face_cosines(direction, room);
+        if (cosines.empty()) {
+            for (const std::uint32_t t : triangles.first(std::min(triangles.size(), kMostNormals)))
+                visit(side.normal_of(t));
+            return;
+        }
+        std::array<std::uint32_t, kMostNearNormals> best;
+        std::size_t count = 0;
+        for (std::uint32_t f = 0; f < cosines.size(); ++f) {
+            if (!(cosines[f] > 0)) continue;
+            if (count == best.size() && !(cosines[f] > cosines[best.back()])) continue;
+            std::size_t i = count < best.size() ? count++ : count - 1;
+            for (; i > 0 && cosines[f] > cosines[best[i - 1]]; --i) best[i] = best[i - 1];
+            best[i] = f;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto& c = side.facets()[best[i]].corner;
+            visit(unit_normal({side.corner(c[0]), side.corner(c[1]), side.corner(c[2])}));
+        }
     }
 
     /// `depth` is a lower bound of the length of every way out.
@@ -374,7 +401,7 @@ double most_depth_of_pieces(const ContactSide& a, const ContactSide& b,
     const auto look = [&](const Double3& normal, const Double3& from) {
         const double squared = dot(normal, normal);
         if (!(squared > 0)) return;
-        const double way = a.reach(normal, from) + b.reach(-normal, from);
+        const double way = a.rough_reach(normal, from) + b.rough_reach(-normal, from);
         // A bound of a positive length rounds up, and one of a distance down.
         const double rounding = way > 0 ? 1 + 8 * kUnit : 1 - 8 * kUnit;
         most = std::min(most, way / std::sqrt(squared) * rounding);

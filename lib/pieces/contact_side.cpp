@@ -47,10 +47,23 @@ void ContactSide::place(std::uint32_t piece, PlacedHull* large) noexcept {
     const std::span<format::HullBlock> all = is_small ? std::span<format::HullBlock>(placed_)
                                                       : std::span<format::HullBlock>(large->blocks);
     const auto room = all.first(blocks);
-    if (is_small || large->piece != piece) place_into(room);
-    if (!is_small) large->piece = piece;
     placed_points_.blocks = room;
     placed_points_.count = count;
+    if (is_small || large->piece != piece) place_into(room);
+    if (is_small) return;
+    large_ = large;
+    if (large->piece != piece) {
+        large->piece = piece;
+        large->has_normals = false;
+        large->reach = {0, 0, 0};
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Double3 p = corner(i);
+            large->reach = {std::max(large->reach.x, std::fabs(p.x)),
+                            std::max(large->reach.y, std::fabs(p.y)),
+                            std::max(large->reach.z, std::fabs(p.z))};
+        }
+    }
+    placed_points_.reach = large->reach;
 }
 
 void ContactSide::place_into(std::span<format::HullBlock> blocks) const noexcept {
@@ -169,9 +182,34 @@ VertexSet ContactSide::farthest_vertices(const Double3& direction) const noexcep
     return level;
 }
 
+void ContactSide::set_face_normals() const noexcept {
+    const auto all = facets();
+    for (std::size_t f = 0; f < all.size(); ++f) {
+        const auto& c = all[f].corner;
+        const bool is_first = all[f].flags == format::facet_first_of_face;
+        const Double3 n =
+            is_first ? unit_normal({corner(c[0]), corner(c[1]), corner(c[2])}) : Double3{0, 0, 0};
+        large_->normals[0][f] = static_cast<float>(n.x);
+        large_->normals[1][f] = static_cast<float>(n.y);
+        large_->normals[2][f] = static_cast<float>(n.z);
+    }
+    large_->has_normals = true;
+}
+
+std::span<const float> ContactSide::face_cosines(
+    const Double3& direction, std::array<float, PlacedHull::kMostFacets>& room) const noexcept {
+    const std::size_t count = facets().size();
+    if (large_ == nullptr || count > room.size()) return {};
+    if (!large_->has_normals) set_face_normals();
+    const auto& [x, y, z] = large_->normals;
+    const auto of_x = static_cast<float>(direction.x), of_y = static_cast<float>(direction.y),
+               of_z = static_cast<float>(direction.z);
+    for (std::size_t f = 0; f < count; ++f) room[f] = of_x * x[f] + of_y * y[f] + of_z * z[f];
+    return std::span(room).first(count);
+}
+
 double ContactSide::reach(const Double3& direction, const Double3& from) const noexcept {
-    const bool is_small = is_placed() && placed_points_.blocks.size() <= kMostPlaced;
-    if (!is_small) return hull().proven_by_all(direction, from).bound;
+    if (!is_placed() || large_ != nullptr) return hull().proven_by_all(direction, from).bound;
     constexpr double kError = 6 * 0x1p-53;  // a difference, three products and two sums
     double most = -std::numeric_limits<double>::infinity();
     for (std::uint32_t i = 0; i < points().count; ++i) {

@@ -151,8 +151,20 @@ public:
     /// Returns the vertices of the hull that are farthest along a unit direction, up to rounding.
     [[nodiscard]] VertexSet farthest_vertices(const Double3& direction) const noexcept;
 
+    /// Returns the cosine of the angle between a unit direction and the normal of each face of a
+    /// large hull, at the place of the face's first facet; 0 for other facets. Each is off by at
+    /// most kCosineError. Returns nothing for a hull that is small or too large to keep.
+    [[nodiscard]] std::span<const float> face_cosines(
+        const Double3& direction, std::array<float, PlacedHull::kMostFacets>& room) const noexcept;
+    static constexpr float kCosineError = 1e-6F;
+
     /// Returns a bound of how far any corner is from a point along a direction, rounding included.
     [[nodiscard]] double reach(const Double3& direction, const Double3& from) const noexcept;
+    /// Returns a bound that may be greater by some rounding errors of the hull's size. Of a large
+    /// hull it takes less time.
+    [[nodiscard]] double rough_reach(const Double3& direction, const Double3& from) const noexcept {
+        return large_ != nullptr ? hull().bound_along(direction, from) : reach(direction, from);
+    }
 
     /// Returns whether the way out of the piece along a unit direction leads away from the solid: a
     /// triangle with the feature faces that direction, or the direction leads along such a triangle
@@ -201,6 +213,7 @@ private:
     }
     void place(std::uint32_t piece, PlacedHull* large) noexcept;
     void place_into(std::span<format::HullBlock> blocks) const noexcept;
+    void set_face_normals() const noexcept;
     /// Returns triangle triangles()[i] as moved.
     [[nodiscard]] PlacedTriangle placed(std::size_t i) const noexcept {
         if (i < placed_triangles_count_) return placed_triangle_[i];
@@ -237,6 +250,7 @@ private:
     FeatureHull hull_;
     ConvexPoints
         placed_points_;  ///< in placed_ or a PlacedHull; empty for a hull too large for both
+    PlacedHull* large_ = nullptr;  ///< or null: the hull is not in a PlacedHull
     std::array<format::HullBlock, kMostPlaced> placed_;
     static constexpr std::size_t kMostPlacedTriangles = 32;
     std::size_t placed_triangles_count_ = 0;

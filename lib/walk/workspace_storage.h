@@ -88,13 +88,19 @@ struct NearPieces {
 /// The most pairs of pieces that one walk gathers; twice as many as it keeps.
 inline constexpr std::size_t kMaxNearPieces = 4096;
 
-/// The corners of a large piece as moved, for as long as a query asks about no other of its side.
+/// The hull of a large piece as moved, for as long as a query asks about no other of its side.
 struct PlacedHull {
     static constexpr std::uint32_t kNoPiece = 0xffffffffU;
     static constexpr std::size_t kMostBlocks = 128;
+    /// A hull of n corners has at most 2 n - 4 facets.
+    static constexpr std::size_t kMostFacets = 2 * kMostBlocks * format::kHullLanes;
 
     std::uint32_t piece = kNoPiece;
+    bool has_normals = false;
+    Double3 reach;  ///< the largest |x|, |y|, |z| of the corners
     std::array<format::HullBlock, kMostBlocks> blocks;
+    /// x, y, z of the normals of faces, rounded: for the first facet of a face. 0 for other facets.
+    std::array<std::array<float, kMostFacets>, 3> normals;
 };
 
 /// A pair of pieces whose contact may be listed.

@@ -161,7 +161,7 @@ typedef struct cdprep_workspace_options {
  * sizeof(cdprep_workspace_options). Null does nothing. */
 CDPREP_API void cdprep_workspace_options_init(cdprep_workspace_options* options, size_t size);
 
-/* Stores the number of bytes that cdprep_workspace_make() needs for these options: about 760 KiB
+/* Stores the number of bytes that cdprep_workspace_make() needs for these options: about 810 KiB
  * per lane, and 360 KiB more with `cells`. `options` may be null. */
 CDPREP_API int cdprep_workspace_size(const cdprep_workspace_options* options, size_t* size,
                                      cdprep_error* error);

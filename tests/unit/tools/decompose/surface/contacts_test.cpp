@@ -3,13 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "exact/vectors.h"
 #include "support/brute_force.h"
 #include "support/concave_solids.h"
+#include "support/random_pose.h"
 #include "unit/tools/with_pieces.h"
 
 namespace cdprep::test {
@@ -426,6 +430,57 @@ TEST(Contacts, ALargeBoxPushesARoughBallUp) {
         }
     }
     EXPECT_GT(seen, 100U);
+}
+
+// By testing the normals of all 1,280 faces: a ball leaves a box no farther than along any of them.
+// The deepest of a rough ball's contacts with it is first in a list of one.
+TEST(Contacts, ALargePieceLeavesAlongItsBestFace) {
+    const TestMesh mesh = icosphere(3);
+    const OpenModel ball = open_with_pieces(mesh);
+    ASSERT_EQ(ball.model.pieces().pieces.size(), 1U);
+    const OpenModel rough = open_with_pieces(rough_ball(7));
+    std::mt19937 random(11);
+    std::size_t seen = 0;
+    for (int round = 0; round < 40; ++round) {
+        SCOPED_TRACE(round);
+        Pose pose = random_pose(random, 0);
+        const Double3 way = transform_point(pose, {1.9, 0, 0});
+        std::array<double, 12> rows{};
+        std::copy_n(pose.rotation().begin(), 9, rows.begin());
+        rows[9] = way.x, rows[10] = way.y, rows[11] = way.z;
+        pose = Pose::from_rows(rows).value();
+        const auto reach = [](const std::vector<Double3>& points, const Double3& n) {
+            double most = -10;
+            for (const Double3& p : points) most = std::max(most, dot(p, n));
+            return most;
+        };
+        std::vector<Double3> moved;
+        for (const Double3& p : mesh.positions) moved.push_back(transform_point(pose, p));
+        double least = 10;
+        for (const Triangle& t : mesh.triangles) {
+            const Double3 &p = mesh.positions[t.vertex[0]], &q = mesh.positions[t.vertex[1]],
+                          &r = mesh.positions[t.vertex[2]];
+            const Double3 n = cross(q - p, r - p);
+            const Double3 normal = (1 / std::sqrt(dot(n, n))) * n;
+            least = std::min(least, reach(mesh.positions, normal) + reach(moved, -normal));
+        }
+        for (const Contact& contact : all_contacts(ball, ball, Placement::b_moves(pose), 0)) {
+            EXPECT_GE(contact.lower, -least * (1 + 1e-9));
+            EXPECT_GE(contact.upper, contact.lower);
+            ++seen;
+        }
+
+        const Pair pair = {ball.model, rough.model, Placement::b_moves(pose)};
+        const auto all = all_contacts(ball, rough, pair.placement, 0.01);
+        Workspace workspace;
+        std::array<Contact, 1> first;
+        const auto listed = contacts(pair, workspace, first, {.tolerance = 0.01, .most = 1});
+        ASSERT_EQ(listed.found, all.size());
+        double deepest = 1;
+        for (const Contact& contact : all) deepest = std::min(deepest, contact.upper);
+        if (!all.empty()) EXPECT_EQ(first[0].upper, deepest);
+    }
+    EXPECT_GT(seen, 30U);
 }
 
 // By hand: two triangles above a box, bent along their common edge. Whatever edge the nearest
