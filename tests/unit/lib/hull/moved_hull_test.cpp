@@ -44,9 +44,12 @@ TEST(MovedHull, TheProvenPointHasTheProvenValue) {
             const std::uint32_t near = moved.farthest(direction, 0);
             const kernels::FarthestPoint found = moved.proven(direction, origin, near);
             ASSERT_EQ(found.value, dot(moved.point(found.number) - origin, direction));
+            const double along = moved.bound_along(direction, origin);
+            ASSERT_LE(along, found.bound + 1e-12);
             moved.each_point([&](std::uint32_t, const Double3& p) {
                 ASSERT_LE(dot(p - origin, direction), found.bound);
                 ASSERT_LE(dot(p - origin, direction), found.value);
+                ASSERT_LE(dot(p - origin, direction), along);
             });
             others += found.number != near ? 1 : 0;
             ++asked;

@@ -483,6 +483,36 @@ TEST(Contacts, ALargePieceLeavesAlongItsBestFace) {
     EXPECT_GT(seen, 30U);
 }
 
+// By hand: a prism of 100 sides lies on one of them, which is two triangles with four corners.
+TEST(Contacts, ALargePieceHasWholeFaces) {
+    constexpr std::uint32_t kSides = 100;
+    std::vector<std::array<double, 2>> outline;
+    std::vector<std::array<std::uint32_t, 3>> fan;
+    const double turn = 2 * std::acos(-1.0) / kSides;
+    for (std::uint32_t k = 0; k < kSides; ++k) {
+        outline.push_back({std::cos(turn * k), std::sin(turn * k)});
+        if (k > 1) fan.push_back({0, k - 1, k});
+    }
+    TestMesh wide = unit_cube();
+    for (Double3& p : wide.positions) p = {40 * p.x - 20, 40 * p.y - 20, p.z - 1};
+    const OpenModel box = open_with_pieces(wide);
+    const OpenModel round = open_with_pieces(prism(outline, fan));
+    ASSERT_EQ(round.model.pieces().pieces.size(), 1U);
+    for (std::uint32_t k = 0; k < kSides; ++k) {
+        SCOPED_TRACE(k);
+        const double c = std::cos(turn * (k + 0.5)), s = std::sin(turn * (k + 0.5));
+        const double height = std::cos(turn / 2) - 0.001;
+        const Pose pose = Pose::from_rows({0, 0, -1, s, -c, 0, -c, -s, 0, 0, 0, height}).value();
+        const auto found = all_contacts(box.model, round.model, Placement::b_moves(pose), 0);
+        ASSERT_EQ(found.size(), 1U);
+        expect_near(found[0].normal, {0, 0, 1}, 1e-9);
+        ASSERT_EQ(found[0].point_count, 4U);
+        for (const ManifoldPoint& point : found[0].points) {
+            EXPECT_NEAR(point.distance, -0.001, 1e-12);
+        }
+    }
+}
+
 // By hand: two triangles above a box, bent along their common edge. Whatever edge the nearest
 // corner leans over, the box is below.
 TEST(Contacts, AGapHasANormalTowardsTheOtherSide) {
