@@ -9,8 +9,8 @@
 #include "build/chunks.h"
 #include "cdprep/advanced/parallel_for.h"
 #include "cells/build/most_references.h"
-#include "cells/octree_codes.h"
 #include "cells/build/octree_grid.h"
+#include "cells/octree_codes.h"
 #include "exact/triangle_box.h"
 
 // Built level by level, all nodes of a level at once. Each reference of a node that is divided gets
