@@ -40,6 +40,21 @@ VertexSet vertices_of(const NearestSimplex& simplex, std::uint32_t Difference::*
     return set;
 }
 
+/// Returns the places of the greatest values above 0, in falling order, as many as `room` holds.
+std::span<const std::uint32_t> greatest_places(std::span<const float> values,
+                                               std::span<std::uint32_t> room) {
+    std::size_t count = 0;
+    for (std::uint32_t place = 0; place < values.size(); ++place) {
+        const float value = values[place];
+        if (!(value > 0)) continue;
+        if (count == room.size() && !(value > values[room.back()])) continue;
+        std::size_t i = count < room.size() ? count++ : count - 1;
+        for (; i > 0 && value > values[room[i - 1]]; --i) room[i] = room[i - 1];
+        room[i] = place;
+    }
+    return room.first(count);
+}
+
 /// The features of two pieces at a contact.
 struct Meeting {
     PieceFeature a;
@@ -226,17 +241,9 @@ private:
                 visit(side.normal_of(t));
             return;
         }
-        std::array<std::uint32_t, kMostNearNormals> best;
-        std::size_t count = 0;
-        for (std::uint32_t f = 0; f < cosines.size(); ++f) {
-            if (!(cosines[f] > 0)) continue;
-            if (count == best.size() && !(cosines[f] > cosines[best.back()])) continue;
-            std::size_t i = count < best.size() ? count++ : count - 1;
-            for (; i > 0 && cosines[f] > cosines[best[i - 1]]; --i) best[i] = best[i - 1];
-            best[i] = f;
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto& c = side.facets()[best[i]].corner;
+        std::array<std::uint32_t, kMostNearNormals> nearest;
+        for (const std::uint32_t f : greatest_places(cosines, nearest)) {
+            const auto& c = side.facets()[f].corner;
             visit(unit_normal({side.corner(c[0]), side.corner(c[1]), side.corner(c[2])}));
         }
     }

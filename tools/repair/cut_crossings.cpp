@@ -157,7 +157,8 @@ private:
     }
 
     /// Returns what each side of a triangle has in common with another; a point as a segment.
-    /// CGAL::intersection() of two triangles does the same, but doubles the time to compile.
+    /// CGAL::intersection() of two triangles does the same, but takes half as long again to
+    /// compile.
     static std::vector<Segment> common_parts(const Corners& corners, const Sides& sides,
                                              const Shape& other) {
         std::vector<Segment> parts;
