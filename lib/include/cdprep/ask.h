@@ -10,9 +10,9 @@
 
 namespace cdprep {
 
-/// The features of a model, as bits of one set: queries that it serves, effects of scenes, and
-/// structures that a query may use. Values are never reused. Bits 6 to 10, 19 and 24 to 29 are
-/// reserved for effects that are not built yet.
+/// The features of a model, one bit each. A feature is a query, another effect, or a structure that
+/// a query may use. Values are never reused. Bits 6 to 10, 19 and 24 to 29 are reserved for effects
+/// that are not built yet.
 enum class Ask : std::uint32_t {
     nothing = 0,
     collide = 1U << 0,

@@ -3,7 +3,8 @@
 
 /// Models from arrays at run time. build_model() and build_image() make the bytes that
 /// Model::open() takes. RuntimeModel keeps a model whose vertices move. Headers in cdprep/advanced/
-/// hold the single steps; headers in cdprep/cells/ build octrees and tetra-trees.
+/// declare the single steps of these builds; headers in cdprep/cells/ build octrees and
+/// tetra-trees.
 
 #include "cdprep/advanced/build_image.h"
 #include "cdprep/advanced/build_model.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The C++ API: models, poses, and the questions about them. Headers in cdprep/advanced/ and
-/// cdprep/cells/ are included by those who need them.
+/// The C++ API: models, poses, and queries about them. Include other headers of cdprep/advanced/
+/// and cdprep/cells/ where they are needed.
 
 #include "cdprep/ask.h"
 #include "cdprep/build.h"

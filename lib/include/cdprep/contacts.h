@@ -14,7 +14,8 @@ namespace cdprep {
 /// The feature of the imported mesh at a contact, in source numbers.
 struct ContactFeature {
     FeatureKind kind;
-    /// The corner of the triangle where the edge starts; it ends at the next. 0 for other kinds.
+    /// The corner of `triangle` at which the edge starts; the edge ends at the next corner. 0 for
+    /// other kinds.
     std::uint8_t edge;
     std::uint32_t triangle;  ///< a triangle with the vertex or edge, or around the point
     std::uint32_t vertex;    ///< the vertex; the first of an edge; the first corner of a face
@@ -26,24 +27,27 @@ struct ManifoldPoint {
     Double3 on_b;
     double distance;  ///< from on_a to on_b along the normal, rounded; negative: overlap
     /// Stays the same for the same point of the same contact after a small motion. It is made of
-    /// the source numbers of the vertex, or of the two crossing edges. 0 for the only point of a
-    /// contact. In a cluster, it also differs between points of different members.
+    /// source numbers: that of the vertex at the point, or those of the ends of the two edges that
+    /// cross there. 0 for the only point of a contact. In a cluster, it also differs between points
+    /// of different members.
     std::uint64_t id;
 };
 
 /// Bits of Contact::flags.
 enum ContactFlags : std::uint32_t {
-    /// The pieces overlap: their hulls have a common point, and both are contained or their
-    /// triangles touch (format/pieces.h). The distance is 0 or negative: minus the length of the
-    /// shortest translation that separates the hulls.
+    /// The pieces overlap: their hulls have a common point, and either their triangles touch or
+    /// both pieces are contained (format::piece_contained). The distance is 0 or negative: minus
+    /// the length of the shortest translation that separates the hulls.
     contact_overlap = 1,
-    /// The normal is that of a face, because the shortest way would snag: see contacts().
+    /// The shortest direction between the pieces, or out of their overlap, would snag. The normal
+    /// is a different direction: see contacts().
     contact_internal_edge = 2,
     /// The pieces do not overlap, but one lies behind the other's triangles, inside the solid.
     /// Ignore this contact in a solver; other piece pairs give the separating direction.
     contact_from_behind = 4,
     /// A component of one model lies inside the other, with no surface near: see contacts(). The
-    /// points are on the hulls that were separated.
+    /// component's point is on a hull around it. The translation by -lower along `normal` moves
+    /// point_b to point_a.
     contact_deep = 8,
 };
 
@@ -64,8 +68,9 @@ struct Contact {
     Double3 point_b;  ///< on B, up to rounding
     Double3 normal;   ///< from A to B, of length 1 up to rounding
     /// The distance is in [lower, upper], in model units; both bounds are proven. With
-    /// contact_overlap it is 0 or negative. Then no translation shorter than -upper moves B out of
-    /// A, and a translation by -lower along `normal` does.
+    /// contact_overlap it is 0 or negative. Then no translation of B shorter than -upper separates
+    /// the pieces or, with contact_deep, frees the component. A translation of B by -lower along
+    /// `normal` does.
     double lower;
     double upper;
     std::uint32_t flags;        ///< ContactFlags
@@ -89,8 +94,8 @@ struct ContactOptions {
     /// The maximum work, 0 for no limit: each pair of near triangles counts 1, and each contact
     /// kWorkOfContact. The search for near triangles takes at most half of it.
     std::uint64_t work = 0;
-    /// Joins contacts of common pieces whose normals are at most this far apart, in radians. A
-    /// joined contact has at most four points. 0: joins none. Needs `most`.
+    /// Joins contacts that are linked by common pieces and whose normals differ by at most this, in
+    /// radians. A joined contact has at most four points. 0: joins none. Needs `most`.
     double cluster_angle = 0;
 };
 
@@ -112,9 +117,9 @@ struct ContactsVerdict {
 ///
 /// Without options.most, stores the first contacts in `room`, in the order of (piece_a, piece_b),
 /// and then those of enclosed components. With an empty span it only counts them (`found`). With
-/// options.most, stores at most so many, the deepest first (by `upper`, then by pieces). If there
-/// are more, the choice alternates between the deepest remaining contact and the one farthest from
-/// all chosen ones. Then only contacts that may be listed are computed.
+/// options.most, stores at most that many contacts, the deepest first (by `upper`, then by pieces).
+/// If there are more, the choice alternates between the deepest remaining contact and the one
+/// farthest from all chosen ones. With options.most, only contacts that may be listed are computed.
 ///
 /// If `lower` is negative, a solver must move B by -lower along `normal` to separate the pieces.
 ///
@@ -125,37 +130,40 @@ struct ContactsVerdict {
 ///     ---------  A                                   --> -upper: shorter, but sideways
 ///     apart             shallow                 at an edge inside a surface
 ///
-/// If two pieces are apart, their contact has the nearest features of the mesh. The distance
-/// interval is no wider than that of convex_distance(). Pieces overlap if their hulls do, and both
-/// are contained or their triangles touch. Then `normal` is the direction of the shortest
-/// separating translation that does not snag. The candidates are the normals of both hulls' faces
-/// and the directions across two of their edges. A piece is contained if its hull lies within the
-/// solid. For other overlapping hulls, the contact has the distance of the triangles. If triangles
-/// do not cover a face of a hull, the triangles decide. If several pairs of points are nearest, as
-/// between parallel faces, the contact has one of them.
+/// If two pieces are apart, their contact names the nearest features of their hulls. If no triangle
+/// has these features, it names those of the nearest triangles and has their distance. The distance
+/// interval is no wider than that of convex_distance(). A piece is contained if its hull lies
+/// within the solid. Two pieces overlap if their hulls overlap and either their triangles touch or
+/// both pieces are contained. Then `normal` is the direction of the shortest separating translation
+/// that does not snag. The candidates are the face normals of both hulls and the directions
+/// perpendicular to an edge of each. If the hulls overlap but the pieces do not, the contact has
+/// the distance of the triangles. If several pairs of points are equally near, as between parallel
+/// faces, the contact has one of them.
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. It also
-/// snags if it leads through a part of the hull that no triangle covers. Then the shortest
-/// translation that does not snag is used, and contact_internal_edge is set. A translation that
-/// snags is used instead if it is less than half as long. It must lead neither along a plane nor
-/// deeper into a solid. `upper` is still minus the length of the shortest separating translation.
-/// For shallow contacts away from such edges, `lower` and `upper` are equal up to rounding. Bodies
-/// may overlap by more than the size of a piece. Then a contact separates its two pieces only, not
-/// the bodies: push by the deepest, and query again. Inside a solid, the inner side of a wall may
-/// be near (contact_from_behind); such a contact should not push.
+/// snags if it leads through a part of the hull that no triangle covers. If the shortest
+/// translation snags, the shortest one that does not is used, and contact_internal_edge is set. A
+/// translation that tilts across a reflex edge is used nevertheless if it is less than half as long
+/// as that one. It must not tilt across a flat edge or lead deeper into a solid. `upper` is still
+/// minus the length of the shortest separating translation. For shallow contacts away from such
+/// edges, `lower` and `upper` are equal up to rounding. Bodies may overlap by more than the size of
+/// a piece. Then a contact separates its two pieces only, not the bodies: push by the deepest, and
+/// query again. Inside a solid, the inner side of a wall may be near (contact_from_behind); such a
+/// contact should not push.
 ///
 /// With Body::solid, a component that is proven to be inside the other model makes a contact of its
-/// own (contact_deep). No such contact is made if any triangles of the two models touch. It names
-/// one piece of the component and the nearest piece of the other model. The translation moves the
-/// component out of hulls that enclose the other model. They are its parts (`bake --structures hull
-/// --parts`), else its whole hull, else the box around it. A translation by -lower along `normal`
-/// frees the component. No translation shorter than -upper frees it: that is the distance of one of
-/// its vertices from the other surface. Such a contact counts in `found`, and with options.most it
-/// is listed before others of no greater depth. An open model encloses nothing.
+/// own (contact_deep). No such contact is made if any triangles of the two models touch. A deep
+/// contact names one piece of the component and the nearest piece of the other model. The
+/// translation moves the component out of hulls that enclose the other model. These are that
+/// model's parts (`bake --structures hull --parts`), else its whole hull, else its bounding box. A
+/// translation by -lower along `normal` frees the component. No translation shorter than -upper
+/// frees it: -upper is the distance of one of its vertices from the other surface. Such a contact
+/// counts in `found`. With options.most, other contacts are listed only in the places that deep
+/// contacts leave free. An open model encloses nothing.
 ///
-/// The manifold spans the nearest pairs. Its points are corners of one face, clipped by the other,
-/// and each distance is between the two faces there. The deepest point is first, then those that
-/// span the largest area.
+/// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
+/// are the corners of one face, clipped by the other. Each distance is that between the two faces
+/// there. The deepest point is first, then those that span the largest area.
 ///
 /// The answer is the same on every processor. With Body::surface, a piece inside another's hull
 /// makes no contact if it is farther than the tolerance from the other's triangles.

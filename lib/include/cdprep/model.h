@@ -27,8 +27,8 @@ enum class OpenMode : std::uint8_t {
     /// nobody truncates or rewrites while the Model lives; see Model.
     map,
     /// In memory that the Model owns, aligned to pages. Opening reads the whole file and takes as
-    /// much memory. Later changes to the file never change an answer. Use it for network shares,
-    /// removable media, and files that others truncate.
+    /// much memory as the file is long. Later changes to the file never change an answer. Use it
+    /// for network shares, removable media, and files that others truncate.
     copy,
 };
 
@@ -42,7 +42,7 @@ struct OpenOptions {
     std::optional<SectionSet> sections = std::nullopt;
     /// The name of bytes in memory, for messages. For a file, messages use its path.
     std::string_view name = "memory";
-    /// For a path. Bytes in memory are used in place.
+    /// The mode for a file that a path names. Bytes in memory are used in place.
     OpenMode mode = OpenMode::map;
 };
 

@@ -89,12 +89,12 @@ struct Collision {
 /// Returns whether two models collide. Stops at the first pair of triangles found.
 ///
 /// With Body::surface, nested surfaces that do not touch do not collide. With Body::solid they do
-/// if a nonzero winding number proves it; see containment() for open models. As exact as
-/// overlaps().
+/// if a nonzero winding number proves that one is inside the other; see containment() for open
+/// models. As exact as overlaps().
 ///
 /// Reads all options. Needs Ask::collide of both models; Body::solid also Ask::solid, and
-/// options.through its ask_of(). Takes O(log n) time for most poses. With a cache, a repeated hit
-/// or a motion below the proven gap takes O(1). Never allocates.
+/// options.through its ask_of(). Takes O(log n) time for most poses. With a cache, takes O(1) time
+/// if the last hit recurs, or the models moved less than the gap proven before. Never allocates.
 [[nodiscard]] Collision collide(const Pair& pair, Workspace& workspace) noexcept;
 
 /// Returns whether some component of one model lies inside the other. The surfaces of the two
@@ -158,8 +158,8 @@ std::size_t mark_overlaps(const Pair& pair, Workspace& workspace, std::span<std:
 /// Two triangles that overlap, and their common segment.
 struct Crossing {
     TrianglePair pair;
-    /// The triangles lie in one plane, or one has no area. They may share an area, and no segment
-    /// is given.
+    /// True if the triangles lie in one plane or one has no area. Then no segment is given, because
+    /// they may share an area.
     bool is_flat;
     Double3 from;  ///< an end of the common segment; 0 if `is_flat`
     Double3 to;    ///< the other end; equal to `from` if the triangles touch in a point
@@ -171,9 +171,9 @@ struct Crossing {
 /// Coordinates are those of the placement: A's frame if B moves. The edges on which a segment ends
 /// are determined exactly, for the vertices as transform_point() moves them. Each coordinate is
 /// then rounded once. The result is the nearest double, unless the coordinate lies within 2^-45
-/// units in the last place of the midpoint between two (crossing_segments_laws_test). Except for
-/// those ties, triangles that share an edge get bit-identical segment ends on it. Subnormal
-/// coordinates may be off by one unit.
+/// units in the last place of the midpoint between two doubles (crossing_segments_laws_test).
+/// Except for those ties, triangles that share an edge get bit-identical segment ends on it.
+/// Subnormal coordinates may be off by one unit in the last place.
 ///
 /// Reads options.overlap and degenerate. Needs Ask::overlap of both models. Takes some microseconds
 /// more per pair than overlaps(), and about 20 KiB of stack. Never allocates.
@@ -238,7 +238,7 @@ struct Distance {
 ///
 /// Reads options.through; the only structure beside the BVH is Structure::pieces. Needs Ask::within
 /// of both models, and options.through its ask_of(). Takes as long as distance(), or less if the
-/// answer is clear.
+/// distance differs clearly from `tolerance`.
 [[nodiscard]] bool within(const Pair& pair, double tolerance, Workspace& workspace) noexcept;
 
 /// Finds every pair of triangles that are at most `tolerance` apart, in model units; inclusive.

@@ -24,13 +24,14 @@ namespace cdprep {
                                          std::span<TrianglePair> room) noexcept;
 
 /// Runs collide() for many pairs: stores the result for pairs[i] in answers[i]. The results are
-/// those of single calls and do not depend on the threads. Pairs may share models freely, such as
-/// many poses of one pair, or many pairs. No two pairs of a batch may share a cache.
+/// those of single calls and do not depend on the threads. Pairs may share models freely: a batch
+/// may hold many poses of the same two models. No two pairs of a batch may share a cache.
 ///
-/// One thread works for each workspace, of which there must be at least one. Calls `parallel_for`
-/// at most once. Processes min(pairs.size(), answers.size()) pairs. Never allocates. Starting a
-/// batch takes a few microseconds, so it pays off from about ten pairs. These rules also hold for
-/// the batches below. Needs Ask::collide of both models of a pair; Body::solid also Ask::solid.
+/// There must be at least one workspace. The batch uses one thread per workspace. Calls
+/// `parallel_for` at most once. Processes min(pairs.size(), answers.size()) pairs. Never allocates.
+/// Starting a batch takes a few microseconds, so it pays off from about ten pairs. These rules also
+/// hold for the batches below. Needs Ask::collide of both models of a pair; Body::solid also
+/// Ask::solid.
 ///
 ///     std::vector<cdprep::Workspace> workspaces(4);
 ///     std::vector<cdprep::Collision> answers(pairs.size());

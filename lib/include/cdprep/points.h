@@ -95,8 +95,9 @@ struct RayOptions {
 /// Returns the first point where `ray` meets the surface, or nothing.
 ///
 /// Each hit is decided exactly for the given origin and direction, by the signs of tetrahedron
-/// volumes. A ray along an edge or through a vertex hits, so that none passes between neighbours.
-/// Both sides of a triangle count. A ray in the plane of a triangle hits where it enters.
+/// volumes. Edges and vertices belong to a triangle, so no ray passes between two triangles that
+/// share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits where it
+/// enters.
 ///
 /// `t` and `point` are rounded. The rounded t decides which hit is first and which hits max_t
 /// excludes. Among equal t, the lowest source number comes first. A model without triangles is
@@ -172,8 +173,8 @@ struct ShapeOptions {
 /// found. The model is its surface: a shape deep inside a closed model touches nothing.
 ///
 /// Exact, also for tangent spheres and capsules: signs of determinants and comparisons in integers
-/// decide where double cannot. A triangle in the plane of a box face touches, and so does a
-/// degenerate one.
+/// decide where double cannot. A triangle that lies in a face of the box touches it. A degenerate
+/// triangle counts as its segment or point, unless it is skipped.
 ///
 /// For a box along other axes, use an axis-aligned box in its own frame. Pass box_from_model as
 /// options.world_from_model: from two world poses, it is relative_pose(world_from_box,
@@ -204,7 +205,7 @@ struct ShapeDistance {
     double lower;      ///< the distance is at least this, model units
     double upper;      ///< and at most this: [lower, upper] contains the exact distance
     Double3 on_model;  ///< on the surface as moved, up to rounding; nearest to the shape
-    /// on the box or triangle; for a sphere or capsule, on its centre or segment
+    /// on the box or triangle; the centre of a sphere; on the segment of a capsule
     Double3 on_shape;
     std::uint32_t triangle;  ///< the triangle with on_model; source number
 };
@@ -214,14 +215,14 @@ struct ShapeDistance {
 /// Returns nothing if the distance exceeds options.max_distance or the model has no triangles. The
 /// same holds for shapes that touch nothing, such as a sphere with a negative radius.
 ///
-/// The interval contains the distance to the vertices as transform_point() moves them. Its width is
-/// at most 1e-12 of the distance plus 1e-15 of the largest coordinate. For spheres and capsules, it
-/// is that of the centre or segment, plus 4 ulp for the radius. Among triangles with equal `upper`,
-/// the result has the lowest number. Among those that are equally near in exact arithmetic, any may
-/// be the result, but always the same one.
+/// The interval contains the exact distance to the surface whose vertices transform_point() moved.
+/// Its width is at most 1e-12 of the distance plus 1e-15 of the largest coordinate. For spheres and
+/// capsules, it is the width for the centre or segment, plus 4 ulp for the radius. Among triangles
+/// with equal `upper`, the result has the lowest number. Among those that are equally near in exact
+/// arithmetic, any may be the result, but always the same one.
 ///
-/// Needs Ask::touch. Visits every triangle in the worst case. A box takes twelve triangle queries,
-/// each limited by the results before it. Never allocates.
+/// Needs Ask::touch. Visits every triangle in the worst case. A box that does not touch takes
+/// twelve triangle queries, each limited to the smallest distance found before. Never allocates.
 [[nodiscard]] std::optional<ShapeDistance> shape_distance(
     const Model& model, const Shape& shape, Workspace& workspace,
     const ShapeOptions& options = {}) noexcept;

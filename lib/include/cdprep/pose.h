@@ -18,9 +18,9 @@ public:
     /// The identity.
     constexpr Pose() noexcept = default;
 
-    /// Makes a pose from R row by row, then T, in model units. Fails with bad_argument, and names
-    /// the wrong number, if one is not finite or beyond format::kMaxCoordinate. Also fails if an
-    /// entry of |R^T R - I| exceeds kRotationTolerance, or R mirrors.
+    /// Makes a pose from R row by row, then T, in model units. Fails with bad_argument if a number
+    /// is not finite or beyond format::kMaxCoordinate; the message names that number. Also fails if
+    /// an entry of |R^T R - I| exceeds kRotationTolerance, or R mirrors.
     [[nodiscard]] static Result<Pose> from_rows(const std::array<double, 12>& rows);
 
     /// Makes a pose from any quaternion w + xi + yj + zk except zero; its length does not matter.
@@ -59,12 +59,12 @@ private:
 [[nodiscard]] Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept;
 
 /// Returns the pose that moves by `b_from_c` first and then by `a_from_b`, by one fixed formula in
-/// double. A rotation that has drifted by more than 1e-13 is replaced by the nearest one. So chains
-/// of any length stay rigid. Fails with bad_argument if the translation exceeds
+/// double. If an entry of |R^T R - I| exceeds 1e-13, R is replaced by the nearest rotation. So
+/// chains of any length stay rigid. Fails with bad_argument if the translation exceeds
 /// format::kMaxCoordinate.
 [[nodiscard]] Result<Pose> composed_pose(const Pose& a_from_b, const Pose& b_from_c);
 
-/// Returns the inverse pose, computed likewise: R^T and -(R^T T).
+/// Returns the inverse pose: R^T and -(R^T T), computed and corrected as in composed_pose().
 [[nodiscard]] Result<Pose> inverse_pose(const Pose& a_from_b);
 
 /// The order of the sixteen numbers of a matrix.
@@ -76,8 +76,9 @@ enum class MatrixLayout : std::uint8_t {
 /// The largest tolerance of nearest_pose(). Beyond it, the nearest rotation means little.
 inline constexpr double kGreatestPoseTolerance = 0.25;
 
-/// Returns the pose nearest to a 4 x 4 matrix, such as one of an engine. Its R minimises the sum of
-/// squares of M - R, with |R^T R - I| at most 1e-15 (pose_test).
+/// Returns the pose nearest to a 4 x 4 matrix, such as a transform of a game engine. M is the
+/// matrix's 3 x 3 part. R minimises the sum of the squared entries of M - R, with |R^T R - I| at
+/// most 1e-15 (pose_test).
 ///
 /// The matrix may differ from a rigid motion by `tolerance`, which is 0 to kGreatestPoseTolerance.
 /// The limit holds for every entry of |M^T M - I| and for the deviation of the last row from

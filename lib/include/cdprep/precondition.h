@@ -3,7 +3,7 @@
 
 namespace cdprep {
 
-/// Receives one sentence when a C++ query is called that its model or its workspace cannot serve.
+/// Receives one sentence when a C++ query is called but the model or the workspace cannot serve it.
 /// This is an error of the caller that the query's result cannot report. The handler may log the
 /// sentence, write a dump or end the program. If it returns, the program is aborted.
 using PreconditionHandler = void (*)(const char* sentence);

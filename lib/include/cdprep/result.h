@@ -9,8 +9,8 @@
 
 namespace cdprep {
 
-/// The kind of a failure, for programs. The values are the exit codes of the program and the codes
-/// of the C API. Numbers are never reused.
+/// The kind of a failure, for programs. The values are the exit codes of the `cdprep` command and
+/// the codes of the C API. Numbers are never reused.
 enum class ErrorCode : std::uint32_t {
     bad_argument = 2,   ///< an invalid argument: an option, a pose, an effect that is not baked
     unreadable = 3,     ///< input that cannot be read: missing, malformed, damaged

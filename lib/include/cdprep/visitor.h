@@ -5,9 +5,9 @@
 
 namespace cdprep {
 
-/// A reference to a callable that receives each answer; returning false ends the search. It copies
-/// nothing: the callable must outlive the call that it is passed to. The callable must not throw
-/// and must not use the workspace of the query. It runs in the caller's floating-point environment.
+/// A reference to a callable that receives each answer; returning false ends the search. A Visitor
+/// does not copy the callable, which must outlive the query. The callable must not throw and must
+/// not use the workspace of the query. It runs in the caller's floating-point environment.
 template <class Answer>
 class Visitor {
 public:

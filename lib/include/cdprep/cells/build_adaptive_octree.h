@@ -39,10 +39,11 @@ inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
 /// Degenerate triangles count as the segment or point that they are. The result is the same, byte
 /// for byte, for any parallel_for and processor. The root is the box of all corners.
 ///
-/// Median: along each axis, the median of the middles of the triangles' boxes, each cut to the
-/// cell. If that is on the cell's border, because most triangles lie flat on it, the middle of the
-/// cell. Surface area: one of the 15 planes between 16 slices of equal width. It has the least sum,
-/// over both sides, of area times triangles.
+/// SplitRule::median: along each axis, the plane is at the median of the centres of the triangles'
+/// boxes, each clipped to the cell. If that is on the cell's boundary, because most triangles lie
+/// flat on it, the plane is in the middle of the cell. SplitRule::surface_area: the plane is one of
+/// the 15 between 16 slices of equal width. It has the least sum, over both sides, of surface area
+/// times number of triangles.
 ///
 /// An axis is not divided if its plane would cut every triangle's box, unless that holds for all
 /// three axes. A cell is a leaf if no plane is inside it, or every child would have all its
@@ -52,8 +53,8 @@ inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
 ///
 /// Takes O(levels * references) time. The memory beside the result is at most the sum of
 /// kAdaptiveScratchPerTriangle, PerReference and PerNode, each times its number. This holds for one
-/// thread; on several, the medians in progress take up to 24 bytes per reference. Throws only
-/// std::bad_alloc.
+/// thread. On several threads, the medians being computed take up to 24 bytes per reference. Throws
+/// only std::bad_alloc.
 [[nodiscard]] AdaptiveOctree build_adaptive_octree(std::span<const format::Double3> positions,
                                                    std::span<const format::Triangle> triangles,
                                                    const AdaptiveOctreeOptions& options = {});

@@ -15,16 +15,16 @@
 namespace cdprep::build {
 
 /// An octree of cells of equal shape (format/octree.h), and the tables that find a cell by its key.
-/// Vectors that the options exclude are empty.
+/// The tables make it a hashed octree, in three forms. Vectors that the options exclude are empty.
 struct Octree {
     format::OctreeGrid grid{};
     std::vector<format::OctreeNode> nodes;
     std::vector<std::uint32_t> references;
-    std::vector<std::uint64_t> leaf_codes;     ///< the modern form of the hashed octree:
-    std::vector<std::uint32_t> leaf_nodes;     ///< leaves sorted along the z curve,
-    std::vector<std::uint32_t> top;            ///< with a table of the places to begin
-    std::vector<std::uint32_t> modulus_table;  ///< its published form
-    std::vector<std::uint32_t> mixed_table;    ///< the same with mixed keys
+    std::vector<std::uint64_t> leaf_codes;     ///< sorted form: z-curve codes of the leaves
+    std::vector<std::uint32_t> leaf_nodes;     ///< the node of each of these leaves
+    std::vector<std::uint32_t> top;            ///< first leaf of each cell of grid.top_level
+    std::vector<std::uint32_t> modulus_table;  ///< published form: chained, slot by last key bits
+    std::vector<std::uint32_t> mixed_table;    ///< the same, slot by a mixed key
     std::vector<format::CellBox> boxes;        ///< around the contents of the nodes
 };
 
@@ -37,8 +37,8 @@ struct OctreeOptions {
     std::optional<Frame> boxes_in{};
 };
 
-/// The number of references that an octree may have, beside kMostReferencesPerTriangle for each
-/// triangle.
+/// The number of references that an octree may have in addition to kMostReferencesPerTriangle for
+/// each triangle.
 inline constexpr std::uint64_t kMostFreeReferences = std::uint64_t{1} << 22;
 inline constexpr std::uint64_t kMostReferencesPerTriangle = 64;
 
@@ -54,7 +54,7 @@ inline constexpr std::size_t kScratchPerNode = 96;
 ///
 /// The total number of references is at most kMostFreeReferences plus kMostReferencesPerTriangle
 /// for each triangle. A level whose division would exceed this is not divided, nor is any level
-/// below. For example, level 21 around a triangle that fills the cube has 2^42 cells. If
+/// below. For example, a triangle as large as the cube would touch about 2^42 cells of level 21. If
 /// coordinates are NaN, the result is meaningless; the readers of files reject them.
 ///
 /// Takes O(levels * references) time. Scratch memory is at most kScratchPerVertex * vertices +

@@ -23,7 +23,7 @@ struct TetraTree {
 
 struct TetraTreeOptions {
     ParallelFor parallel_for = serial_for;
-    std::uint32_t level = 3;      ///< no cone has more splits above it; to kMaxTetraLevel
+    std::uint32_t level = 3;      ///< no cone has more splits above it; 0 to kMaxTetraLevel
     std::uint32_t threshold = 1;  ///< a cone with fewer triangles is not split; 1 at least
     format::TetraBounding bounding = format::TetraBounding::caps;
     std::int32_t frame_exponent = 0;  ///< of the model's frame: the unit of radii
@@ -36,10 +36,11 @@ struct TetraTreeOptions {
 /// no leaf. The result is the same, byte for byte, for any parallel_for and processor.
 ///
 /// The centre is the mean of the vertices that triangles use. It is rounded to float if all their
-/// coordinates are floats, so nearly all differences to it are exact. Radii contain the parts of
-/// triangles in exact arithmetic. This requires a frame exponent that brings the model near 1;
-/// otherwise radii may be infinite. Boxes contain the same parts, in a frame that holds the model.
-/// TetraTreeFlags are found along one ray.
+/// coordinates are floats, so nearly all differences to it are exact. The radii of a cone are
+/// rounded outwards, so they contain the exact part of its triangles in the cone. This requires a
+/// frame exponent that scales the model to about 1; otherwise radii may be infinite. Boxes contain
+/// the same parts, in a frame that contains the model. tetra_centre_inside is computed along one
+/// ray from the centre.
 ///
 /// The number of references is limited as in build_octree(). A level whose split would exceed the
 /// limit is not split, nor is any below. Takes O(levels * references) time. Uses at most 21 bytes

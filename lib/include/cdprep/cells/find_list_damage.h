@@ -10,15 +10,15 @@
 
 namespace cdprep {
 
-/// Proves the lists of the octrees and the tetra-tree. Returns nothing if all are correct, or if
-/// there are no such trees. Each leaf must list exactly the triangles that have a point in its
-/// closed cell or cone.
+/// Checks the lists of the octrees and the tetra-tree completely. Returns nothing if all are
+/// correct, or if there are no such trees. Each leaf must list exactly the triangles that have a
+/// point in its closed cell or cone.
 ///
-/// References must be marked as shared if they are. An octree's root must hold every corner, and
-/// its tables must find every node. Exact: each triangle is compared with the cells by signs that
-/// no rounding changes. Radii of a tetra-tree are damage too if they exclude more than rounding can
-/// explain. If a cone's planes cut a triangle, this means more than a millionth of the part that is
-/// left.
+/// A reference must be marked as shared if and only if other leaves list the same triangle. An
+/// octree's root must hold every corner, and its tables must find every node. Exact: each triangle
+/// is compared with the cells by signs that no rounding changes. Radii of a tetra-tree are damage
+/// too if they exclude more than rounding can explain. If a cone's planes cut a triangle, the limit
+/// is a millionth of the size of the part inside.
 ///
 /// `file` must be one in which format::find_deep_damage() finds nothing. `model` is this file,
 /// opened with all its sections. Takes O(triangles * levels) steps of about a microsecond.

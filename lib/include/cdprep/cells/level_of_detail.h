@@ -20,9 +20,9 @@ struct CoarseCollision {
 };
 
 /// Returns the error of a model at a level, in model units. It is the greatest distance between the
-/// outer and the inner facet of a cone, along any ray from the tetra-tree's centre. It falls as the
-/// level rises, down to that of the leaves. A model without triangles has 0. Needs Ask::tetra_tree.
-/// Takes O(cones of the level) time.
+/// outer and the inner facet of a cone, along any ray from the tetra-tree's centre. The error falls
+/// as the level rises, down to the error of the leaves. It is 0 for a model without triangles.
+/// Needs Ask::tetra_tree. Takes O(cones of the level) time.
 ///
 /// Level 0 has one outer and one inner facet per octant. Each further level splits every cone of
 /// the tree into four; a leaf stays as it is. The outer facet cuts a cone at its greatest radius,
@@ -34,8 +34,8 @@ struct CoarseCollision {
 ///
 /// `no`: no two cones meet within their outer facets. This also holds for surfaces and for open
 /// models. `yes`: a point lies below the inner facets of both models, which are closed and contain
-/// their centres. The search tries centres and points under facets, so that it may miss a `yes`.
-/// Never allocates. Takes O(pairs of cones that meet) time.
+/// their centres. The search tests only the centres and a few points below each inner facet, so it
+/// may miss a `yes`. Never allocates. Takes O(pairs of cones that meet) time.
 [[nodiscard]] CoarseCollision collide_at_level(const Pair& pair, std::uint32_t level,
                                                Workspace& workspace) noexcept;
 

@@ -21,7 +21,7 @@ struct OctreeFigures {
     std::uint64_t largest_leaf = 0;    ///< references
     std::uint32_t deepest = 0;         ///< level of the deepest node; 0: the root
     std::uint64_t bytes = 0;           ///< of all its sections as stored
-    std::uint64_t table_bytes = 0;     ///< the share of tables that find cells by key, in `bytes`
+    std::uint64_t table_bytes = 0;     ///< the part of `bytes` for tables that find cells by key
 
     friend bool operator==(const OctreeFigures&, const OctreeFigures&) = default;
 };
@@ -34,7 +34,7 @@ struct OctreeFigures {
 [[nodiscard]] OctreeFigures octree_figures(const build::Octree& octree,
                                            std::uint64_t triangle_count) noexcept;
 
-/// Returns the same figures of an octree with chosen split points.
+/// Returns the same figures of an adaptive octree.
 [[nodiscard]] OctreeFigures adaptive_octree_figures(const Model& model) noexcept;
 [[nodiscard]] OctreeFigures adaptive_octree_figures(const build::AdaptiveOctree& octree,
                                                     std::uint64_t triangle_count) noexcept;

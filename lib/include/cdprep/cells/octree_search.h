@@ -18,10 +18,10 @@ namespace cdprep {
 inline constexpr std::uint32_t kNoNode = 0xffffffffU;
 
 /// The parts of a hashed octree that a search reads. They belong to a model or a builder, which
-/// must outlive the index. A search is safe if find_damage finds nothing. Then tops rise from 0 to
-/// the number of leaves, all numbers name nodes, and every chain ends. If there are nodes, a search
-/// also reads the table that it is named after. That table must be present, but an octree may be
-/// baked without it.
+/// must outlive the index. A search is safe if find_damage finds nothing. Then the elements of
+/// `top` rise from 0 to the number of leaves, all numbers name nodes, and every chain ends. If
+/// there are nodes, a search also reads the table that it is named after. That table must be
+/// present, but an octree may be baked without it.
 struct OctreeIndex {
     std::uint32_t top_level = 0;  ///< as format::OctreeGrid
     std::uint32_t slot_bits = 0;
@@ -39,8 +39,8 @@ struct OctreeIndex {
 [[nodiscard]] OctreeIndex octree_index(const Model& model) noexcept;
 [[nodiscard]] OctreeIndex octree_index(const build::Octree& octree) noexcept;
 
-/// Returns the z-curve code of the finest cell that holds a point, or of the nearest cell of the
-/// cube. `p` has no NaN.
+/// Returns the z-curve code of the finest cell that holds a point. If the point is outside the
+/// cube, returns the code of the cell nearest to it. `p` has no NaN.
 [[nodiscard]] std::uint64_t code_of_point(const format::OctreeGrid& grid,
                                           const Double3& p) noexcept;
 
@@ -69,8 +69,9 @@ inline std::uint32_t find_chained(const OctreeIndex& index, std::span<const std:
 }
 
 /// Returns the node of a key, or kNoNode, by bisection of the sorted nodes. Reads no table. Takes
-/// O(log nodes) time. Overlapping searches take five to nine times as long as with a table.
-/// Searches one after the other take one to three times as long (octree_top_bench).
+/// O(log nodes) time. Independent searches, which overlap in the processor, take five to nine times
+/// as long as with a table. If each search depends on the one before, they take one to three times
+/// as long (octree_top_bench).
 inline std::uint32_t find_node_in_order(const OctreeIndex& index, std::uint64_t key) noexcept {
     const auto at = std::lower_bound(
         index.nodes.begin(), index.nodes.end(), key,
@@ -80,8 +81,8 @@ inline std::uint32_t find_node_in_order(const OctreeIndex& index, std::uint64_t 
 }
 
 /// Returns the result of find_leaf(), found by binary search in the sorted leaves. There must be
-/// nodes. Leaves do not overlap. So if a leaf holds `code`, it is the one with the last beginning
-/// that is not after `code`. That leaf may end before `code`, because empty cells are not stored.
+/// nodes. Leaves do not overlap. So if a leaf holds `code`, it is the last one that begins at or
+/// before `code`. That leaf may end before `code`, because empty cells are not stored.
 inline std::uint32_t find_sorted_leaf(const OctreeIndex& index, std::uint64_t code) noexcept {
     const std::uint64_t cell = code >> (3 * (format::kOctreeBits - index.top_level));
     assert(cell + 1 < index.top.size());
@@ -128,10 +129,10 @@ inline std::uint32_t find_node(const OctreeIndex& index, CellSearch search,
 }
 
 /// Returns the leaf whose half-open cell contains the finest cell with z-curve code `code`. `code`
-/// is below 2^63. Returns kNoNode if no triangle touches its cell. Every search gives the same
-/// answer, that of a descent from the root. CellSearch::sorted takes O(log of the leaves in one
-/// cell of top_level) time, for one bisection. The others go up from the deepest level, and search
-/// O(levels between that and the answer) chains.
+/// is below 2^63. Returns kNoNode if there is no such leaf, because no triangle touches the space
+/// there. Every search gives the same answer, that of a descent from the root. CellSearch::sorted
+/// takes O(log of the leaves in one cell of top_level) time, for one bisection. The others go up
+/// from the deepest level, and search O(levels between that and the answer) chains.
 inline std::uint32_t find_leaf(const OctreeIndex& index, CellSearch search,
                                std::uint64_t code) noexcept {
     if (index.nodes.empty()) return kNoNode;

@@ -9,16 +9,16 @@
 
 namespace cdprep {
 
-// Variants of one search, for studies that compare them. Answers agree. overlaps() and collide()
-// use the defaults.
+// Variants of one search, for studies that compare them. All give the same answers. overlaps() and
+// collide() use the defaults.
 
-/// The exact test of two triangles. Both always agree.
+/// The exact test of two triangles. Both tests always give the same result.
 enum class LeafTest : std::uint8_t {
     guigue_devillers,  ///< signs of planes, then of at most two edges (Guigue, Devillers 2003)
     feito_torres,      ///< six segments against triangles
 };
 
-/// The replacement of a pair of nodes that may overlap.
+/// The pairs of nodes that replace a pair that may overlap.
 enum class Descent : std::uint8_t {
     larger,   ///< the children of the larger, by size
     a_first,  ///< A's children against B, until A is a leaf
@@ -42,8 +42,9 @@ struct StructureOptions {
 };
 
 /// Finds the pairs that overlaps() finds, by `through` instead of pair.options.through: the same
-/// sets in the same order. Slowest if triangles are larger than cells and thousands of pairs
-/// overlap. Not all answers can then be remembered, and each is traced to the cells that own it.
+/// pairs in the same order. Slowest if triangles are larger than cells and thousands of pairs
+/// overlap. Then there is no room to remember all pairs found. For each of the others, the search
+/// determines which of its cells reports it.
 ///
 /// Needs Ask::overlap and ask_of() the structure of both models. Never allocates; takes some 20 KiB
 /// of stack.

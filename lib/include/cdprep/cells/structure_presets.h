@@ -15,8 +15,8 @@ struct TreeLimits {
     std::uint32_t threshold;  ///< a node with fewer triangles is not divided
 };
 
-/// Settings for each structure, chosen together. In a file with a hashed octree, that octree with
-/// its tables is also the octree.
+/// Settings for each structure, chosen together. If a file has a hashed octree, the same cells also
+/// serve as the plain octree.
 struct StructurePreset {
     const char* name;
     TreeLimits octree;
@@ -43,9 +43,9 @@ inline constexpr StructurePreset kPaperPreset = {
 
 /// The fastest settings for overlaps and collisions. Cells are small enough to be separated by the
 /// boxes around their contents, and no smaller. The lists of two cells that meet are compared in
-/// blocks of 64 triangles, and many cells would bring the same blocks again. The table gives times
-/// relative to the BVH: medians of light and of deep poses of twelve pairs (tests/bench/results,
-/// structure_queries.csv):
+/// blocks of 64 triangles. With more cells, the same blocks would come up again. The table gives
+/// times relative to the BVH: medians of light and of deep poses of twelve pairs
+/// (tests/bench/results, structure_queries.csv):
 ///
 ///                      octree       adaptive     hashed       tetra-tree
 ///     tuned, collide   2.4, 2.5     2.3, 2.7     5.6, 5.3     3.6, 3.9
@@ -53,7 +53,8 @@ inline constexpr StructurePreset kPaperPreset = {
 ///     paper, collide   7.4, 6.5     12, 6.6      18, 19       18, 11
 ///     paper, overlap   3.2, 2.3     5.7, 4.0     7.0, 8.5     6.4, 4.9
 ///
-/// For containment of points, a deeper tetra-tree is better: its cost is the triangles of one cone.
+/// For containment of points, a deeper tetra-tree is better: the cost grows with the number of
+/// triangles in one cone.
 inline constexpr StructurePreset kTunedPreset = {
     .name = "tuned",
     .octree = {5, 8},

@@ -9,8 +9,9 @@
 namespace cdprep {
 
 /// Figures that describe a tetra-tree (format/tetra_tree.h): its size, and how well its cones
-/// divide this shape. A star-shaped model has one layer. Cones are the wrong tool for more than
-/// about four layers, or for a centre outside or near the surface.
+/// divide the model. Layers are the triangles that a ray from the centre crosses; a star-shaped
+/// model has one. Cones are the wrong tool for more than about four layers, or for a centre outside
+/// or near the surface.
 struct TetraFigures {
     std::uint64_t triangles = 0;     ///< of the model
     std::uint64_t nodes = 0;         ///< stored cones: those that some triangle touches

@@ -43,7 +43,7 @@ namespace cdprep::exact {
 [[nodiscard]] std::array<int, 3> plane_signs(const Corners& plane,
                                              const std::array<Double3, 3>& points) noexcept;
 
-/// The plane through three points, prepared for many others.
+/// The plane through three points, prepared for tests of many other points.
 class Plane {
 public:
     Plane(const Double3& a, const Double3& b, const Double3& c) noexcept;

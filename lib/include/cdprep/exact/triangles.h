@@ -66,8 +66,9 @@ namespace cdprep::exact {
 /// Returns the distance of `q` from a triangle, with or without area, as a proven interval.
 ///
 /// The width of the interval is at most 32 u times the distance of the farthest corner, u = 2^-53.
-/// If the point is much nearer than that, the width is up to 200 u, and more for slivers. Works for
-/// all sizes from subnormal numbers to format::kMaxCoordinate. Takes some 50 ns.
+/// If the triangle is much nearer than that corner, the width is up to 200 u times that distance.
+/// It is more for slivers. Works for all sizes from subnormal numbers to format::kMaxCoordinate.
+/// Takes some 50 ns.
 [[nodiscard]] PointTriangleDistance point_triangle_distance(const Double3& q,
                                                             const Corners& t) noexcept;
 
