@@ -28,27 +28,28 @@ struct Bvh {
     std::vector<format::BvhNode> nodes;
     /// The leaves, with the content of format::BvhLeaf: one per eight triangles of the tree order.
     std::vector<format::BvhLeaf> leaves;
-    /// True if the leaves hold model coordinates: every coordinate is a float.
+    /// True if the leaves hold model coordinates without rounding. This requires that every
+    /// coordinate is a float.
     bool exact_leaves = false;
-    /// Oriented boxes: as many as nodes, or none.
+    /// The oriented boxes: one element per element of `nodes`, or empty.
     std::vector<format::OrientedNode> oriented_nodes;
-    /// Swept spheres: as many as nodes, or none. Their kind is swept_kind; it is point if there are
-    /// none.
+    /// The swept spheres: one element per element of `nodes`, or empty. swept_kind is their kind;
+    /// it is point if there are none.
     std::vector<format::SweptNode> swept_nodes;
     format::SweptKind swept_kind = format::SweptKind::point;
 };
 
 /// The bounds that queries about two models use besides the axis-aligned boxes. All give the same
 /// answers. Oriented boxes are the fastest for overlap and collisions, by a small margin. Swept
-/// rectangles are the fastest for distance and tolerance, by a factor of 1.1 to 1.3. The others are
-/// slower nearly everywhere (table in FORMAT.md). A BVH with swept bounds takes 1.5 to 4 times as
-/// long to build.
+/// rectangles are the fastest for distance and tolerance queries, 1.1 to 1.3 times as fast as
+/// oriented boxes. The others are slower nearly everywhere (table in FORMAT.md). A BVH with swept
+/// bounds takes 1.5 to 4 times as long to build as one without.
 enum class BvhBounds : std::uint8_t {
-    aligned,           ///< no others: 3.4 bytes per triangle
+    aligned,           ///< no other bounds: the nodes take 3.4 bytes per triangle
     oriented,          ///< oriented boxes: 6.9 bytes per triangle more
-    swept_points,      ///< spheres: the same size; a third is read
-    swept_lines,       ///< capsules: the same size; two thirds are read
-    swept_rectangles,  ///< rectangles with a radius: the same size
+    swept_points,      ///< spheres: 6.9 bytes per triangle more; queries read a third
+    swept_lines,       ///< capsules: 6.9 bytes per triangle more; queries read two thirds
+    swept_rectangles,  ///< rectangles with a radius: 6.9 bytes per triangle more
     /// Oriented boxes for overlap and collisions, and rectangles for distance: 13.7 bytes per
     /// triangle more.
     oriented_and_swept,
@@ -62,32 +63,32 @@ enum class BvhBounds : std::uint8_t {
 
 /// The trade of build time for query time.
 enum class Quality : std::uint8_t {
-    /// For a BVH that is kept. Chooses the cut of least cost by the surface-area heuristic, among
-    /// the cuts between full subtrees along any axis. Sets of up to 64 are cut exactly, larger ones
-    /// over 32 bins.
+    /// For a BVH that is built once and used often. Chooses the split of least cost by the
+    /// surface-area heuristic. A split may be along any axis, but only between full subtrees. The
+    /// cost is exact for sets of up to 64 triangles, and estimated from 32 bins for larger sets.
     best,
-    /// For objects that are rebuilt at run time. Cuts across the longest axis, as near to half as
-    /// full subtrees allow. The build takes two fifths of the time. On scans, surface_cost() is 5
-    /// to 15 % higher. Queries of collide() and overlaps() take 2 to 9 % longer in the median. The
-    /// worst took 60 % longer.
+    /// For objects that are rebuilt at run time. Splits along the longest axis, into triangle
+    /// counts as nearly equal as full subtrees allow. The build takes two fifths of the time of
+    /// Quality::best. On scans, surface_cost() is 5 to 15 % higher. Queries of collide() and
+    /// overlaps() take 2 to 9 % longer in the median. The slowest measured took 60 % longer.
     fast,
 };
 
 struct BvhOptions {
     ParallelFor parallel_for = serial_for;
-    /// Without oriented boxes, overlap queries take 1.1 to 1.3 times as long. With Quality::fast it
-    /// is 1.3 to 1.5 times.
+    /// Without oriented boxes, overlap queries take 1.1 to 1.3 times as long. With Quality::fast,
+    /// they take 1.3 to 1.5 times as long.
     BvhBounds bounds = BvhBounds::oriented;
     Quality quality = Quality::best;
 };
 
-/// Builds the packed BVH of BvhNode from the top down. On each level, every node but the last is
-/// full. Boxes are rounded outwards. The result depends only on the input, options.quality and
-/// options.bounds. It is the same, byte for byte, for any parallel_for, standard library and
-/// machine.
+/// Builds the packed BVH that format::BvhNode describes, from the top down. On each level, every
+/// node but the last is full. Boxes are rounded outwards. The result depends only on the input,
+/// options.quality and options.bounds. It is the same, byte for byte, for any parallel_for,
+/// standard library and machine.
 ///
-/// Triangles may be degenerate or equal. If middles agree along all axes, to 2^-100 of the model,
-/// triangles are split by number. `positions` must be finite and at most format::kMaxCoordinate.
+/// Triangles may be degenerate or equal. Triangles whose boxes have the same middle, to 2^-100 of
+/// the model, are split by number. `positions` must be finite and at most format::kMaxCoordinate.
 ///
 /// Takes O(n log n) time and 64 bytes of scratch memory per triangle, or 32 with Quality::fast.
 /// tests/bench/build_bvh_bench measures both.
@@ -101,9 +102,9 @@ void rebuild_bvh(Bvh& bvh, std::span<const format::Double3> positions,
                  std::span<const format::Triangle> triangles, const BvhOptions& options = {});
 
 /// Returns the cost of a BVH by the surface-area heuristic. It is the sum of the areas of all used
-/// boxes, divided by the area of the box around everything. It equals the number of boxes that a
-/// random line through that box passes, at least 1. Returns 0 if there are no triangles or all lie
-/// on a line. Less is better. Compare only BVHs over the same triangles. Takes O(nodes) time.
+/// boxes, divided by the area of the box around everything. It equals the expected number of boxes
+/// that a random line through that box crosses. Returns 0 if there are no triangles or all lie on a
+/// line. Less is better. Compare only BVHs over the same triangles. Takes O(nodes) time.
 [[nodiscard]] double surface_cost(const Bvh& bvh) noexcept;
 [[nodiscard]] double surface_cost(std::span<const format::BvhNode> nodes) noexcept;
 

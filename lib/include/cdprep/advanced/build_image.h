@@ -31,8 +31,9 @@ struct SectionTable {
 };
 
 /// Returns the table of `sections`, which may have any order. Fails with `bad_argument` if an id is
-/// unknown or occurs twice, or bytes are not whole elements. Does not read the bytes of the
-/// sections. Takes O(n log n) time in the number of sections. Allocates only on failure.
+/// unknown or occurs twice. Also fails if the bytes of a section are not a whole number of
+/// elements. Does not read the bytes of the sections. Takes O(n log n) time in the number of
+/// sections. Allocates only on failure.
 [[nodiscard]] Result<SectionTable> make_section_table(std::span<const Section> sections);
 
 /// Sets the checksums in a table. Reads every byte of the sections once.
@@ -42,7 +43,8 @@ inline constexpr std::uint64_t kLargestAlignment = std::uint64_t{1} << 30;
 
 struct ImageOptions {
     /// Sections start at multiples of this power of two, from format::kSectionAlignment to
-    /// kLargestAlignment. Sections of format::kPageThreshold bytes and more always start at pages.
+    /// kLargestAlignment. Sections of format::kPageThreshold bytes and more always start at page
+    /// boundaries.
     std::uint64_t section_alignment = format::kSectionAlignment;
 };
 
@@ -53,9 +55,9 @@ struct ImageOptions {
                                              const ImageOptions& options = {});
 
 /// Writes a model into memory: header, section table with checksums, sections, and zeros between
-/// them. The result equals the file of `cdprep bake` without HDF5: the superblock is zero.
-/// Sections, their table except offsets, facts and content hash are the same. Model::open() accepts
-/// the bytes as those of a file.
+/// them. The result is like the file of `cdprep bake`, but without HDF5: the superblock is zero.
+/// Facts, content hash, sections and section table are the same, except for the offsets in the
+/// table. Model::open() accepts the bytes as those of a file.
 ///
 /// Returns the first image_size() bytes of `memory`. The bytes after them are not changed.
 ///
@@ -64,7 +66,7 @@ struct ImageOptions {
 /// agree. The sections must not overlap `memory`.
 ///
 /// Fails with `bad_argument`, and then writes nothing, if make_section_table() fails or
-/// ImageOptions does not allow the alignment. Also fails if `memory` is too small or does not start
+/// options.section_alignment is not allowed. Also fails if `memory` is too small or does not start
 /// at a multiple of format::kSectionAlignment. Allocates only on failure. Takes O(bytes) time: each
 /// byte is copied and read once.
 ///

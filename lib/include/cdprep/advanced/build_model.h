@@ -14,7 +14,7 @@ namespace cdprep::build {
 
 /// The precision in which a model keeps positions.
 enum class Precision : std::uint8_t {
-    single_precision,  ///< as floats; other values are rounded to the nearest
+    single_precision,  ///< as floats; a value that is not a float is rounded to the nearest one
     double_precision,
 };
 
@@ -40,7 +40,7 @@ struct ModelArrays {
 
 /// The properties of a model that will be built.
 struct PlannedModel {
-    std::uint32_t vertex_count = 0;  ///< vertices that no triangle uses included
+    std::uint32_t vertex_count = 0;  ///< including vertices that no triangle uses
     std::uint32_t triangle_count = 0;
     Precision precision = Precision::double_precision;
     BvhBounds bounds = BvhBounds::oriented;
@@ -58,8 +58,8 @@ struct PlannedModel {
 ///                                           room);
 [[nodiscard]] std::uint64_t image_size_bound(const PlannedModel& planned) noexcept;
 
-/// Builds the arrays of a model from a mesh. Query results use the numbers of `triangles`;
-/// source_vertex gives the numbers of `positions`.
+/// Builds the arrays of a model from a mesh. Query results name a triangle by its index in
+/// `triangles`. ModelArrays::source_vertex holds indices in `positions`.
 ///
 /// Vertices are shared as in `triangles`. Equal positions with different numbers are not welded,
 /// and a surface with such a seam is not closed. Positions that no triangle uses are left out.

@@ -26,9 +26,9 @@ struct PieceBoxes {
 };
 
 /// Builds the BVH over pieces, in the frame of the model's own BVH. Each piece is cut into the
-/// fewest leaves that hold it, with about equal numbers of triangles. The order of the leaves is
-/// that of build_bvh() for triangles with the leaves' boxes. Returns nothing if that makes more
-/// than format::kMaxPieceLeaves leaves. The result is the same for any parallel_for.
+/// fewest leaves that hold it, with about equal numbers of triangles. The leaves are in the order
+/// in which build_bvh() would put triangles with the same boxes. Returns empty arrays if there
+/// would be more than format::kMaxPieceLeaves leaves. The result is the same for any parallel_for.
 [[nodiscard]] PieceBoxes build_piece_boxes(const PiecesOf& surface, const Frame& frame,
                                            ParallelFor parallel_for);
 

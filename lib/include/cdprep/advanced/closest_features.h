@@ -24,11 +24,13 @@ struct FeatureHull {
     std::span<const format::PieceAdjacency> adjacency;  ///< per facet
 };
 
-/// A feature of a hull's surface. Faces are maximal and coplanar; an edge separates two faces.
+/// A feature of a hull's surface. A face is a maximal set of coplanar facets; an edge separates two
+/// faces.
 struct HullFeature {
     FeatureKind kind;
-    /// The number of the point of a vertex, or of the first facet of a face. An edge from corner i
-    /// of a facet to the next has 3 * facet + i, the lower of two such numbers. A segment has 0.
+    /// For a vertex, the number of its point. For a face, the number of its first facet. For an
+    /// edge from corner i of a facet to the next corner, 3 * facet + i. Two facets share each edge;
+    /// the lower of the two numbers counts. For the edge of a segment, 0.
     std::uint32_t number;
     friend bool operator==(const HullFeature&, const HullFeature&) = default;
 };
@@ -41,8 +43,8 @@ struct ClosestFeatures {
     double upper;  ///< and at most this; proven
     Double3 witness_a;
     Double3 witness_b;
-    /// The nearest features of A and B have parallel edges, are an edge and a face, or are two
-    /// faces. Other pairs of points may be equally near.
+    /// True if A and B are nearest along two parallel edges, an edge and a face, or two faces.
+    /// Other pairs of points may then be equally near.
     bool parallel;
 };
 
@@ -57,14 +59,14 @@ struct FeatureCache {
 /// Returns the features of two hulls that are nearest to each other. Returns nothing if the hulls
 /// have a common point, as convex_collide() decides exactly, or if one has no points.
 ///
-/// Distances are as narrow as those of convex_distance(). If several pairs are nearest, the result
-/// is one of them, and another cache may give another. If the nearest point is within rounding of
-/// an edge or a corner, the result may be either feature.
+/// The bounds are as tight as those of convex_distance() without permitted errors. If several pairs
+/// of features are nearest, the result is one of them and may depend on the cache. If a nearest
+/// point lies on the border of two features, up to rounding, the result may be either feature.
 ///
-/// With a cache, uses the method of Lin and Canny (1991). It walks from a feature to a neighbouring
-/// one while that is nearer, in O(1) if little has moved. The points farthest along the gap then
-/// prove the distance. GJK answers without a cache, or if the walk does not end or the hulls touch.
-/// Never allocates.
+/// With a cache, uses the method of Lin and Canny (1991). It walks to a neighbouring feature as
+/// long as that is nearer, in O(1) time if the hulls have moved little. The farthest points of both
+/// hulls along the gap then prove the distance. GJK computes the result if there is no cache, or if
+/// the walk or its proof fails. The proof fails if the hulls touch. Never allocates.
 [[nodiscard]] std::optional<ClosestFeatures> closest_features(
     const FeatureHull& a, const FeatureHull& b, const Placement& placement,
     FeatureCache* cache = nullptr, QueryCounts* counts = nullptr) noexcept;

@@ -12,16 +12,17 @@
 namespace cdprep {
 
 // Queries about two convex hulls that read only their points. They use the method of Gilbert,
-// Johnson and Keerthi (1988) in double. Every answer is proven; where double proves nothing, it is
-// computed without rounding.
+// Johnson and Keerthi (1988) in double. Every answer is proven; if double arithmetic proves
+// nothing, the answer is computed without rounding.
 //
 // A query is about the hulls of the points as `placement` moves them (level E1 in GLOSSARY.md).
 // transform_point() rounds each point once. Nothing is rounded after that. The hulls are solid: a
 // hull inside another one touches it. A hull without points touches nothing.
 //
-// No query allocates. A step takes O(sqrt(n)) time if the hull has neighbours, otherwise O(n). From
-// a good start a few steps suffice. If hulls touch or nearly touch, within about 1e-15 of their
-// coordinates, integers decide in tens of microseconds.
+// No query allocates. A step takes O(sqrt(n)) time for a hull of n points with
+// ConvexPoints::neighbours, otherwise O(n). From a good start a few steps suffice. If hulls touch
+// or nearly touch, within about 1e-15 of their coordinates, integer arithmetic decides in tens of
+// microseconds.
 
 /// The points at which the last query about two hulls ended, owned by the caller. The next query
 /// about the same two begins there, and is faster the less they have moved. Any content is allowed
@@ -52,10 +53,11 @@ struct ConvexDistance {
 /// lower is above 0, except for gaps near the smallest doubles. If faces or edges are parallel,
 /// many pairs of points are nearest; the witnesses are one of them.
 ///
-/// upper - lower is at most the permitted error, except for relative errors below 1e-14. The
-/// relative error is a share of upper here. Without permitted errors, the limit is 1e-12 of upper
-/// plus 1e-14 of the size of A - B (convex_distance_laws_test). That size is the largest difference
-/// of a point of A and a point of B along an axis.
+/// upper - lower is at most the error that `options` permits, except for relative errors below
+/// 1e-14. Here, options.relative_error is a share of upper. Without permitted errors, the limit is
+/// 1e-12 of upper plus 1e-14 of the size of A - B (convex_distance_laws_test). A - B is the
+/// Minkowski difference. Its size is the largest difference between a point of A and a point of B
+/// along an axis.
 [[nodiscard]] std::optional<ConvexDistance> convex_distance(const ConvexPoints& a,
                                                             const ConvexPoints& b,
                                                             const Placement& placement,

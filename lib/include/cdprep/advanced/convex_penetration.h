@@ -10,27 +10,29 @@ namespace cdprep {
 /// The penetration depth of two hulls: the length of the shortest translation of B after which they
 /// only touch.
 struct Penetration {
-    double lower;       ///< no shorter translation does this, model units; >= 0
-    double upper;       ///< this far along `normal`, they are apart or touch; proven
+    double lower;       ///< every such translation is at least this long, model units; >= 0
+    double upper;       ///< if B moves this far along `normal`, the hulls touch at most; proven
     Double3 normal;     ///< the direction of B's translation, of length 1 up to rounding
-    Double3 witness_a;  ///< on A as moved, up to rounding: B touches it there afterwards
-    Double3 witness_b;  ///< on B as moved, up to rounding: touches A afterwards
+    Double3 witness_a;  ///< on A as moved, up to rounding: B touches A here after the translation
+    Double3 witness_b;  ///< on B as moved, up to rounding: it touches A after the translation
 };
 
-/// Returns the depth of two hulls that have a common point; touching counts. Returns nothing if
-/// they have none, as convex_collide() decides exactly, or if one has no points. So no contact is
-/// lost. If the hulls only touch, or both lie in one plane, upper is 0 up to rounding.
+/// Returns the penetration depth of two hulls that have a common point; touching counts. Returns
+/// nothing if they have none, as convex_collide() decides exactly, or if one has no points. So no
+/// contact is lost. If the hulls only touch, or both lie in one plane, upper is 0 up to rounding.
 ///
-/// upper - lower is at most 1e-12 of upper plus 1e-13 of the largest coordinate, or as permitted.
-/// It is larger only if the polytope would exceed 128 corners (convex_penetration_laws_test).
-/// Finely rounded bodies of thousands of points that are deep in each other can need that many.
-/// Reads the permitted errors of `options`; the relative one is a share of upper.
+/// upper - lower is at most the permitted error or 1e-12 of upper plus 1e-13 of the largest
+/// coordinate of A - B, whichever is larger. The difference exceeds this only if the polytope
+/// described below would exceed 128 corners (convex_penetration_laws_test). Finely rounded bodies
+/// of thousands of points that are deep in each other can need that many. Of `options`, only the
+/// permitted errors are read; the relative one is a share of upper.
 ///
 /// Uses the expanding polytope of van den Bergen (2001) with exact signs. The polytope lies within
-/// A - B, and its corners are differences of points. It grows where its border is nearest to the
-/// origin. The border proves lower, and the farthest points along a direction prove upper.
+/// the Minkowski difference A - B. Its corners are differences of a point of A and a point of B. It
+/// grows where its boundary is nearest to the origin. The distance from the origin to this boundary
+/// proves `lower`. The farthest points of A and B along a direction prove `upper`.
 ///
-/// Takes ten to a hundred times as long as a distance. Never allocates; uses 30 kB of stack.
+/// Takes ten to a hundred times as long as convex_distance(). Never allocates; uses 30 kB of stack.
 [[nodiscard]] std::optional<Penetration> convex_penetration(const ConvexPoints& a,
                                                             const ConvexPoints& b,
                                                             const Placement& placement,

@@ -19,21 +19,22 @@ using format::Double3;
 /// The hull is that of the points and may have any dimension; a single point is allowed. Without
 /// neighbours, points that are not corners are allowed too.
 struct ConvexPoints {
-    std::span<const format::HullBlock> blocks;  ///< ceil(count / 8); HullBlock states how they end
+    std::span<const format::HullBlock> blocks;  ///< ceil(count / 8); unused lanes as in HullBlock
     std::uint32_t count = 0;                    ///< of points, >= 1; queries state the meaning of 0
     Double3 reach{};  ///< at least the largest |x|, |y|, |z| of all points, model units
-    /// count + 1 places in `neighbours`, or empty. If empty, the farthest point is sought among all
-    /// points, which is best for fewer than kClimbFrom.
+    /// count + 1 indices in `neighbours`, or empty. The neighbours of point i begin at element i
+    /// and end before element i + 1. If empty, queries search all points for the farthest one,
+    /// which is best for fewer than kClimbFrom points.
     std::span<const std::uint32_t> neighbour_begins;
-    /// The numbers of the points at the other ends of each point's edges. They are the exact hull
-    /// edges, including the diagonals between coplanar facets. A point that is higher than all its
-    /// neighbours must be the highest.
+    /// The numbers of the points at the other ends of each point's edges. The edges are those of
+    /// the exact hull, including the diagonals between coplanar facets. A point that is farther
+    /// along a direction than all its neighbours must be the farthest of all points.
     std::span<const std::uint32_t> neighbours;
-    /// For each direction_cell(), a point that is far in its directions; or empty. Any point gives
-    /// the correct result. A point near the farthest one saves steps.
+    /// For each direction_cell(), a point that is far along the directions in that cell; or empty.
+    /// Any point gives the correct result. A point near the farthest one saves steps.
     std::span<const std::uint32_t> starts;
-    /// An alternative to blocks, for hulls of few points and without neighbours. Point i is number
-    /// corners[i] of `floats` or, if that is empty, of `doubles`.
+    /// An alternative to blocks, for hulls of few points and without neighbours. Point i is
+    /// floats[corners[i]] or, if `floats` is empty, doubles[corners[i]].
     std::span<const std::uint32_t> corners{};
     std::span<const format::Float3> floats{};
     std::span<const Double3> doubles{};
@@ -42,22 +43,25 @@ struct ConvexPoints {
     [[nodiscard]] Double3 point(std::uint32_t number) const noexcept;
 };
 
-/// Returns points in the form of ConvexPoints::blocks; lanes past the last one repeat it.
+/// Returns points in the form of ConvexPoints::blocks; lanes past the last point repeat it.
 /// Allocates.
 [[nodiscard]] std::vector<format::HullBlock> hull_blocks(std::span<const Double3> points);
 
 /// The minimum point count for hill climbing along hull edges.
 inline constexpr std::uint32_t kClimbFrom = 64;
 
-/// The number of cells along each edge of the cube around a hull that classifies directions.
+/// Directions are classified by cells on the faces of a cube around the hull. This is the number of
+/// cells along each edge of the cube.
 inline constexpr std::uint32_t kDirectionCells = 8;
 /// The length of ConvexPoints::starts.
 inline constexpr std::uint32_t kDirectionStarts = 6 * kDirectionCells * kDirectionCells;
 
-/// Returns the cell of the cube's faces at which a direction points, below kDirectionStarts. The
-/// faces are +x, -x, +y, -y, +z, -z. A face has rows along the axis after next and columns along
-/// the next axis, both rising. Of several largest coordinates the first counts. The direction must
-/// be finite. The zero vector is in some cell.
+/// Returns the number of the cube's cell at which a direction points, below kDirectionStarts. Cells
+/// are numbered face by face (+x, -x, +y, -y, +z, -z), and within a face row by row. On the faces
+/// +x and -x, the cells of a row follow each other along y, and the rows along z, both rising. The
+/// other faces are numbered likewise, with the axes in cyclic order. Of several largest
+/// coordinates, the first selects the face. The direction must be finite. The zero vector has a
+/// cell too.
 [[nodiscard]] std::uint32_t direction_cell(const Double3& direction) noexcept;
 
 }  // namespace cdprep

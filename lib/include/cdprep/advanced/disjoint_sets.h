@@ -9,8 +9,8 @@
 
 namespace cdprep::build {
 
-/// A partition of the numbers 0 ... count - 1 into sets, one each at first. The lowest number of a
-/// set is its root.
+/// A partition of the numbers 0 ... count - 1 into sets. At first, each number is a set of its own.
+/// The lowest number of a set is its root.
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t count) : parent_(count) {

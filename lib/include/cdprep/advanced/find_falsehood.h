@@ -10,27 +10,31 @@
 
 namespace cdprep {
 
-/// Proves that the hulls of a file are hulls. Returns nothing if they are, or if there are none.
+/// Proves that the stored hulls of a file are convex hulls. Returns nothing if they are, or if
+/// there are none.
 ///
-/// Every edge is convex, or flat within a group, by exact signs. The points of exact hulls are the
-/// vertices that they name. Neighbours are those of the facets. No point lies in front of a facet,
-/// and no vertex in front of a facet of the whole's hull. If there are parts, each vertex is in at
-/// least one, exactly.
+/// Six properties are checked, with exact signs. Every edge is convex, or flat between facets of
+/// one coplanar group. The points of exact hulls equal the vertices that hull_vertices names. The
+/// stored neighbours of a point are the ends of its facets' edges. No point of a hull lies in front
+/// of one of its facets. No vertex lies in front of a facet of the whole model's hull. If there are
+/// parts, each vertex is in at least one.
 ///
 /// Three properties are not checked. Vertices of a component or an instance may lie outside its
-/// hull. Vertices may lie outside a segment, or outside a polygon in its plane. A triangle with
-/// corners in several parts may leave them all in between. The last check needs exact numbers of
-/// any length (tools/info/find_cover_falsehood.h).
+/// hull. If a hull is a segment or a polygon, vertices may lie outside the segment, or outside the
+/// polygon in its plane. A triangle whose corners lie in different parts may have points that lie
+/// in no part. The last check requires exact numbers of any length
+/// (tools/info/find_cover_falsehood.h).
 ///
 /// `file` must be one in which format::find_damage() finds nothing. `model` is this file, opened
-/// with all its sections. Takes O(vertices * facets) time, about a nanosecond each, and up to
-/// vertices * parts steps. Allocates.
+/// with all its sections. Takes O(vertices * facets) time, about a nanosecond per pair of a vertex
+/// and a facet. If there are parts, takes up to vertices * parts steps more. Allocates.
 [[nodiscard]] std::optional<format::Damage> find_hull_falsehood(std::span<const std::byte> file,
                                                                 const Model& model);
 
 /// Proves that the hulls around the nodes of the BVH over pieces are right. Each contains every
-/// vertex below its node, exactly. None exceeds what is below by more than its slack, up to the
-/// rounding of double. Returns nothing if all are right, or if there are no pieces.
+/// vertex below its node, exactly. No corner of a hull is farther than PieceNodeHull::slack from
+/// the exact hull of these vertices, up to the rounding of double. Returns nothing if all are
+/// right, or if there are no pieces.
 ///
 /// `file` must be one in which format::find_deep_damage() finds nothing. `model` is this file,
 /// opened with all its sections. Takes O(vertices * levels) hull queries. Allocates.

@@ -22,8 +22,9 @@ enum class FloatSearch : std::uint8_t {
     first  ///< in the order in which collide() looks for a hit
 };
 
-/// Calls `visit` with each such pair until `visit` returns false, and then returns false. No pair
-/// in contact is missing. For studies of the cost of exactness, and for answers that may be wrong.
+/// Calls `visit` with each FloatContact of the two models until `visit` returns false, and then
+/// returns false. No pair in contact is missing. Serves studies of the cost of exactness, and
+/// callers that accept some pairs that are not in contact.
 /// Reads only the placement of `pair`. Needs Ask::overlap. Costs less than overlaps().
 bool visit_float_contacts(const Pair& pair, Workspace& workspace, FloatSearch search,
                           Visitor<FloatContact> visit);

@@ -31,8 +31,8 @@ struct TreeOrder {
 /// The components of a mesh: sets of triangles connected by shared vertices.
 struct ComponentNumbers {
     std::size_t count = 0;
-    /// The component of each vertex, numbered in the order of the lowest triangles. It is
-    /// TreeOrder::kUnused for a vertex that no triangle uses.
+    /// The number of each vertex's component. Components are numbered in the order of their lowest
+    /// triangle. The number is TreeOrder::kUnused for a vertex that no triangle uses.
     std::vector<std::uint32_t> of_vertex;
 };
 
@@ -47,10 +47,10 @@ struct Topology {
     bool balanced = false;
 };
 
-/// Finds the connected components: triangles that share a vertex. Finds whether each is balanced:
-/// every edge is used equally often in both directions. Repeated corners add nothing. A mesh
-/// without triangles is balanced. Volumes beyond the largest double are set to it. Takes O(n) time,
-/// plus a sort of the edges at each vertex.
+/// Finds the connected components: triangles connected through shared vertices. Finds whether each
+/// is balanced: every edge is used equally often in both directions. A side between two equal
+/// vertex numbers does not count as an edge. A mesh without triangles is balanced. Volumes are
+/// clamped to the range of double. Takes O(n) time, plus a sort of the edges at each vertex.
 [[nodiscard]] Topology find_topology(std::span<const format::Double3> positions,
                                      std::span<const format::Triangle> triangles);
 

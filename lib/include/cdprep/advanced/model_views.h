@@ -21,8 +21,9 @@ using format::Float3;
 
 // Views of the sections of an open model, as Model returns them. A view has a member for each row
 // of section_table.inc, which describes it. A span is empty and a pointer is null if the file lacks
-// the section or it was not opened. Views stay valid while the Model lives. FORMAT.md describes the
-// elements and states which arrays are in tree order, the order in which the BVH stores triangles.
+// the section or the section was not opened. Views stay valid while the Model lives. FORMAT.md
+// describes the elements and states which arrays are in tree order, the order in which the BVH
+// stores triangles.
 
 /// The member type for a section: a span of its elements, a pointer to the only one, or text.
 template <class Element>
@@ -45,14 +46,15 @@ namespace views {
 
 using namespace format;
 
-/// The triangles of a model. A file has positions in one precision only. An open model has them if
-/// it was opened with its vertices.
+/// The triangles of a model. A file has positions in one precision only. An open model has
+/// positions if it was opened with its vertices.
 struct MeshView {
 #define CDPREP_MESH_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
 #include "cdprep/format/section_table.inc"
 };
 
-/// The map from numbers of a model to those of the imported file.
+/// The map from triangle and vertex numbers of a model to those of the imported file, with its
+/// instances, groups and materials.
 struct SourceView {
 #define CDPREP_SOURCE_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
 #include "cdprep/format/section_table.inc"
@@ -84,15 +86,15 @@ struct TetraTreeView {
 #include "cdprep/format/section_table.inc"
 };
 
-/// Convex hulls of the whole, of components, instances and parts (format/hulls.h). find_hull()
-/// and convex_points() read them.
+/// Convex hulls of the whole model, of components, instances and parts (format/hulls.h).
+/// find_hull() and convex_points() read them.
 struct HullView {
 #define CDPREP_HULL_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
 #include "cdprep/format/section_table.inc"
 };
 
 /// Convex pieces of the surface, their hulls, and the hierarchy over them (format/pieces.h).
-/// feature_hull() reads one.
+/// feature_hull() returns the hull of one piece.
 struct PieceView {
 #define CDPREP_PIECE_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
 #include "cdprep/format/section_table.inc"

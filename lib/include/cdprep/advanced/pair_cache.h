@@ -11,27 +11,28 @@ namespace cdprep {
 /// Results of earlier queries on one pair of models, owned by the caller. The next query about the
 /// pair starts there. A cache changes speed, never answers.
 ///
-/// It holds the last nearest or touching pair of triangles. It also holds a placement at which the
-/// surfaces were proven to be a gap apart. Until the models have moved that far, they do not touch.
+/// It holds the last nearest or touching pair of triangles. It also holds a placement, and a proven
+/// lower bound of the distance of the surfaces there: the gap. Until the models have moved by the
+/// gap relative to each other, they do not touch.
 ///
-/// Use one cache for each pair of models and thread, for any queries. A cache of another pair only
-/// costs time, and so does one of a build::RuntimeModel before its last refit(). Make a new cache
-/// if anything other than refit() changed a model's memory in place. The members belong to the
-/// library; all zero is a new cache.
+/// Use one cache for each pair of models and thread, for any queries. A cache that was filled by
+/// another pair, or by a build::RuntimeModel before its last refit(), only costs time. Make a new
+/// cache if anything other than refit() changed a model's memory in place. The members belong to
+/// the library; all zero is a new cache.
 struct PairCache {
     std::uint32_t holds = 0;                   ///< bits: 1 pair, 2 placement, 4 the pair touched
     std::uint32_t triangle_a = 0;              ///< of the pair, tree order
     std::uint32_t triangle_b = 0;              ///< tree order
     std::uint32_t questions = 0;               ///< queries since the placement was stored
-    std::uint32_t failures = 0;                ///< failed proofs of a gap in a row
-    std::uint32_t wait = 0;                    ///< queries before the next proof
+    std::uint32_t failures = 0;                ///< consecutive failed proofs of a gap
+    std::uint32_t wait = 0;                    ///< queries to wait before the next proof attempt
     std::array<std::uint64_t, 2> models = {};  ///< content hashes of A and B at the placement
     double gap = 0;       ///< model units: proven lower bound of the distance at the placement
-    double step = 0;      ///< model units: the way that B moves per query
-    double proof = 0;     ///< model units: the gap of the last attempted proof
+    double step = 0;      ///< model units: the distance that B moves per query
+    double proof = 0;     ///< model units: the gap that the last attempt proved, or 0 if it failed
     Pose a_from_b;        ///< the placement
-    Double3 middle = {};  ///< of a box around B, B's coordinates
-    Double3 half = {};    ///< its half extents
+    Double3 middle = {};  ///< the middle of a box around B, in B's coordinates
+    Double3 half = {};    ///< the half extents of this box
 };
 
 }  // namespace cdprep

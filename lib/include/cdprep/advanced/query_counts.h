@@ -6,7 +6,7 @@
 namespace cdprep {
 
 /// Returns the name of the instruction set that queries use on this machine: "scalar", "avx2",
-/// "avx512". CDPREP_KERNELS in the environment chooses another.
+/// "avx512". The environment variable CDPREP_KERNELS chooses another.
 [[nodiscard]] const char* kernel_name() noexcept;
 
 /// Work of queries about two models, and of points_inside(). The counts serve tuning and
@@ -15,12 +15,12 @@ namespace cdprep {
 /// library.
 struct QueryCounts {
     std::uint64_t box_pairs = 0;       ///< boxes of A's hierarchy against boxes of B's
-    std::uint64_t node_pairs = 0;      ///< nodes read for them, up to 8 boxes each
-    std::uint64_t leaf_pairs = 0;      ///< leaves whose triangles were tested
-    std::uint64_t triangle_pairs = 0;  ///< triangles in those: at most 64 a pair of leaves
+    std::uint64_t node_pairs = 0;      ///< pairs of nodes read for them, up to 8 boxes each
+    std::uint64_t leaf_pairs = 0;      ///< pairs of leaves whose triangles were tested
+    std::uint64_t triangle_pairs = 0;  ///< pairs of triangles in those: at most 64 per leaf pair
 
-    // The stage that decided about triangles that boxes and planes in float did not separate.
-    // The sum is the number of those pairs.
+    // Pairs of triangles that boxes and planes in float did not separate, by the stage that decided
+    // about them. The sum of these four counts is the number of such pairs.
     std::uint64_t by_kernel = 0;  ///< float: they certainly cross
     std::uint64_t by_corner = 0;  ///< a common corner: they touch
     std::uint64_t by_filter = 0;  ///< double: they are certainly apart or crossing
@@ -34,7 +34,7 @@ struct QueryCounts {
     std::uint64_t references = 0;    ///< triangles in the lists of leaf cells; repeats count
 
     std::uint64_t measured = 0;        ///< distances of two triangles, in double
-    std::uint64_t measured_again = 0;  ///< again, for the last digits
+    std::uint64_t measured_again = 0;  ///< the same, computed again for the last digits
 
     // Convex hulls.
     std::uint64_t hull_pairs = 0;      ///< pairs of hulls

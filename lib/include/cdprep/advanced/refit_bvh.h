@@ -7,14 +7,14 @@ namespace cdprep::build {
 
 /// Fits a BVH to new positions of its triangles, in the same order. Returns its surface_cost().
 ///
-/// The result equals that of a build with this order. The frame is that of the new positions, and
-/// boxes contain their triangles exactly. Leaves are exact if all coordinates are floats. The
-/// result depends neither on the old positions nor on options.parallel_for. Oriented boxes are
+/// The result equals that of a build that puts the triangles in the same order. The frame is that
+/// of the new positions, and boxes contain their triangles exactly. Bvh::exact_leaves is set anew.
+/// The result depends neither on the old positions nor on options.parallel_for. Oriented boxes are
 /// fitted anew, or dropped if options.bounds has none. Ignores options.quality.
 ///
 /// `bvh` must come from build_bvh() or rebuild_bvh() over `triangles`. `positions` must meet the
-/// requirements of build_bvh(). The order stays good while neighbours stay neighbours. The cost
-/// shows when to rebuild:
+/// requirements of build_bvh(). The order stays good as long as neighbouring triangles stay
+/// neighbours. The returned cost shows when to rebuild:
 ///
 ///     double cost = refit_bvh(bvh, positions, triangles);
 ///     if (cost > 1.5 * cost_when_built) {

@@ -16,11 +16,11 @@ namespace cdprep::build {
 /// queried like any other. It lives in the caller's memory, is made once, and then allocates
 /// nothing.
 ///
-/// Triangles, source numbers and the order of the BVH stay. Positions, boxes, leaves and marks of
-/// degenerate triangles follow each refit(). The model has no oriented boxes, because a refit with
-/// them would take three times as long. It has no swept spheres, hulls, pieces, octrees, bounds or
-/// mass. It serves the queries that need none of these: collide, overlap, distance, within, ray,
-/// closest, inside and touch.
+/// Triangles, source numbers and the order of the BVH never change. Each refit() updates positions,
+/// boxes, leaves and marks of degenerate triangles. The model has no oriented boxes, because a
+/// refit with them would take three times as long. It has no swept spheres, hulls, pieces, octrees,
+/// bounds or mass. It serves the queries that need none of these: collide, overlap, distance,
+/// within, ray, closest, inside and touch.
 ///
 /// Move-only; a move leaves the model's bytes in place. Const members, and queries about model(),
 /// may run on any number of threads at once. They must not run during refit() or image().
@@ -62,9 +62,9 @@ public:
         return position_count_;
     }
 
-    /// Moves all vertices. Positions have the numbers of the mesh that the base was made of, and
-    /// are in model units. Returns the surface_cost() of the BVH. When it has grown by half, build
-    /// a new model.
+    /// Moves all vertices. `positions` are numbered as in the mesh from which the base was made,
+    /// and are in model units. Returns the surface_cost() of the BVH. When it has grown by half,
+    /// build a new model.
     ///
     /// Query results are then those of a new model built from these positions. They depend neither
     /// on the old positions nor on `parallel_for`.
@@ -75,8 +75,9 @@ public:
     /// format::kMaxCoordinate. Fails if they are doubles and the model keeps floats; both kinds of
     /// models accept floats.
     ///
-    /// A PairCache of this model stays valid. The content_hash of the header follows the positions,
-    /// so an older cache only costs time. Takes O(n) time. Allocates only on failure.
+    /// A PairCache of this model stays valid. The content_hash of the header changes with the
+    /// positions, so a cache from before the refit only costs time. Takes O(n) time. Allocates only
+    /// on failure.
     [[nodiscard]] Result<double> refit(std::span<const format::Double3> positions,
                                        ParallelFor parallel_for = serial_for);
     [[nodiscard]] Result<double> refit(std::span<const format::Float3> positions,
@@ -88,9 +89,9 @@ public:
     [[nodiscard]] std::span<const std::byte> image();
 
 private:
-    /// The positions, and the sections that follow them.
+    /// The positions, and the sections that depend on them.
     struct Moving {
-        std::span<format::Float3> positions_f32;  ///< empty if doubles
+        std::span<format::Float3> positions_f32;  ///< empty if the model keeps doubles
         std::span<format::Double3> positions_f64;
         std::span<format::BvhNode> nodes;
         std::span<format::BvhLeaf> leaves;

@@ -41,7 +41,7 @@ public:
 
     private:
         friend class SelfWalk;
-        std::vector<NodePair> open_;  ///< the last is the next one
+        std::vector<NodePair> open_;  ///< node pairs to visit; the last is visited next
     };
 
     /// Prepares a walk of `bvh`, which must be built over `triangles` with BvhBounds::aligned and
@@ -52,16 +52,17 @@ public:
     SelfWalk& operator=(const SelfWalk&) = delete;
     ~SelfWalk();
 
-    /// Returns the number of parts of the walk, at most 128. It does not depend on threads.
+    /// Returns the number of parts of the walk, at most 128. It does not depend on the number of
+    /// threads.
     [[nodiscard]] std::size_t part_count() const noexcept;
 
-    /// Returns the whole of part `number`, which must be below part_count().
+    /// Returns part `number` before any work on it. `number` must be below part_count().
     [[nodiscard]] Rest part(std::size_t number) const;
 
     /// Calls `found` for each pair of a part's rest, until the rest is empty or `is_enough` returns
     /// true. After each step, `is_enough` receives the number of node pairs and leaf pairs of that
     /// step, at most 65. Parts may run at once, each with its own workspace. Interruptions do not
-    /// change the pairs.
+    /// change which pairs are found.
     void run(Rest& rest, Workspace& workspace, const std::function<void(const SelfPair&)>& found,
              const std::function<bool(std::size_t)>& is_enough) const;
 
@@ -69,7 +70,7 @@ private:
     class Tree;
 
     std::unique_ptr<const Tree> tree_;
-    std::vector<NodePair> starts_;  ///< of all parts in turn
+    std::vector<NodePair> starts_;  ///< the first node pairs of all parts, part by part
 };
 
 }  // namespace cdprep

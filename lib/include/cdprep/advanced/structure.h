@@ -7,8 +7,8 @@
 
 namespace cdprep {
 
-/// A structure of a file through which queries are computed. All give the same answer, but
-/// distance() through pieces may name other triangles that touch.
+/// A structure of a file through which queries are computed. All give the same answer, except that
+/// distance() through pieces may name another pair of touching triangles.
 enum class Structure : std::uint8_t {
     bvh,              ///< the hierarchy of boxes; the fastest for two models
     octree,           ///< both models' octrees, side by side
@@ -20,8 +20,8 @@ enum class Structure : std::uint8_t {
     pieces,      ///< both models' BVHs over convex pieces of their surfaces
 };
 
-/// Returns the bit of Ask that a query through a structure needs besides its own. Returns nothing
-/// for Structure::bvh.
+/// Returns the bit of Ask that a query through a structure requires in addition to the query's own
+/// bit. Returns Ask::nothing for Structure::bvh.
 [[nodiscard]] Ask ask_of(Structure structure) noexcept;
 
 }  // namespace cdprep
