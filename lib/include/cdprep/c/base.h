@@ -12,35 +12,37 @@
  * - Order of arguments: the subject, numbers, the workspace, the answer, the error.
  * - The return value is a code. `error` may be null; otherwise it is always filled. On success,
  *   code and why are 0 and both texts are empty.
- * - A struct that starts with cdprep_head is an input that may grow. Only its _init() function
- *   makes it valid; it writes size, tag and defaults. The comment of a field starts with its
- *   default. Any other content, even zeros, is refused with CDPREP_WHY_NOT_INITIALISED. For a
- *   parameter named `options`, null gives the defaults. The options of a build are an exception,
- *   because they hold the mesh.
+ * - A struct that starts with cdprep_head is an input that may grow in later versions. Only its
+ *   _init() function makes it valid: that function writes size, tag and defaults. A struct that
+ *   its _init() did not make, even one of zeros, is refused with CDPREP_WHY_NOT_INITIALISED. The
+ *   comment of a field starts with its default. For a parameter named `options`, null gives the
+ *   defaults. The options of a build are an exception, because they hold the mesh.
  * - Arguments are checked before anything is computed. The fields of a struct are checked in this
- *   order: size and tag; enumerators; numbers; poses; fields without meaning for the query. Then
- * follow the queries that the model serves, and whether the workspace is in use. If there are
- * several errors, one is reported. One invalid entry makes the whole batch fail.
+ *   order: size and tag; enumerators; numbers; poses; fields without meaning for the query. The
+ *   next checks are whether the model serves the query, and whether the workspace is in use. If
+ *   there are several errors, one is reported. One invalid entry makes the whole batch fail.
  * - Numbers are finite and at most 2^1000 in magnitude. NaN is always refused. Infinity is allowed
  *   only for max_distance, max_t and the limits of boxes. No answer holds NaN or infinity.
  * - On failure, answers are unknown: counts and `found` are 0; `hit`, `inside` and similar fields
- * are CDPREP_UNKNOWN. Room for lists may hold anything. Answers stay unchanged if their number is
- * not known: the query is null or not initialised, or a count is too large for memory. They also
- * stay unchanged if cdprep_pose_move() or cdprep_model_corners() fails.
- * - Lengths are in model units. Limits are inclusive. Numbers of triangles and vertices are those
- *   of the imported file, or of the arrays that a model was built from.
- * - A list has room for some answers; `count` is the number of all answers. Too little room is no
- *   error: as many as fit are stored. A list without room only counts.
+ *   are CDPREP_UNKNOWN. The items of lists may hold anything. Answers stay unchanged if their
+ *   number is not known. That is so if the query is null or not initialised, or if a count is too
+ *   large for memory. They also stay unchanged if cdprep_pose_move() or cdprep_model_corners()
+ *   fails.
+ * - Lengths are in model units. Limits are inclusive. Triangles and vertices are numbered as in
+ *   the imported file, or as in the arrays that a model was built from.
+ * - A list stores at most `room` answers; `count` is the number of all answers. Too little room is
+ *   no error: as many as fit are stored. A list without room only counts.
  * - No query allocates. Opening or building a model and making a workspace do.
  * - Models are read-only and serve any number of threads. A workspace serves one call at a time.
  *   Nothing else is shared: there is no global state.
- * - Callbacks return; they must not throw or call longjmp(). A visitor may run queries with another
- *   workspace. It runs in the caller's floating-point environment. No environment changes an
- *   answer.
- * - Null is refused. Three things can crash a call: a closed or foreign pointer, a damaged file
- *   with CDPREP_MAP_TRUSTED, and a mapped file that is truncated while open. */
+ * - Callbacks must return: they must not throw or call longjmp(). A visitor may run queries with
+ *   another workspace. It runs in the caller's floating-point environment. No floating-point
+ *   environment changes an answer.
+ * - Null is refused, except where a comment allows it. Three things can crash a call: an invalid
+ *   pointer, such as one to a closed model; a damaged file with CDPREP_MAP_TRUSTED; and a mapped
+ *   file that is truncated while open. */
 
-#ifndef CDPREP_EXPORT /* predefine it to reuse another library's scheme */
+#ifndef CDPREP_EXPORT /* define it first to use an export macro of your own */
 #if defined(_WIN32) && defined(CDPREP_BUILDING)
 #define CDPREP_EXPORT __declspec(dllexport)
 #elif defined(_WIN32) && defined(CDPREP_SHARED)
@@ -60,8 +62,8 @@
 #define CDPREP_VERSION_MAJOR 0
 #define CDPREP_VERSION_MINOR 1
 #define CDPREP_VERSION_PATCH 0
-#define CDPREP_ALIGNMENT 64    /* of memory for _make(), _build() and _open_memory() */
-#define CDPREP_NONE UINT32_MAX /* in place of the number of a triangle, vertex, face ...: none */
+#define CDPREP_ALIGNMENT 64    /* in bytes, of memory for _make(), _build() and _open_memory() */
+#define CDPREP_NONE UINT32_MAX /* stored instead of a number: no triangle, vertex, face ... */
 
 /* The first member of every input struct that may grow. Only _init() functions write it. */
 typedef struct cdprep_head {
@@ -69,8 +71,8 @@ typedef struct cdprep_head {
     uint32_t tag;  /* one value for each type of struct */
 } cdprep_head;
 
-/* Codes, equal to the exit codes of the program. 1 and 4 are never returned. Numbers are never
- * reused. */
+/* Codes, equal to the exit codes of the program cdprep. No function returns 1 or 4. Numbers are
+ * never reused. */
 enum {
     CDPREP_OK = 0,
     CDPREP_BAD_ARGUMENT = 2, /* an invalid argument; error.why is its kind */
@@ -83,32 +85,33 @@ enum {
 enum {
     CDPREP_WHY_NULL = 1,            /* a null pointer where null is not allowed */
     CDPREP_WHY_NOT_INITIALISED = 2, /* a struct that its _init() did not make */
-    CDPREP_WHY_NEWER_FIELD = 3,     /* a byte that this library does not know is not 0 */
+    CDPREP_WHY_NEWER_FIELD = 3,     /* a reserved field, or one of a newer version, is not 0 */
     CDPREP_WHY_OUT_OF_RANGE = 4,    /* an enumerator, a number or an index */
     CDPREP_WHY_NOT_FINITE = 5,      /* NaN, or infinity where it is not allowed */
     CDPREP_WHY_NOT_RIGID = 6,       /* a pose that scales, shears or mirrors */
     CDPREP_WHY_NO_MEANING = 7,      /* a field is set that this query cannot use */
     CDPREP_WHY_NOT_BAKED = 8,       /* the model lacks what the query needs */
     CDPREP_WHY_NOT_OPENED = 9,      /* the file has it, but it was not opened */
-    CDPREP_WHY_TOO_SMALL = 10,      /* memory */
+    CDPREP_WHY_TOO_SMALL = 10,      /* memory, or an array of cdprep_marks */
     CDPREP_WHY_STALE = 11,          /* an object that no longer exists; not used yet */
     CDPREP_WHY_BUSY = 12            /* a workspace in use by another call */
 };
 
 typedef struct cdprep_error {
     int32_t code;
-    int32_t why;       /* the kind of CDPREP_BAD_ARGUMENT; otherwise 0 */
-    char argument[56]; /* the invalid one: "pairs[3].pose_b"; ends with a zero */
+    int32_t why;       /* CDPREP_WHY_... if the code is CDPREP_BAD_ARGUMENT; otherwise 0 */
+    char argument[56]; /* the invalid argument, such as "pairs[3].pose_b"; ends with a zero */
     char message[448]; /* a whole sentence for a person, cut to fit; ends with a zero */
 } cdprep_error;
 
-/* An answer that may be unknown. Compare it; do not test it for 0. */
+/* An answer that may be unknown. Compare it with one of these: in a plain `if`, unknown counts as
+ * yes. */
 enum { CDPREP_NO = 0, CDPREP_YES = 1, CDPREP_UNKNOWN = 2 };
 
 typedef struct cdprep_version {
     uint32_t major, minor, patch;          /* of the library in use, not of this header */
-    uint32_t abi;                          /* equal for compatible programs and libraries */
-    uint32_t oldest_format, newest_format; /* the range of file versions that it reads */
+    uint32_t abi;                          /* equal for binary-compatible versions of the library */
+    uint32_t oldest_format, newest_format; /* the range of file versions that the library reads */
     char kernels[16];                      /* the instruction set in use: "avx2", "scalar", ... */
 } cdprep_version;
 
@@ -134,12 +137,12 @@ typedef struct cdprep_allocator {
 /* Scratch memory for queries, and the caller's threads. */
 typedef struct cdprep_workspace cdprep_workspace;
 
-/* The searches through octrees and tetra-trees, in the library cdprep_cells. A program links it
- * only if its queries use these structures. */
+/* The searches through octrees and tetra-trees, in the library cdprep_cells. Link this library only
+ * if queries use these structures. */
 typedef struct cdprep_cell_searches cdprep_cell_searches;
 CDPREP_API const cdprep_cell_searches* cdprep_cells(void);
 
-/* Runs one task. */
+/* Runs one of the tasks that the library passes to cdprep_workspace_options.run. */
 typedef void (*cdprep_task)(const void* work, size_t number);
 
 typedef struct cdprep_workspace_options {
@@ -147,12 +150,12 @@ typedef struct cdprep_workspace_options {
     /* 1: the number of tasks that `run` may run at once, at most 256; above 1 needs `run` */
     uint32_t lanes;
     uint32_t counting; /* CDPREP_NO; CDPREP_YES: count the work of queries */
-    /* Null. Otherwise it calls task(work, 0) ... task(work, count - 1), once each, in any order, on
-     * any threads, and returns when all have returned. If `run` skips tasks, the calling thread
-     * runs them afterwards. */
+    /* Null; otherwise the caller's function. It calls task(work, 0) ... task(work, count - 1), once
+     * each, in any order, on any threads. It returns when all tasks have returned. If `run` skips
+     * tasks, the calling thread runs them afterwards. */
     void (*run)(void* context, size_t count, cdprep_task task, const void* work);
     void* context;                     /* passed to `run` */
-    const cdprep_allocator* allocator; /* null: the heap; read once */
+    const cdprep_allocator* allocator; /* null: the heap; copied */
     /* Null. cdprep_cells() for queries through octrees and tetra-trees. */
     const cdprep_cell_searches* cells;
 } cdprep_workspace_options;
@@ -161,16 +164,17 @@ typedef struct cdprep_workspace_options {
  * sizeof(cdprep_workspace_options). Null does nothing. */
 CDPREP_API void cdprep_workspace_options_init(cdprep_workspace_options* options, size_t size);
 
-/* Stores the number of bytes that cdprep_workspace_make() needs for these options: about 810 KiB
- * per lane, and 360 KiB more with `cells`. `options` may be null. */
+/* Stores the number of bytes that cdprep_workspace_make() needs for these options. Each lane takes
+ * about 810 KiB, and 360 KiB more with `cells`. `options` may be null. */
 CDPREP_API int cdprep_workspace_size(const cdprep_workspace_options* options, size_t* size,
                                      cdprep_error* error);
 
 /* Makes a workspace in the caller's memory. The memory must start at a multiple of
  * CDPREP_ALIGNMENT, have at least cdprep_workspace_size() bytes, and outlive the workspace. If
- * `memory` is null and `size` is 0, the allocator makes one allocation. `options` may be null. On
- * failure *workspace is null. Errors: CDPREP_WHY_TOO_SMALL, CDPREP_WHY_OUT_OF_RANGE for the
- * alignment, CDPREP_WHY_NO_MEANING for an allocator in addition to memory; CDPREP_OVER_BUDGET. */
+ * `memory` is null and `size` is 0, the workspace takes its memory from the allocator, in one
+ * allocation. `options` may be null. On failure *workspace is null. Errors: CDPREP_WHY_TOO_SMALL,
+ * CDPREP_WHY_OUT_OF_RANGE for the alignment, CDPREP_WHY_NO_MEANING for an allocator in addition to
+ * memory; CDPREP_OVER_BUDGET. */
 CDPREP_API int cdprep_workspace_make(const cdprep_workspace_options* options, void* memory,
                                      size_t size, cdprep_workspace** workspace,
                                      cdprep_error* error);
@@ -181,25 +185,25 @@ CDPREP_API void cdprep_workspace_end(cdprep_workspace* workspace);
 
 /* Indices into cdprep_counts.n. */
 enum {
-    CDPREP_COUNT_BOX_PAIRS = 0,      /* boxes of A's hierarchy tested against B's */
-    CDPREP_COUNT_NODE_PAIRS = 1,     /* nodes read for these tests, of up to 8 boxes each */
-    CDPREP_COUNT_LEAF_PAIRS = 2,     /* pairs of leaves whose triangles were tested */
-    CDPREP_COUNT_TRIANGLE_PAIRS = 3, /* pairs of triangles in those */
-    CDPREP_COUNT_BY_KERNEL = 4,      /* of these, decided in float */
-    CDPREP_COUNT_BY_CORNER = 5,      /* by a common corner */
-    CDPREP_COUNT_BY_FILTER = 6,      /* in double */
-    CDPREP_COUNT_BY_EXACT = 7,       /* in exact arithmetic */
-    CDPREP_COUNT_CELL_PAIRS = 8,     /* pairs of leaf cells of octrees and tetra-trees */
-    CDPREP_COUNT_POTENTIAL = 9,      /* hashed octree: triangles that may overlap */
-    CDPREP_COUNT_CELLS_SOUGHT = 10,  /* hashed octree: cells looked up */
-    CDPREP_COUNT_REFERENCES = 11,    /* hashed octree: triangles that these cells list */
-    CDPREP_COUNT_MEASURED = 12,      /* distances of triangles measured in double */
-    CDPREP_COUNT_MEASURED_AGAIN = 13,
-    CDPREP_COUNT_HULL_PAIRS = 14, /* pairs of convex hulls, in contact queries */
-    CDPREP_COUNT_HULL_STEPS = 15,
-    CDPREP_COUNT_HULLS_BY_EXACT = 16,
-    CDPREP_COUNT_EXACT_STEPS = 17,
-    CDPREP_COUNT_RAY_TRIANGLES = 18 /* triangles tested against a ray for inside */
+    CDPREP_COUNT_BOX_PAIRS = 0,       /* pairs of boxes tested, one of A's BVH and one of B's */
+    CDPREP_COUNT_NODE_PAIRS = 1,      /* pairs of nodes that hold these boxes, up to 8 in each */
+    CDPREP_COUNT_LEAF_PAIRS = 2,      /* pairs of leaves whose triangles were tested */
+    CDPREP_COUNT_TRIANGLE_PAIRS = 3,  /* pairs of triangles in these leaves */
+    CDPREP_COUNT_BY_KERNEL = 4,       /* of the triangle pairs: decided in float */
+    CDPREP_COUNT_BY_CORNER = 5,       /* of the triangle pairs: decided by a common corner */
+    CDPREP_COUNT_BY_FILTER = 6,       /* of the triangle pairs: decided in double */
+    CDPREP_COUNT_BY_EXACT = 7,        /* of the triangle pairs: decided in exact arithmetic */
+    CDPREP_COUNT_CELL_PAIRS = 8,      /* pairs of leaf cells of octrees and tetra-trees */
+    CDPREP_COUNT_POTENTIAL = 9,       /* hashed octree: triangles that may touch the other model */
+    CDPREP_COUNT_CELLS_SOUGHT = 10,   /* hashed octree: cells looked up */
+    CDPREP_COUNT_REFERENCES = 11,     /* hashed octree: triangles listed by cells; repeats count */
+    CDPREP_COUNT_MEASURED = 12,       /* distances of two triangles computed in double */
+    CDPREP_COUNT_MEASURED_AGAIN = 13, /* of these distances: computed again for the last digits */
+    CDPREP_COUNT_HULL_PAIRS = 14,     /* pairs of convex hulls, in contact queries */
+    CDPREP_COUNT_HULL_STEPS = 15,     /* searches for support points, one in each hull */
+    CDPREP_COUNT_HULLS_BY_EXACT = 16, /* pairs of hulls that double could not decide */
+    CDPREP_COUNT_EXACT_STEPS = 17,    /* searches for support points without rounding */
+    CDPREP_COUNT_RAY_TRIANGLES = 18   /* triangles tested against a ray to decide inside */
 };
 
 typedef struct cdprep_counts {
@@ -230,13 +234,13 @@ enum { CDPREP_ROWS = 0, CDPREP_COLUMNS = 1 };
 CDPREP_API int cdprep_pose_from_quaternion(const double wxyz[4], const double translation[3],
                                            cdprep_pose* pose, cdprep_error* error);
 
-/* Makes the pose nearest to a 4 x 4 matrix: its R minimises the sum of squares of M - R. `layout`
- * is CDPREP_ROWS if the translation is in elements 3, 7, 11, or CDPREP_COLUMNS if it is in elements
- * 12, 13, 14. The matrix may differ from a rigid motion by `tolerance`, which is 0 to 0.25. The
- * limit holds for every entry of |M^T M - I| and for the deviation of the last row from 0 0 0 1.
- * For matrices of floats, 1e-5 is a good value. The result satisfies |R^T R - I| <= 1e-15. Takes
- * about 100 ns.
- * Errors: CDPREP_WHY_NOT_RIGID with a sentence that states whether the matrix scales, shears,
+/* Makes the pose nearest to a 4 x 4 matrix, whose upper left 3 x 3 block is M. The pose's R
+ * minimises the sum of the squared entries of M - R. `layout` is CDPREP_ROWS if the translation is
+ * in elements 3, 7, 11, or CDPREP_COLUMNS if it is in elements 12, 13, 14. The matrix may differ
+ * from a rigid motion by `tolerance`, which is 0 to 0.25. The limit holds for every entry of
+ * |M^T M - I| and for the deviation of the last row from 0 0 0 1. For matrices of floats, a
+ * tolerance of 1e-5 is a good value. The result satisfies |R^T R - I| <= 1e-15. Takes about 100 ns.
+ * Errors: CDPREP_WHY_NOT_RIGID with a message that states whether the matrix scales, shears,
  * mirrors or projects. */
 CDPREP_API int cdprep_pose_nearest(const double matrix[16], uint32_t layout, double tolerance,
                                    cdprep_pose* pose, cdprep_error* error);
@@ -246,8 +250,8 @@ CDPREP_API int cdprep_pose_nearest_f32(const float matrix[16], uint32_t layout, 
                                        cdprep_pose* pose, cdprep_error* error);
 
 /* Stores the pose that moves by `b_from_c` first and then by `a_from_b`. Each number is rounded. A
- * rotation that has drifted by more than 1e-13 is replaced by the nearest one. So chains of any
- * length stay rigid. *a_from_c may be either argument.
+ * rotation that has drifted by more than 1e-13 is replaced by the nearest one. So chains of poses
+ * stay rigid, whatever their length. `a_from_c` may point to either argument.
  * Errors: CDPREP_WHY_OUT_OF_RANGE if the translation exceeds 2^1000. */
 CDPREP_API int cdprep_pose_compose(const cdprep_pose* a_from_b, const cdprep_pose* b_from_c,
                                    cdprep_pose* a_from_c, cdprep_error* error);
@@ -256,10 +260,10 @@ CDPREP_API int cdprep_pose_compose(const cdprep_pose* a_from_b, const cdprep_pos
 CDPREP_API int cdprep_pose_inverse(const cdprep_pose* a_from_b, cdprep_pose* b_from_a,
                                    cdprep_error* error);
 
-/* Moves `count` points, 3 numbers each, by the formula of all queries. x becomes ((R00 x + R01 y) +
- * R02 z) + T0, and y and z likewise. It is computed in double, without fused multiply-add. A query
- * that moves a model is exact for these points. `moved` may be `points`. On failure nothing is
- * stored.
+/* Moves `count` points, 3 numbers each, by the formula that all queries use. x becomes
+ * ((R00 x + R01 y) + R02 z) + T0, and y and z likewise. It is computed in double, without fused
+ * multiply-add. A query that moves a model is exact for vertices moved in this way. `moved` may be
+ * `points`. On failure nothing is stored.
  */
 CDPREP_API int cdprep_pose_move(const cdprep_pose* pose, const double* points, size_t count,
                                 double* moved, cdprep_error* error);

@@ -14,14 +14,15 @@ enum {
 
 /* A mesh, and what to build from it. The arrays are read only during the call.
  *
- * Triangles share a vertex if they have its number: equal positions are not merged, and a surface
- * with such a seam is not closed. Vertices that no triangle uses are left out. Triangles may be
- * degenerate or equal. Answers have the numbers of these arrays. */
+ * Triangles share a vertex only if they name the same number. Vertices with equal positions are not
+ * merged, and a surface with such a seam is not closed. Vertices that no triangle uses are left
+ * out. Triangles may be degenerate or equal. Answers number triangles and vertices as in these
+ * arrays. */
 typedef struct cdprep_build_options {
     cdprep_head head;
-    uint32_t ask;               /* 0: all that a build can serve; otherwise these bits only */
-    uint32_t precision;         /* CDPREP_AS_GIVEN */
-    const double* positions;    /* null: 3 numbers per vertex, model units */
+    uint32_t ask;            /* 0: all that a build can serve; otherwise these CDPREP_ASK_ bits */
+    uint32_t precision;      /* CDPREP_AS_GIVEN */
+    const double* positions; /* null: 3 numbers per vertex, model units */
     const float* positions_f32; /* null: the same as floats; set one of the two */
     const uint32_t* triangles;  /* null: 3 vertices per triangle, counter-clockwise from outside */
     size_t vertex_count;        /* 0: a mesh without vertices needs no positions */
@@ -33,8 +34,8 @@ typedef struct cdprep_build_options {
  * sizeof(cdprep_build_options). Null does nothing. */
 CDPREP_API void cdprep_build_options_init(cdprep_build_options* options, size_t size);
 
-/* Stores a number of bytes that is enough for cdprep_model_build() with these options. It follows
- * from the counts, `ask`, `precision` and the kind of positions; no array is read. It covers the
+/* Stores a number of bytes that is enough for cdprep_model_build() with these options. It depends
+ * on the counts, `ask`, `precision` and the type of the positions; no array is read. It covers the
  * worst mesh with these counts. A closed and connected mesh takes about a seventh less. On failure
  * *size is 0.
  * Errors: those of cdprep_model_build() that do not depend on the contents of the arrays. */
@@ -47,26 +48,27 @@ CDPREP_API int cdprep_model_build_size(const cdprep_build_options* options, size
  * model with cdprep_model_close(). On failure *model is null.
  *
  * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_model_build_size()
- * bytes. The model lives there: do not touch it before cdprep_model_close(). Afterwards it is free
- * for any use. After a failure it may hold anything. With null memory of size 0, the allocator
- * makes one allocation of the size that this mesh takes. A closed mesh takes about 85 bytes per
- * triangle. In addition, the heap gives about 1 KiB until cdprep_model_close(), and about 120 bytes
- * per triangle during the call.
+ * bytes. The model lives there: do not touch this memory before cdprep_model_close(). Afterwards it
+ * is free for any use. After a failure it may hold anything. With null memory of size 0, the
+ * allocator makes one allocation of the size that this mesh takes. A closed mesh takes about 85
+ * bytes per triangle. In addition, the model takes about 1 KiB of the heap until
+ * cdprep_model_close(), and the call takes about 120 bytes per triangle while it runs.
  *
  * The lanes of `workspace` share the work. The model is the same, byte for byte, on any number of
  * lanes and in any floating-point environment. Takes O(n log n) time in the triangles.
  *
  * Invalid numbers are named by vertex and by triangle: `options.positions[7]` is vertex 7,
- * `options.triangles[12]` is triangle 12. Memory is checked after them, and the workspace last.
+ * `options.triangles[12]` is triangle 12. `memory` is checked after the arrays, and the workspace
+ * last.
  * Errors:
  * - CDPREP_WHY_NULL: positions or triangles are missing.
  * - CDPREP_WHY_NO_MEANING: both positions are set, or an allocator in addition to memory.
  * - CDPREP_WHY_NOT_BAKED: no build serves `ask`; the message names the `bake` option for it.
  * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite.
  * - CDPREP_WHY_OUT_OF_RANGE: There are more than 2^31 - 1 vertices or triangles. Or a position is
- *   beyond 2^1000, or beyond the floats with CDPREP_SINGLE. Or a vertex does not exist. Or `memory`
- *   is not aligned.
- * - CDPREP_WHY_TOO_SMALL: `size` is less than the mesh takes.
+ *   beyond 2^1000 or, with CDPREP_SINGLE, beyond the largest float. Or a triangle names a vertex
+ *   that does not exist. Or `memory` is not aligned.
+ * - CDPREP_WHY_TOO_SMALL: `size` is less than cdprep_model_build_size() stores.
  * - CDPREP_WHY_BUSY: another call uses the workspace.
  * - CDPREP_OVER_BUDGET: there is not enough memory. */
 CDPREP_API int cdprep_model_build(const cdprep_build_options* options, void* memory, size_t size,

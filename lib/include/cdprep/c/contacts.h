@@ -8,12 +8,12 @@
 
 enum { CDPREP_VERTEX = 0, CDPREP_EDGE = 1, CDPREP_FACE = 2 };
 
-/* A vertex, edge or face, in numbers of the imported file; CDPREP_NONE if nothing is known. */
+/* A vertex, edge or face, numbered as in the imported file. Unknown numbers are CDPREP_NONE. */
 typedef struct cdprep_feature {
     uint32_t kind;      /* CDPREP_VERTEX, _EDGE, _FACE */
-    uint32_t edge;      /* of the triangle: from this corner to the next */
-    uint32_t triangle;  /* a triangle with the vertex or edge, or around the point */
-    uint32_t vertex[3]; /* the vertex, the ends of the edge, or corners of a triangle of the face */
+    uint32_t edge;      /* the edge starts at this corner of `triangle` and ends at the next */
+    uint32_t triangle;  /* one that has the vertex or edge, or that contains the contact point */
+    uint32_t vertex[3]; /* the vertex, the ends of the edge, or three corners of the face */
 } cdprep_feature;
 
 typedef struct cdprep_contact_point {
@@ -24,12 +24,13 @@ typedef struct cdprep_contact_point {
 
 /* Bits of cdprep_contact.flags. */
 enum {
-    /* the hulls have a common point, and both pieces are contained or their triangles touch */
+    /* the hulls have a common point, and either both hulls lie within their solids or triangles of
+     * the two pieces touch */
     CDPREP_CONTACT_OVERLAP = 1,
-    CDPREP_CONTACT_INTERNAL_EDGE = 2, /* near an edge inside a surface: the normal is a face's */
+    CDPREP_CONTACT_INTERNAL_EDGE = 2, /* near an edge inside a surface: a face gives the normal */
     /* the contact is on the inner side of a surface; ignore it for contact response */
     CDPREP_CONTACT_FROM_BEHIND = 4,
-    /* a component of one model is inside the other; the points are on hulls: cdprep_contacts() */
+    /* a component of one model is inside the other; points are on hulls: see cdprep_contacts() */
     CDPREP_CONTACT_DEEP = 8
 };
 
@@ -48,7 +49,7 @@ typedef struct cdprep_contact {
     double on_a[3], on_b[3];
     double normal[3]; /* from A to B, of length 1 up to rounding */
     /* Bounds of the exact distance; negative: overlap. No translation shorter than -upper separates
-     * the pieces, and one by -lower along the normal does. */
+     * overlapping pieces. A translation by -lower along the normal separates them. */
     double lower, upper;
     cdprep_contact_point points[4]; /* the deepest first */
 } cdprep_contact;
@@ -57,11 +58,11 @@ typedef struct cdprep_contact_list {
     cdprep_contact* items;
     size_t room;       /* input */
     size_t count;      /* output: contacts or clusters, at most cdprep_contact_options.most */
-    uint32_t complete; /* output: CDPREP_NO if `most` or `work` left some out */
+    uint32_t complete; /* output: CDPREP_NO if `most` or `work` left contacts out */
     uint32_t searched; /* output: CDPREP_NO if `work` ended the search for near triangles */
     uint64_t found;    /* output: pairs of pieces within the tolerance, as far as was searched */
     uint64_t computed; /* output: those of them whose contact was computed */
-    uint64_t work;     /* output: as cdprep_contact_options.work counts it */
+    uint64_t work;     /* output: the work done, counted as in cdprep_contact_options.work */
 } cdprep_contact_list;
 
 typedef struct cdprep_contact_options {
@@ -84,12 +85,13 @@ CDPREP_API void cdprep_contact_options_init(cdprep_contact_options* options, siz
 /* Finds one contact for each pair of convex pieces that have triangles at most `tolerance` apart.
  * This test is exact, as in cdprep_pairs_within(). The list is sorted by `upper`, the deepest
  * first, then by piece_a and piece_b. If there are more than `most`, the choice alternates between
- * the deepest remaining contact and the one farthest from all chosen ones. `items` get the first
- * ones. `options` may be null.
+ * the deepest remaining contact and the one farthest from all chosen ones. `items` holds as many of
+ * the first contacts as it has room for. `options` may be null.
  * With CDPREP_SOLID, a component that is proven to be inside the other model makes a contact as
- * well, unless triangles touch. Moving B by -lower along the normal frees it, and no translation
- * shorter than -upper does. The component is moved out of the other model's parts, else its whole
- * hull (CDPREP_ASK_HULLS), else its box.
+ * well, unless triangles of the two models touch. Moving B by -lower along the normal frees the
+ * component, and no translation shorter than -upper does. The translation leads out of convex
+ * hulls that enclose the other model. If that model serves CDPREP_ASK_HULLS, these hulls are its
+ * parts or, without parts, its whole hull. Otherwise, the only one is its box.
  * Uses body, degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Takes the time of cdprep_pairs_within(), plus 5 to 10 microseconds per contact that is computed.
  * CDPREP_SOLID adds the time of cdprep_containment().
@@ -99,21 +101,21 @@ CDPREP_API int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_opt
                                cdprep_error* error);
 
 /* Calls `visit` with all contacts in the order of (piece_a, piece_b), and then with those of
- * enclosed components. `most` and `cluster_angle` have no meaning, because the visitor ends the
- * search.
+ * enclosed components. `most` and `cluster_angle` must keep their defaults: the visitor gets each
+ * contact, and may end the search.
  * Needs: CDPREP_ASK_CONTACTS; CDPREP_SOLID: CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_contacts_visit(const cdprep_pair* pair, const cdprep_contact_options* options,
                                      cdprep_workspace* workspace, cdprep_contact_visitor visit,
                                      void* context, cdprep_error* error);
 
-/* --- Convex hulls: solid; their queries need no workspace ------------------------------------ */
+/* --- Convex hulls: they are solid, and queries about them take no workspace ------------------- */
 
 enum {
     CDPREP_HULL_WHOLE = 0,     /* around the whole model; number 0 */
     CDPREP_HULL_COMPONENT = 1, /* around a connected component */
     CDPREP_HULL_INSTANCE = 2,  /* around an instance of the imported file */
-    CDPREP_HULL_PART = 3,      /* one of those that together enclose the model */
-    CDPREP_HULL_PIECE = 4      /* of a convex piece, as numbered in contacts */
+    CDPREP_HULL_PART = 3,      /* around a part; all parts together enclose the model */
+    CDPREP_HULL_PIECE = 4      /* around a convex piece; numbered as cdprep_contact.piece_a */
 };
 
 /* One convex hull of a model, valid as long as the model. */
@@ -122,18 +124,18 @@ typedef struct cdprep_hull {
     uint32_t scope, number;
 } cdprep_hull;
 
-/* Finds a hull. If there is none with this number, the model of *hull is null, and the code is
- * CDPREP_OK. On failure, it is null too.
+/* Finds a hull. If there is none with this number, hull->model is null, and the code is CDPREP_OK.
+ * On failure, hull->model is null too.
  * Needs: CDPREP_ASK_HULLS; CDPREP_HULL_PIECE: CDPREP_ASK_PIECES, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_hull_find(const cdprep_model* model, uint32_t scope, uint32_t number,
                                 cdprep_hull* hull, cdprep_error* error);
 
-/* Stores corners and facets of a hull, as cdprep_model_mesh() does. A flat hull has both sides. A
- * segment and a point have no triangles.
+/* Stores corners and facets of a hull, as cdprep_model_mesh() does. A flat hull has facets on
+ * both sides. A hull that is a segment or a point has no facets.
  * Needs: as cdprep_hull_find() */
 CDPREP_API int cdprep_hull_mesh(const cdprep_hull* hull, cdprep_mesh* mesh, cdprep_error* error);
 
-/* The result of the last query on one pair of hulls, where the next one starts. A zero-filled
+/* The result of the last query on one pair of hulls. The next query starts there. A zero-filled
  * struct is a new cache; any content is safe. It never changes a yes or a no. Among equally near
  * points, it may change which ones are found. */
 typedef struct cdprep_hull_cache {
@@ -158,14 +160,15 @@ CDPREP_API int cdprep_hulls_collide(const cdprep_hull_pair* pair, uint32_t* hit,
                                     cdprep_error* error);
 
 /* Stores the distance of two hulls; it is 0 if they have a common point. Without permitted errors,
- * the interval's width is at most 1e-12 of upper plus 1e-14 of A - B's size. `options` may be null.
+ * the interval's width is at most 1e-12 of upper plus 1e-14 of the size of the Minkowski difference
+ * A - B. `options` may be null.
  * Needs: as cdprep_hull_find() */
 CDPREP_API int cdprep_hulls_distance(const cdprep_hull_pair* pair,
                                      const cdprep_distance_options* options,
                                      cdprep_nearest* nearest, cdprep_error* error);
 
-/* Stores whether two hulls are at most `tolerance` apart, which is 0 or more. Exact to the last
- * bit.
+/* Stores whether two hulls are at most `tolerance` apart. `tolerance` must be at least 0. Exact to
+ * the last bit.
  * Needs: as cdprep_hull_find() */
 CDPREP_API int cdprep_hulls_within(const cdprep_hull_pair* pair, double tolerance, uint32_t* within,
                                    cdprep_error* error);
@@ -175,26 +178,27 @@ typedef struct cdprep_penetration {
     uint32_t reserved;       /* 0 */
     double lower, upper;     /* bounds of the exact penetration depth, model units */
     double normal[3];        /* the direction in which B moves out, of length 1 up to rounding */
-    double on_a[3], on_b[3]; /* the points that then touch */
+    double on_a[3], on_b[3]; /* the points that touch after this motion */
 } cdprep_penetration;
 
 /* Stores the penetration depth of two hulls. `options` may be null; max_distance has no meaning.
- * Takes the time of ten to a hundred distances.
+ * Takes the time of ten to a hundred distance queries.
  * Needs: as cdprep_hull_find() */
 CDPREP_API int cdprep_hulls_penetration(const cdprep_hull_pair* pair,
                                         const cdprep_distance_options* options,
                                         cdprep_penetration* penetration, cdprep_error* error);
 
 typedef struct cdprep_closest_features {
-    uint32_t found;      /* CDPREP_NO: they have a common point; then the rest is 0 */
+    uint32_t found;      /* CDPREP_NO: the hulls have a common point; then the rest is 0 */
     uint32_t parallel;   /* CDPREP_YES: other points may be as near */
-    cdprep_feature a, b; /* of the hulls: kind and vertices, numbered as in the imported file */
-    double lower, upper; /* as for a distance */
+    cdprep_feature a, b; /* the nearest features; only kind and vertex are known */
+    double lower, upper; /* bounds of the exact distance, model units */
     double on_a[3], on_b[3];
 } cdprep_closest_features;
 
-/* Stores the nearest features of two hulls of convex pieces. Only these hulls have features: other
- * scopes have no meaning. With a cache, takes O(1) time if little has moved.
+/* Stores the nearest features of two hulls of convex pieces. Both scopes must be
+ * CDPREP_HULL_PIECE: other hulls have no features. With a cache, takes O(1) time if little has
+ * moved.
  * Needs: CDPREP_ASK_CONTACTS */
 CDPREP_API int cdprep_hulls_features(const cdprep_hull_pair* pair,
                                      cdprep_closest_features* features, cdprep_error* error);

@@ -9,7 +9,7 @@
 typedef struct cdprep_model cdprep_model;
 
 /* The features of a model, as bits of a set. A file that was baked for a feature has the sections
- * that it needs. The "Needs" line of a function names the bits that both models must serve. */
+ * for it. The "Needs" line of a function names the bits that each of its models must serve. */
 enum {
     CDPREP_ASK_COLLIDE = 1 << 0,
     CDPREP_ASK_OVERLAP = 1 << 1,
@@ -21,11 +21,11 @@ enum {
     CDPREP_ASK_INSIDE = 1 << 11,
     CDPREP_ASK_RAY = 1 << 12,
     CDPREP_ASK_CLOSEST = 1 << 13,
-    CDPREP_ASK_TOUCH = 1 << 14,   /* boxes, spheres, capsules, triangles */
-    CDPREP_ASK_HULLS = 1 << 15,   /* convex hulls */
-    CDPREP_ASK_PIECES = 1 << 16,  /* convex pieces of the surface, and queries through them */
-    CDPREP_ASK_CORNERS = 1 << 17, /* geometry: corners, mesh, names, numbers of the file */
-    CDPREP_ASK_INACCESSIBLE = 1 << 18,
+    CDPREP_ASK_TOUCH = 1 << 14,        /* boxes, spheres, capsules, triangles */
+    CDPREP_ASK_HULLS = 1 << 15,        /* convex hulls */
+    CDPREP_ASK_PIECES = 1 << 16,       /* convex pieces of the surface, and queries through them */
+    CDPREP_ASK_CORNERS = 1 << 17,      /* geometry: corners, mesh, names, numbers of the file */
+    CDPREP_ASK_INACCESSIBLE = 1 << 18, /* triangles occluded from the tetra-tree's centre */
     CDPREP_ASK_OCTREE = 1 << 20,
     CDPREP_ASK_ADAPTIVE_OCTREE = 1 << 21,
     CDPREP_ASK_TETRA_TREE = 1 << 22,
@@ -46,7 +46,7 @@ typedef struct cdprep_open_options {
     uint32_t ask;     /* 0: whatever the file serves; else opening fails unless it serves all these
         bits */
     uint32_t mode;    /* CDPREP_MAP */
-    const char* name; /* null: the name of bytes in memory, for messages; UTF-8, read once */
+    const char* name; /* null: the name of bytes in memory, for messages; UTF-8, copied */
     const cdprep_allocator* allocator; /* null: the heap; copied */
 } cdprep_open_options;
 
@@ -58,7 +58,7 @@ CDPREP_API void cdprep_open_options_init(cdprep_open_options* options, size_t si
  * model serves CDPREP_ASK_CORNERS, also takes 4 bytes of memory per triangle and, if there are
  * several components, 4 per vertex.
  * A mapped file must not be changed in place or truncated while it is open. Replacing it by
- * renaming another file is safe.
+ * a rename is safe: the model keeps the old file mapped.
  * Errors:
  * - CDPREP_UNREADABLE: the file is missing, damaged or of another kind.
  * - CDPREP_WHY_NOT_BAKED: it lacks what `ask` requires; the message names the `bake` option.
@@ -81,8 +81,8 @@ CDPREP_API void cdprep_model_close(cdprep_model* model);
  * `ask` would: with CDPREP_WHY_NOT_BAKED or CDPREP_WHY_NOT_OPENED. */
 CDPREP_API int cdprep_model_serves(const cdprep_model* model, uint32_t ask, cdprep_error* error);
 
-/* Reads a byte of every page that queries of these kinds may read, so that the first query does not
- * wait for the disk. Errors: those of cdprep_model_serves(). */
+/* Reads a byte of every page that the queries in `ask` may read. Then the first query does not wait
+ * for the disk. Errors: those of cdprep_model_serves(). */
 CDPREP_API int cdprep_model_prefetch(const cdprep_model* model, uint32_t ask, cdprep_error* error);
 
 typedef struct cdprep_model_info {
@@ -90,7 +90,7 @@ typedef struct cdprep_model_info {
     uint32_t components; /* connected components; 0 if not listed in the file or not opened */
     uint32_t instances, groups, materials; /* of the imported file; 0 likewise */
     uint32_t pieces, hulls;                /* convex pieces and convex hulls; 0 likewise */
-    uint32_t verdicts;         /* for cdprep_model_verdict(): the whole mesh, then components */
+    uint32_t verdicts;         /* for cdprep_model_verdict(): of the mesh and its components */
     uint32_t serves;           /* CDPREP_ASK_ bits */
     uint32_t closed;           /* CDPREP_YES: solid queries have exact answers; else CDPREP_NO */
     uint32_t stores_f64;       /* CDPREP_YES: coordinates are doubles; CDPREP_NO: floats */
@@ -108,18 +108,18 @@ CDPREP_API int cdprep_model_describe(const cdprep_model* model, cdprep_model_inf
 typedef struct cdprep_corners {
     double point[3][3];  /* by corner, then x, y, z; model units, exactly as stored */
     uint32_t vertex[3];  /* numbers of the imported file; for merged vertices the lowest */
-    uint32_t face;       /* polygon in its instance; the triangle if every face is a triangle */
-    uint32_t instance;   /* the node that it came with */
-    uint32_t group;      /* for CDPREP_GROUP_NAME of cdprep_model_text() */
-    uint32_t material;   /* for CDPREP_MATERIAL_NAME */
+    uint32_t face;       /* the polygon of the triangle, numbered within its instance */
+    uint32_t instance;   /* the scene node that the triangle came with */
+    uint32_t group;      /* number for cdprep_model_text() with CDPREP_GROUP_NAME */
+    uint32_t material;   /* number for cdprep_model_text() with CDPREP_MATERIAL_NAME */
     uint32_t component;  /* connected component */
     uint32_t degenerate; /* CDPREP_YES: the corners are collinear */
     uint32_t reserved;   /* 0 */
 } cdprep_corners;
 
 /* Stores the facts about `count` triangles. `triangles` are their numbers in the imported file,
- * below cdprep_model_info.triangles. Takes O(log r) time per triangle for r runs of instances,
- * groups and materials.
+ * below cdprep_model_info.triangles. Takes O(log r) time per triangle for r runs of triangles
+ * with one instance, group or material.
  * Errors: CDPREP_WHY_OUT_OF_RANGE with the index of the invalid number; then nothing is stored.
  * Needs: CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_model_corners(const cdprep_model* model, const uint32_t* triangles,
@@ -148,8 +148,8 @@ typedef struct cdprep_array {
 /* Stores the address of a section; nothing is copied. Elements are in the order of the file (tree
  * order for triangles). The address is valid as long as the model. FORMAT.md lists the sections and
  * their elements. Section 24 (repaired_from) holds the number of each triangle before a repair.
- * Errors: CDPREP_WHY_OUT_OF_RANGE for a number without a section; CDPREP_WHY_NOT_BAKED and
- * CDPREP_WHY_NOT_OPENED for a section that is not there. */
+ * Errors: CDPREP_WHY_OUT_OF_RANGE if no section has this number; CDPREP_WHY_NOT_BAKED if the file
+ * lacks the section; CDPREP_WHY_NOT_OPENED if the file has it, but it was not opened. */
 CDPREP_API int cdprep_model_section(const cdprep_model* model, uint32_t section,
                                     cdprep_array* array, cdprep_error* error);
 
@@ -195,7 +195,7 @@ enum {
     CDPREP_PROMISE_SURFACE = 1,         /* queries about the surface are exact */
     CDPREP_PROMISE_INSIDE_EXACT = 2,    /* inside is decided exactly */
     CDPREP_PROMISE_SIMPLE_SOLID = 4,    /* also, the winding number is 0 or 1 everywhere */
-    CDPREP_PROMISE_CONTAINED_PIECES = 8 /* convex pieces may lie within the solid */
+    CDPREP_PROMISE_CONTAINED_PIECES = 8 /* hulls of convex pieces may lie within the solid */
 };
 
 typedef struct cdprep_verdict {
@@ -204,7 +204,7 @@ typedef struct cdprep_verdict {
     uint32_t first_triangle; /* the lowest number */
     uint32_t boundary_loops;
     int32_t euler;
-    int32_t genus; /* -1: none */
+    int32_t genus; /* -1 unless the mesh is a closed, orientable 2-manifold */
     uint32_t reserved;
     double area;   /* square model units */
     double volume; /* cubic model units, signed; 0 unless balanced */

@@ -6,23 +6,23 @@
 
 /* Queries about two models.
  *
- * All are exact, and the same on every machine: the answer is that of exact arithmetic on the
+ * All answers are exact, and the same on every machine: they are those of exact arithmetic on the
  * vertices as the poses move them (cdprep_pose_move()). A model without triangles touches
  * nothing. */
 
 /* The model whose vertices the query moves: A, B or both. The choice matters in the last bits,
- * because moving rounds. */
+ * because moving rounds coordinates. */
 enum {
     CDPREP_MOVE_B = 0, /* B moves into A's frame, by pose_a^-1 pose_b; A does not move */
     CDPREP_MOVE_A = 1, /* A moves into B's frame, by pose_b^-1 pose_a; B does not move */
-    /* Both move, each by its own pose. If two parts have common vertices and equal poses, these
-     * vertices stay identical, so the parts still touch. */
+    /* Both move, each by its own pose. If two models have common vertices and equal poses, these
+     * vertices stay identical, so the models still touch. */
     CDPREP_MOVE_BOTH = 2
 };
 /* The point set that represents a model. */
 enum {
     CDPREP_SURFACE = 0, /* its triangles */
-    CDPREP_SOLID = 1    /* and what they enclose */
+    CDPREP_SOLID = 1    /* its triangles and what they enclose */
 };
 /* The kind of common points that makes two triangles overlap. */
 enum {
@@ -60,14 +60,14 @@ typedef struct cdprep_pair {
     cdprep_head head;
     const cdprep_model* a;
     const cdprep_model* b;
-    cdprep_cache* cache;        /* null; read and written only through CDPREP_THROUGH_BVH */
+    cdprep_cache* cache;        /* null; used only if `through` is CDPREP_THROUGH_BVH */
     uint32_t moving;            /* CDPREP_MOVE_B */
     uint32_t body;              /* CDPREP_SURFACE */
     uint32_t overlap;           /* CDPREP_CLOSED */
     uint32_t degenerate;        /* CDPREP_KEEP_DEGENERATE */
     uint32_t through;           /* CDPREP_THROUGH_BVH */
     uint32_t reserved;          /* 0 */
-    cdprep_pose pose_a, pose_b; /* identity; into the world */
+    cdprep_pose pose_a, pose_b; /* identity; from model to world coordinates */
 } cdprep_pair;
 
 /* Makes a pair without models: B moves, and both poses are the identity. Then `pose_b` alone maps B
@@ -77,7 +77,7 @@ CDPREP_API void cdprep_pair_init(cdprep_pair* pair, size_t size);
 typedef struct cdprep_collision {
     uint32_t hit;         /* CDPREP_NO, _YES, _UNKNOWN */
     uint32_t containment; /* whether one is inside, for solids whose surfaces do not touch */
-    uint32_t a_inside_b;  /* if containment is not CDPREP_NO: CDPREP_YES A in B, else B in A */
+    uint32_t a_inside_b;  /* CDPREP_YES: A in B; CDPREP_NO: B in A, or containment is CDPREP_NO */
     uint32_t reserved;    /* 0 */
     double winding;       /* the winding number that decided; 0 if containment is CDPREP_NO */
 } cdprep_collision;
@@ -96,7 +96,7 @@ CDPREP_API int cdprep_collide(const cdprep_pair* pair, cdprep_workspace* workspa
  * touch. `hit` and `containment` are equal. For touching surfaces the answer has no meaning. If the
  * surfaces may touch, use cdprep_collide() with CDPREP_SOLID.
  * Inside means a winding number other than 0. Exact for closed models (cdprep_model_info.closed).
- * Takes O(components (log n + hits)) time, or O(n) per component against an open model.
+ * Takes O(components (log n + ray hits)) time, or O(n) per component against an open model.
  * Needs: CDPREP_ASK_COLLIDE, CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_containment(const cdprep_pair* pair, cdprep_workspace* workspace,
                                   cdprep_collision* collision, cdprep_error* error);
@@ -164,7 +164,7 @@ CDPREP_API int cdprep_overlaps_mark(const cdprep_pair* pair, cdprep_workspace* w
 /* A pair of triangles that overlap, and their common segment. */
 typedef struct cdprep_crossing {
     cdprep_overlap pair;
-    uint32_t is_flat;  /* CDPREP_YES: in one plane, or one has no area; then the ends are 0 */
+    uint32_t is_flat;  /* CDPREP_YES: both in one plane, or one has no area; the ends are 0 */
     uint32_t reserved; /* 0 */
     double ends[2][3]; /* in no particular order; equal if they touch in a point */
 } cdprep_crossing;
@@ -178,9 +178,10 @@ typedef int (*cdprep_crossing_visitor)(void* context, const cdprep_crossing* cro
 
 /* Both functions find the pairs of cdprep_overlaps() with their common segments. Coordinates are in
  * the frame into which the models move. The list is in the order of (a, b); if there is too little
- * room, it keeps the smallest. Visits are in no particular order. The ends are chosen exactly and
- * then rounded once (at most half a unit in the last place, plus 2^-45). Neighbours share them bit
- * for bit, except where that 2^-45 decides the rounding.
+ * room, it keeps the smallest pairs. Visits are in no particular order. The edges on which a
+ * segment ends are determined exactly. The coordinates are then rounded once (at most half a unit
+ * in the last place, plus 2^-45). Triangles that share an edge get bit-identical segment ends on
+ * it, except where that 2^-45 decides the rounding.
  * Uses overlap, degenerate. Takes some microseconds more per pair than cdprep_overlaps().
  * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_crossings(const cdprep_pair* pair, cdprep_workspace* workspace,
@@ -194,7 +195,7 @@ CDPREP_API int cdprep_crossings_visit(const cdprep_pair* pair, cdprep_workspace*
 typedef struct cdprep_distance_options {
     cdprep_head head;
     double relative_error; /* 0: upper may exceed lower by this share of lower */
-    double absolute_error; /* 0: or by this, model units */
+    double absolute_error; /* 0: or upper may exceed lower by this, model units */
     double max_distance;   /* infinity: larger distances are not found */
 } cdprep_distance_options;
 
@@ -202,7 +203,7 @@ CDPREP_API void cdprep_distance_options_init(cdprep_distance_options* options, s
 
 typedef struct cdprep_nearest {
     uint32_t found; /* CDPREP_NO: nothing within max_distance; then the rest is 0 */
-    uint32_t triangle_a, triangle_b; /* of on_a and on_b; CDPREP_NONE for hulls and shapes */
+    uint32_t triangle_a, triangle_b; /* with on_a and on_b; CDPREP_NONE on hulls and shapes */
     uint32_t reserved;               /* 0 */
     double lower, upper;             /* bounds of the exact distance, model units */
     double on_a[3], on_b[3]; /* nearest points, up to rounding, in the frame the models move to */
@@ -242,12 +243,12 @@ CDPREP_API int cdprep_pairs_within_visit(const cdprep_pair* pair, double toleran
                                          cdprep_workspace* workspace, cdprep_overlap_visitor visit,
                                          void* context, cdprep_error* error);
 
-/* Each runs `count` queries on the lanes of the workspace. The answers are those of single calls,
- * in the same order. All pairs are checked first. If one is invalid, no query runs, and
+/* Each function runs `count` queries on the lanes of the workspace. The answers are those of single
+ * calls, in the same order. All pairs are checked first. If one is invalid, no query runs, and
  * error.argument names it ("pairs[3].pose_b"). The size in the head of the first pair is the stride
- * of the array. No two pairs may share a cache. A batch is faster than single calls from about ten
- * queries. Each function uses the same fields and needs the same CDPREP_ASK_ bits as its single
- * query. */
+ * of the array. No two pairs may share a cache. A batch of about ten queries or more is faster than
+ * single calls. Each function uses the same fields and needs the same CDPREP_ASK_ bits as its
+ * single query. */
 CDPREP_API int cdprep_collide_many(const cdprep_pair* pairs, size_t count,
                                    cdprep_workspace* workspace, cdprep_collision* collisions,
                                    cdprep_error* error);

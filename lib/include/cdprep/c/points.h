@@ -23,7 +23,7 @@ CDPREP_API void cdprep_point_query_init(cdprep_point_query* query, size_t size);
 
 typedef struct cdprep_closest_point {
     uint32_t found;      /* CDPREP_NO: nothing within max_distance; then the rest is 0 */
-    uint32_t triangle;   /* with the point; among equally near ones the lowest number */
+    uint32_t triangle;   /* the one with the point; among equally near ones the lowest number */
     double point[3];     /* up to rounding */
     double lower, upper; /* bounds of the exact distance, model units */
 } cdprep_closest_point;
@@ -37,14 +37,14 @@ CDPREP_API int cdprep_points_closest(const cdprep_point_query* query, cdprep_wor
                                      cdprep_closest_point* answers, cdprep_error* error);
 
 typedef struct cdprep_point_state {
-    uint32_t inside;     /* CDPREP_NO, _YES, _UNKNOWN: the model is open there */
+    uint32_t inside;     /* CDPREP_NO, _YES; _UNKNOWN within the box of an open model */
     uint32_t on_surface; /* CDPREP_YES: on a triangle; then inside is CDPREP_YES */
     double winding;      /* the winding number; 0 on the surface */
 } cdprep_point_state;
 
 /* Stores whether `count` points are inside a model, that is, whether their winding numbers are not
  * 0. Exact for closed models (cdprep_model_info.closed). `through` may be any structure except
- *    CDPREP_THROUGH_PIECES. Takes O(log n + hits) time per point.
+ * CDPREP_THROUGH_PIECES. Takes O(log n + ray hits) time per point.
  * Needs: CDPREP_ASK_INSIDE */
 CDPREP_API int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* workspace,
                                     cdprep_point_state* answers, cdprep_error* error);
@@ -81,15 +81,15 @@ typedef struct cdprep_ray_hit_list {
 typedef int (*cdprep_ray_visitor)(void* context, const cdprep_ray_hit* hit);
 
 /* Stores the first hit of each ray; `hits` must have room for `count` results. Whether a ray hits a
- * triangle is exact, edges and vertices included: a ray cannot pass between two triangles that
- * share an edge. Both sides count. A ray in the plane of a triangle hits where it enters. t is
- * rounded. Two hits with nearly equal t may be reported in either order, and a hit near max_t may
- * be accepted or rejected. Takes O(log n) time for most rays.
+ * triangle is decided exactly, edges and vertices included: a ray cannot pass between two triangles
+ * that share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits where
+ * it enters. t is rounded. So either of two hits with nearly equal t may be the first, and a hit
+ * near max_t may be accepted or rejected. Takes O(log n) time for most rays.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_cast(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                 cdprep_ray_hit* hits, cdprep_error* error);
 
-/* Stores whether each ray hits anything: CDPREP_YES or CDPREP_NO. Stops at the first triangle.
+/* Stores whether each ray hits anything: CDPREP_YES or CDPREP_NO. Stops at the first hit found.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_any(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                uint32_t* hits, cdprep_error* error);
@@ -143,8 +143,8 @@ typedef int (*cdprep_triangle_visitor)(void* context, uint32_t triangle);
 CDPREP_API int cdprep_touch(const cdprep_shape_query* query, cdprep_workspace* workspace,
                             uint32_t* touches, cdprep_error* error);
 
-/* Lists all triangles that the shape touches, sorted. If there is too little room, it keeps the
- * smallest numbers.
+/* Lists all triangles that the shape touches, sorted. If there is too little room, the list keeps
+ * the smallest numbers.
  * Needs: CDPREP_ASK_TOUCH */
 CDPREP_API int cdprep_touch_list(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                  cdprep_triangle_list* list, cdprep_error* error);
@@ -156,8 +156,8 @@ CDPREP_API int cdprep_touch_visit(const cdprep_shape_query* query, cdprep_worksp
                                   cdprep_error* error);
 
 /* Stores the distance of a shape from the surface. `degenerate` has no meaning. In the answer, `a`
- * is the model and `b` is the shape. For a sphere or capsule, on_b is a point of its centre or
- * segment. triangle_b is CDPREP_NONE.
+ * is the model and `b` is the shape. For a sphere, on_b is its centre; for a capsule, on_b is on
+ * its segment. triangle_b is CDPREP_NONE.
  * Needs: CDPREP_ASK_TOUCH */
 CDPREP_API int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                      cdprep_nearest* nearest, cdprep_error* error);
