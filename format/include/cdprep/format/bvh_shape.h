@@ -8,18 +8,19 @@
 
 namespace cdprep::format {
 
-/// The places of the nodes of each level, which follow from the triangle count alone.
+/// The positions of each level's nodes in the node array. They follow from the triangle count
+/// alone.
 ///
 /// Level 0 is the lowest: its boxes contain leaves. The root is level `levels - 1` and node 0 of
 /// the array. Without triangles there are no nodes.
 struct BvhShape {
     std::uint32_t levels = 0;                          ///< 0 only if there are no triangles
     std::uint32_t leaf_count = 0;                      ///< ceil(triangles / 8)
-    std::uint32_t node_count = 0;                      ///< of all levels
+    std::uint32_t node_count = 0;                      ///< nodes of all levels
     std::array<std::uint32_t, kMaxBvhLevels> first{};  ///< index of the level's first node
     std::array<std::uint32_t, kMaxBvhLevels> count{};  ///< nodes of the level
 
-    /// Returns the number of used boxes of node `node` of level `level`: 1 to 8.
+    /// Returns the number of used boxes of a node: 1 to 8. `node` is its index within the level.
     [[nodiscard]] constexpr std::uint32_t used_boxes(std::uint32_t level,
                                                      std::uint32_t node) const noexcept {
         const std::uint32_t below = level == 0 ? leaf_count : count[level - 1];

@@ -11,7 +11,7 @@ namespace cdprep::format {
 
 /// Returns the hash of a model's content. It covers the header's facts: counts, flags, units, frame
 /// and normalisation. It also covers each section's id, element size, count and checksum, in the
-/// order of ids. It does not cover offsets, the file size and the HDF5 part.
+/// order of ids. It does not cover offsets, the file size or the HDF5 part.
 [[nodiscard]] std::uint64_t content_hash(const FileHeader& header,
                                          std::span<const SectionEntry> sections) noexcept;
 

@@ -21,7 +21,7 @@ struct Field {
     const char* name;
     std::uint32_t offset;
     Scalar scalar;
-    std::array<std::uint32_t, 3> shape = {};  ///< zeros past its dimensions
+    std::array<std::uint32_t, 3> shape = {};  ///< extents; 0 for unused dimensions
 
     /// Returns the number of numbers in the field.
     [[nodiscard]] constexpr std::uint32_t count() const noexcept {
@@ -35,12 +35,13 @@ struct Field {
 struct Element {
     const char* name;       ///< "BvhNode", or "u32"
     std::uint32_t size;     ///< bytes
-    Scalar scalar;          ///< of an element without fields
-    std::uint32_t columns;  ///< of an element without fields; 1: the HDF5 dataset has no columns
+    Scalar scalar;          ///< type of its numbers, if it has no fields
+    std::uint32_t columns;  ///< if it has no fields; 1: the HDF5 dataset is one-dimensional
     std::span<const Field> fields;
 };
 
-/// Markers in the section table: a section of one element, and one of text (UTF-8).
+/// Element types in the section table: One<T> marks a section of one element of type T. Text marks
+/// a section of UTF-8 text.
 template <class T>
 struct One {};
 struct Text {};

@@ -21,21 +21,21 @@ inline constexpr std::uint32_t kVersion = 1;
 inline constexpr std::uint32_t kEndianMark = 0x01020304;    ///< as the writer's processor stores it
 inline constexpr double kIeeeCheck = 0x1.5bf0a8b145769p+1;  ///< e: proves IEEE 754 doubles
 
-inline constexpr std::uint64_t kUserBlockSize = 4096;   ///< HDF5 starts here
+inline constexpr std::uint64_t kUserBlockSize = 4096;   ///< bytes; the HDF5 part follows
 inline constexpr std::uint64_t kSectionAlignment = 64;  ///< one cache line
-inline constexpr std::uint64_t kPageAlignment = 4096;   ///< for sections of kPageThreshold and more
+inline constexpr std::uint64_t kPageAlignment = 4096;   ///< for sections of kPageThreshold or more
 inline constexpr std::uint64_t kPageThreshold = 65536;  ///< bytes
 
-/// The content of a section: a row of section_table.inc, which describes it. Numbers are never
-/// reused, not even those of retired ids.
+/// The id of a section. Each id has a row in section_table.inc, which describes the section.
+/// Numbers are never reused, not even those of retired ids.
 enum class SectionId : std::uint32_t {
 #define CDPREP_SECTION(member, name, id, Element, count, when, serves, units, description) \
     name = (id),
 #include "cdprep/format/section_table.inc"
 };
 
-/// The value in repaired_from and source_vertex for elements that a repair made from nothing in the
-/// file.
+/// The value in sections repaired_from and source_vertex for triangles and vertices that a repair
+/// added. They have no number in the imported file.
 inline constexpr std::uint32_t kMadeByRepair = 0xffffffffU;
 
 /// An entry of the section table: the place and size of a section.
@@ -52,17 +52,17 @@ enum ModelFlags : std::uint32_t {
     model_balanced = 1,           ///< the directed uses of every edge cancel: winding numbers exist
     model_normalized = 2,         ///< baked with --normalize
     model_exact_leaves = 4,       ///< bvh_leaves hold model coordinates without loss
-    model_swept_lines = 8,        ///< swept_nodes hold lines; points without either bit
+    model_swept_lines = 8,        ///< swept_nodes hold lines; see swept_kind()
     model_swept_rectangles = 16,  ///< swept_nodes hold rectangles
 };
 
-/// Returns the kind of swept_nodes in a model with these flags.
+/// Returns the kind of swept_nodes in a model with these flags: points if neither bit is set.
 [[nodiscard]] constexpr SweptKind swept_kind(std::uint32_t flags) noexcept {
     if ((flags & model_swept_rectangles) != 0) return SweptKind::rectangle;
     return (flags & model_swept_lines) != 0 ? SweptKind::line : SweptKind::point;
 }
 
-/// Returns the flags for this kind.
+/// Returns the bits of FileHeader::flags for this kind of swept_nodes.
 [[nodiscard]] constexpr std::uint32_t swept_flags(SweptKind kind) noexcept {
     if (kind == SweptKind::rectangle) return model_swept_rectangles;
     return kind == SweptKind::line ? model_swept_lines : 0U;
@@ -87,7 +87,7 @@ struct FileHeader {
     /// header's facts about the model. The same input, options and tool version give the same hash.
     std::uint64_t content_hash;
     /// Bytes 8 to 47 of the HDF5 superblock. A tool that rewrites the file moves the sections but
-    /// copies this block; then the bytes no longer match.
+    /// copies this block; then these bytes no longer match the superblock.
     std::array<std::uint8_t, 40> superblock;
     std::uint32_t section_count;
     std::uint32_t required_features;  ///< a reader refuses unknown bits; 0 in this version
@@ -101,7 +101,7 @@ struct FileHeader {
     std::uint32_t reserved0;      ///< zero
     /// With model_normalized: model = (source - offset) * factor.
     Double3 normalize_offset;
-    double normalize_factor;                ///< 1 / diagonal
+    double normalize_factor;                ///< 1 / diagonal of the source's bounding box
     std::array<std::uint8_t, 72> reserved;  ///< zero; readers ignore it
 };
 

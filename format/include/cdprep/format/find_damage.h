@@ -12,25 +12,27 @@
 
 namespace cdprep::format {
 
-/// The kind of damage in a file. Numbers are never reused.
+/// The kind of damage in a file. "found" and "limit" are the fields of Damage. Numbers are never
+/// reused.
 enum class DamageKind : std::uint32_t {
-    too_short = 1,         ///< found bytes, limit needed
+    too_short = 1,         ///< found: bytes of the file; limit: bytes needed
     bad_magic = 2,         ///< not a baked file, or an unfinished one
-    bad_version = 3,       ///< found version, limit kVersion
+    bad_version = 3,       ///< found: the version; limit: kVersion
     bad_byte_order = 4,    ///< written on a machine of other endianness or float format
-    bad_file_size = 5,     ///< found bytes, limit the size that the header states
+    bad_file_size = 5,     ///< found: bytes of the file; limit: the size that the header states
     bad_header = 6,        ///< header checksum does not match, or a field outside its range
     rewritten = 7,         ///< the HDF5 superblock does not match the header
-    unknown_feature = 8,   ///< found feature bits that this version does not know
-    bad_section = 9,       ///< entry overlaps, misaligned, past the end, or of wrong element size
+    unknown_feature = 8,   ///< found: feature bits; limit: those that this version knows
+    bad_section = 9,       ///< a section overlaps another, is misaligned, ends past the file's end
+                           ///< or has a wrong element size
     missing_section = 10,  ///< a section that the header's counts demand is missing
-    bad_checksum = 11,     ///< found checksum, limit the one in the table
-    bad_count = 12,        ///< found elements, limit the number that the header's counts demand
-    bad_index = 13,        ///< found index, limit the largest allowed
+    bad_checksum = 11,     ///< found: checksum of the bytes; limit: the one in the table
+    bad_count = 12,        ///< found: elements; limit: the number that the header's counts demand
+    bad_index = 13,        ///< found: index; limit: the largest one allowed
     bad_number = 14,       ///< a coordinate is not finite or beyond kMaxCoordinate
-    bad_order = 15,        ///< runs or nodes out of sequence, names without an end
-    bad_box = 16,          ///< a box does not contain what lies below it: for stored boxes a
-                           ///< deep check, for boxes that split points define an ordinary one
+    bad_order = 15,        ///< runs or nodes out of sequence, or a name without a zero at its end
+    bad_box = 16,          ///< a box does not contain what lies below it. Deep checks cover stored
+                           ///< boxes, find_damage() those that split points define.
     bad_fact = 17,         ///< deep check: a recorded fact (flag, component, bounds) is false
 };
 
@@ -38,7 +40,7 @@ enum class DamageKind : std::uint32_t {
 struct Damage {
     DamageKind kind;
     SectionId section;    ///< 0 if it concerns the user block
-    std::uint64_t at;     ///< byte of the file
+    std::uint64_t at;     ///< offset in the file, in bytes
     std::uint64_t found;  ///< see DamageKind
     std::uint64_t limit;  ///< see DamageKind, inclusive
 };
@@ -53,9 +55,10 @@ struct Damage {
 /// the next step.
 [[nodiscard]] std::string damage_sentence(std::string_view file, const Damage& damage);
 
-/// Checks only the user block: magic, version, sizes, header checksum and superblock stamp. Every
-/// section entry must lie inside the file and overlap no other. Returns nothing if no damage is
-/// found. Reads 4,144 bytes. Sufficient for trusted bytes. Never allocates, never throws.
+/// Checks only the user block: magic, version, sizes, header checksum and superblock bytes. Every
+/// section must lie inside the file and overlap no other. Returns nothing if no damage is found.
+/// Reads 4,144 bytes. This check is sufficient if the file is trusted. Never allocates, never
+/// throws.
 [[nodiscard]] std::optional<Damage> find_header_damage(std::span<const std::byte> file) noexcept;
 
 /// Proves that a file is safe to query. Runs find_header_damage(). Then checks each present section
@@ -63,10 +66,10 @@ struct Damage {
 /// be finite and at most kMaxCoordinate. Returns nothing if no damage is found.
 ///
 /// Sections outside `wanted` are not read. Sections that depend on each other are proven together,
-/// such as an octree's tables, nodes, grid and references. If `wanted` lacks the ones that a
-/// section depends on, only its checksum is checked.
+/// such as an octree's tables, nodes, grid and references. If `wanted` lacks a section on which
+/// another one depends, only the checksum of the dependent section is checked.
 ///
-/// Safe means that no query reads outside the file or fails to end. find_deep_damage() proves that
+/// Safe means that no query reads outside the file or runs forever. find_deep_damage() proves that
 /// the content is *right*. Reads each byte once, in O(bytes) time. Never allocates.
 [[nodiscard]] std::optional<Damage> find_damage(std::span<const std::byte> file,
                                                 SectionSet wanted = SectionSet::all()) noexcept;

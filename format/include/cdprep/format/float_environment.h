@@ -43,12 +43,12 @@ namespace cdprep::format {
 /// across the call.
 void set_float_control(std::uint64_t control) noexcept;
 
-/// Sets the default; see is_default_float_control().
+/// Sets the default value of the register; see is_default_float_control().
 void set_default_float_control() noexcept;
 
 /// Sets the default floating-point environment of this thread for its own lifetime, and then
 /// restores the caller's. Usually the caller's is already the default. The guard then costs a read
-/// and two comparisons, eight instructions on x86-64.
+/// and two comparisons: eight instructions on x86-64.
 ///
 /// Engines flush subnormal numbers to zero on their threads, and -ffast-math does so for a whole
 /// program. Some programs set another rounding mode or trap floating-point exceptions. Exactness is
@@ -74,7 +74,7 @@ public:
     template <class Call>
     decltype(auto) outside(Call&& call) {
 #if defined(__GNUC__)
-        // The values that the call reads are computed before, in the default environment.
+        // The values that the call reads are computed before it, in the default environment.
         asm volatile("" : : "r"(&call) : "memory");
 #endif
         const Outside left(*this);

@@ -33,8 +33,8 @@ struct Triangle {
 /// Box j of node i of level 0 contains the eight triangles from 8 (8i + j) on, in tree order. Box j
 /// of node i of level l > 0 contains node 8i + j of level l - 1. So there are no child links. The
 /// triangle count alone fixes the shape (bvh_shape.h), and no file can contain a cycle. Nodes are
-/// stored level by level, root first. Boxes past the end of the level below are unused and have
-/// lower = 1, upper = -1.
+/// stored level by level, root first. A box is unused if the level below has no such node or leaf.
+/// Unused boxes have lower = 1, upper = -1.
 ///
 /// Coordinates are frame coordinates, (x - frame_origin) * 2^frame_exponent (FileHeader), rounded
 /// outwards. Every vertex of every triangle below lies in the box in exact arithmetic. So a reader
@@ -44,39 +44,40 @@ struct BvhNode {
     std::array<std::array<float, kBvhWidth>, 3> upper;  ///< [axis][box], frame coordinates
 };
 
-/// Eight oriented boxes side by side: row = component, column = box. They are around the contents
-/// of the boxes of the BvhNode with the same number.
+/// Eight oriented boxes side by side: row = component, column = box. Box j has the same contents as
+/// box j of the BvhNode with the same number.
 ///
 /// A box is centre + sum of t_k axis_k with |t_k| <= half_k. The third axis is axis[0] x axis[1].
 /// Axis 0 is the one along which the box is thinnest. Axes are orthonormal up to float rounding.
 /// The half extents are enlarged so that the box contains every vertex below. This holds for the
-/// stored axes, however a reader rounds the third axis. Frame coordinates. Unused boxes have centre
-/// 0, axes x and y, half -1.
+/// stored axes, however a reader rounds the third axis. Centres and half extents are in frame
+/// coordinates. Unused boxes have centre 0, axes x and y, half -1.
 struct OrientedNode {
     std::array<std::array<std::array<float, kBvhWidth>, 3>, 2> axis;  ///< [axis][component][box]
     std::array<std::array<float, kBvhWidth>, 3> centre;               ///< [component][box]
     std::array<std::array<float, kBvhWidth>, 3> half;                 ///< [axis][box]
 };
 
-/// The middle of a swept sphere: a point, a line or a rectangle. A file has one kind only
-/// (swept_kind() of FileHeader).
+/// The core of a swept sphere, over which the sphere is swept: a point, a line or a rectangle. A
+/// file has one kind only (swept_kind() in file_header.h).
 enum class SweptKind : std::uint32_t { point = 0, line = 1, rectangle = 2 };
 
 /// One direction in which the spheres of a SweptNode are swept.
 struct SweptSide {
     std::array<std::array<float, kBvhWidth>, 3> axis;  ///< [component][box], unit length
-    std::array<float, kBvhWidth> half;                 ///< the extent along it, either way, >= 0
+    std::array<float, kBvhWidth> half;                 ///< half the extent along the axis, >= 0
 };
 
-/// Eight swept spheres side by side: row = component, column = box. They are around the contents of
-/// the boxes of the BvhNode with the same number.
+/// Eight swept spheres side by side: row = component, column = box. Swept sphere j has the same
+/// contents as box j of the BvhNode with the same number.
 ///
-/// A swept sphere contains the points at most `radius` from its middle, which is centre + t_0
-/// axis_0 + t_1 axis_1 with |t_k| <= half_k. For a point both halves are 0, for a line the second.
-/// A reader of points needs only the first 128 bytes of a node, a reader of lines 256. Axes are
-/// orthonormal up to float rounding. Axis 0 is the one along which the surface spreads most. With
-/// the axes as stored, every vertex below is contained in exact arithmetic. Frame coordinates.
-/// Unused swept spheres have centre 0, axes x and y, halves and radius 0.
+/// A swept sphere contains the points at most `radius` from its core. The core is centre + t_0
+/// axis_0 + t_1 axis_1 with |t_k| <= half_k. For a point, half_0 and half_1 are 0; for a line,
+/// half_1 is 0. A reader of points needs only the first 128 bytes of a node, a reader of lines 256.
+/// Axes are orthonormal up to float rounding. Axis 0 is the one along which the surface spreads
+/// most. With the axes as stored, a swept sphere contains every vertex below in exact arithmetic.
+/// Centres, half extents and radii are in frame coordinates. Unused swept spheres have centre 0,
+/// axes x and y, half extents and radius 0.
 struct SweptNode {
     std::array<std::array<float, kBvhWidth>, 3> centre;  ///< [component][box]
     std::array<float, kBvhWidth> radius;                 ///< >= 0
@@ -109,8 +110,9 @@ struct Bounds {
 
 /// A maximal set of triangles connected through shared vertices.
 ///
-/// Components are ordered by their lowest source triangle. One vertex of each decides containment.
-/// If two surfaces do not touch, a component lies wholly inside or wholly outside the other model.
+/// Components are ordered by their lowest source triangle. If two surfaces do not touch, each
+/// component lies wholly inside or wholly outside the other model. One vertex of the component then
+/// decides which.
 struct Component {
     std::uint32_t vertex;          ///< one of its vertices
     std::uint32_t triangle_count;  ///< its triangles
@@ -129,20 +131,20 @@ struct MassProperties {
     double volume;        ///< cubic model units, signed
     double surface_area;  ///< square model units
     Double3 centre;       ///< of mass, model units
-    /// About the centre, model axes: xx, yy, zz, xy, yz, zx. Products of inertia have the sign of
-    /// -integral(x y).
+    /// The inertia tensor about the centre, along the model's axes: xx, yy, zz, xy, yz, zx. Entry
+    /// xy is -integral(x y); yz and zx have the same sign convention.
     std::array<double, 6> inertia;
 };
 
 /// A use of one mesh by one node of the imported scene.
 ///
 /// Its triangles are the run [first_triangle, first_triangle + triangle_count) of the source
-/// numbers. Runs follow each other without gaps and cover all triangles. Equal `mesh` numbers are
-/// instances of one mesh.
+/// numbers. Runs follow each other without gaps and cover all triangles. Instances with equal
+/// `mesh` numbers use one mesh.
 struct Instance {
     std::array<double, 12> model_from_node;  ///< 3 x 4, row by row; already applied to positions
     std::uint32_t mesh;                      ///< number of the mesh in the imported file
-    std::uint32_t name;                      ///< number in instance_names: the node's path
+    std::uint32_t name;                      ///< index of the node's path in instance_names
     std::uint32_t first_triangle;            ///< source numbering
     std::uint32_t triangle_count;
     std::uint32_t flags;     ///< InstanceFlags
@@ -159,7 +161,7 @@ enum InstanceFlags : std::uint32_t {
 struct NamedRun {
     std::uint32_t first_triangle;  ///< source numbering
     std::uint32_t triangle_count;
-    std::uint32_t name;      ///< number in the matching name section
+    std::uint32_t name;      ///< index in group_names or material_names
     std::uint32_t reserved;  ///< zero
 };
 

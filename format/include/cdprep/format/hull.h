@@ -7,7 +7,7 @@
 
 namespace cdprep::format {
 
-/// The number of hull points side by side, for one vector operation.
+/// The number of hull points that lie side by side in a HullBlock, for one SIMD operation.
 inline constexpr std::size_t kHullLanes = 8;
 
 /// Eight points of a convex hull, by coordinate: all x, then all y, then all z, in model units.

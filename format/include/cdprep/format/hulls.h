@@ -16,34 +16,34 @@ enum class HullScope : std::uint32_t {
     whole = 0,      ///< the whole mesh
     component = 1,  ///< a connected component
     instance = 2,   ///< an instance of the imported file
-    part = 3,       ///< a part of the surface and its interior; all parts together hold all
+    part = 3,       ///< a part; all parts together contain the surface and its interior
 };
 
 /// Bits of Hull::flags.
 enum HullFlags : std::uint32_t {
-    hull_exact = 1,  ///< its points are vertices; otherwise it contains the exact hull
+    hull_exact = 1,  ///< all its points are mesh vertices; otherwise it contains the exact hull
 };
 
 /// A convex hull. In dimension 3 it is a closed polyhedron, in 2 a polygon seen from both sides. In
 /// 1 it is a segment, in 0 a point, and in -1 it is empty.
 ///
 /// No point of the hull is farther than `distance` from the exact hull, in model units. No point of
-/// a part is farther than that from the surface and its interior. The arrays of each hull follow
-/// those of the hull before in their sections, without gaps. Numbers in them count from the hull's
+/// a part is farther than that from the surface and its interior. In each section, the elements of
+/// a hull directly follow those of the hull before. Indices in these elements count from the hull's
 /// own first element.
 struct Hull {
     HullScope scope;
     std::uint32_t number;  ///< of the component, instance or part; 0 for the whole
     std::int32_t dimension;
     std::uint32_t flags;        ///< HullFlags
-    std::uint32_t first_block;  ///< HullBlock, and eight times as many hull_vertices
+    std::uint32_t first_block;  ///< in hull_blocks; 8 * first_block in hull_vertices
     std::uint32_t point_count;
     std::uint32_t first_facet;
     std::uint32_t facet_count;  ///< 2 * point_count - 4 in dimensions 2 and 3, else 0
     std::uint32_t first_group;
     std::uint32_t group_count;
-    std::uint32_t first_neighbour;  ///< point_count + 1 begins, then neighbour_count points
-    std::uint32_t neighbour_count;  ///< 0: neither is stored; small hulls are scanned
+    std::uint32_t first_neighbour;  ///< of point_count + 1 list begins, then neighbour_count points
+    std::uint32_t neighbour_count;  ///< 0: no lists are stored; searches scan the hull
     std::uint32_t first_start;
     std::uint32_t start_count;  ///< kHullStarts with neighbours, otherwise 0
     double distance;            ///< model units; see above
@@ -54,7 +54,7 @@ struct Hull {
 struct HullFacet {
     std::array<std::uint32_t, 3> point;
     std::array<std::uint32_t, 3> across;  ///< the facet beyond the edge from point i to the next
-    std::uint32_t group;                  ///< rises with the facets' numbers
+    std::uint32_t group;                  ///< index of its HullGroup; facets are sorted by it
 };
 
 /// A maximal, exactly coplanar face of a hull.
@@ -63,7 +63,8 @@ struct HullGroup {
     std::uint32_t facet_count;
 };
 
-/// The number of directions with a stored start: 8 x 8 cells on each face of a cube.
+/// The number of directions with a stored start point for hill climbing: 8 x 8 cells on each face
+/// of a cube.
 inline constexpr std::uint32_t kHullStarts = 6 * 8 * 8;
 /// The value in hull_vertices for a point that is not in the imported file.
 inline constexpr std::uint32_t kNoVertex = 0xffffffffU;

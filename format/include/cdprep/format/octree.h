@@ -11,12 +11,12 @@
 
 namespace cdprep::format {
 
-/// The number of bits of a place along an edge of an octree's cube, which has 2^21 steps. So a key
-/// of 21 levels, with three bits each behind a leading one, fills 64 bits.
+/// The number of bits of a coordinate along an edge of an octree's cube. An edge has 2^21 steps. A
+/// key of 21 levels fills 64 bits: a leading one, then three bits per level.
 inline constexpr std::uint32_t kOctreeBits = 21;
 
-/// The bit of a reference to a triangle that other leaves of the same tree list too. The other bits
-/// are the triangle's place in tree order.
+/// The bit of a reference that is set if other leaves of the same tree list its triangle too. The
+/// other bits are the triangle's place in tree order.
 inline constexpr std::uint32_t kSharedReference = 0x80000000U;
 
 /// The bit of OctreeNode::count and AdaptiveOctreeNode::count for a node with children; the low
@@ -24,27 +24,28 @@ inline constexpr std::uint32_t kSharedReference = 0x80000000U;
 /// number of references.
 inline constexpr std::uint32_t kInnerNode = 0x80000000U;
 
-/// The factor of keys in octree_mixed_table: 2^64 divided by the golden ratio, odd.
+/// The factor by which octree_mixed_table multiplies keys: 2^64 divided by the golden ratio,
+/// rounded to an odd number.
 inline constexpr std::uint64_t kKeyMixer = 0x9e3779b97f4a7c15U;
 
 /// The cube that an octree divides, and the limits of the division.
 ///
 /// Plane i of an axis, 0 <= i <= 2^21, lies at origin + i * step. The product is exact, because
-/// step has at most 32 significant bits. The sum is rounded to double once. Planes of rising number
-/// rise strictly. A cell of level l is the closed box between planes i and i + 2^(21 - l) of each
-/// axis. The root, level 0, contains every vertex and more than a step beyond. So cells of every
-/// level are exact, whatever the model's size.
+/// step has at most 32 significant bits. The sum is rounded to double once. The planes' coordinates
+/// increase strictly with i. A cell of level l is the closed box between planes i and
+/// i + 2^(21 - l) of each axis. The root, level 0, contains every vertex and extends more than one
+/// step beyond. So the bounds of cells are exact on every level, whatever the model's size.
 struct OctreeGrid {
     Double3 origin;           ///< model units
     double step;              ///< model units, > 0
     std::uint32_t level;      ///< no node is deeper; at most kOctreeBits
     std::uint32_t threshold;  ///< a cell with fewer triangles is not divided
-    std::uint32_t top_level;  ///< of octree_top; at most `level`
+    std::uint32_t top_level;  ///< the level of the cells in octree_top; at most `level`
     std::uint32_t slot_bits;  ///< 2^slot_bits slots in either hash table
 };
 
-/// A cell that some triangle touches. Nodes are sorted by `key`: level by level, and along the z
-/// curve within a level. The root, key 1, is first. A model without triangles has no nodes.
+/// A cell that some triangle touches. Nodes are sorted by `key`: level by level, and along the
+/// Z-order curve within a level. The root, key 1, is first. A model without triangles has no nodes.
 struct OctreeNode {
     /// A leading one, then three bits per level from the root down. Bit 0 is set in the upper half
     /// along x, bit 1 along y, bit 2 along z. The parent is key >> 3.
@@ -61,15 +62,15 @@ constexpr std::uint32_t level_of(std::uint64_t key) noexcept {
     return static_cast<std::uint32_t>(std::bit_width(key | 1) - 1) / 3;
 }
 
-/// Returns a key without its leading one, shifted up to kOctreeBits levels. This is the place of
-/// the cell's first finest cell along the z curve.
+/// Returns a key without its leading one, shifted up to kOctreeBits levels. This is the position
+/// along the Z-order curve of the first finest cell in this cell.
 constexpr std::uint64_t code_of(std::uint64_t key) noexcept {
     const std::uint32_t level = level_of(key);
     const std::uint64_t path = key ^ (std::uint64_t{1} << (3 * level));
     return path << (3 * (kOctreeBits - level));
 }
 
-/// Returns the number of finest cells below a cell of a level.
+/// Returns the number of finest cells in a cell of this level.
 constexpr std::uint64_t cells_below(std::uint32_t level) noexcept {
     return std::uint64_t{1} << (3 * (kOctreeBits - level));
 }
@@ -85,14 +86,14 @@ constexpr std::uint64_t mixed_slot(std::uint64_t key, std::uint32_t slot_bits) n
 
 /// The rule by which an adaptive octree chooses split points.
 enum class SplitRule : std::uint32_t {
-    median = 0,        ///< the median of the triangles' middles along each axis
-    surface_area = 1,  ///< along each axis, of 15 planes, the least area times triangles
+    median = 0,        ///< along each axis, the median of the midpoints of the triangles' boxes
+    surface_area = 1,  ///< along each axis, of 15 planes, the least sum of area times triangles
 };
 
-/// The box that an adaptive octree divides, and its settings. The nodes of this octree choose their
-/// split points.
+/// The box that an adaptive octree divides, and its settings. Each inner node of this octree has
+/// its own split point.
 struct AdaptiveOctree {
-    Double3 lower;  ///< of the root's closed box, which is the model's; model units
+    Double3 lower;  ///< of the root's closed box, the model's bounding box; model units
     Double3 upper;
     std::uint32_t level;      ///< no node is deeper; at most kOctreeBits
     std::uint32_t threshold;  ///< a cell with fewer triangles is not divided
@@ -113,10 +114,10 @@ struct AdaptiveOctreeNode {
     std::uint32_t count;  ///< as OctreeNode
 };
 
-/// The box around the contents of a cell, in frame coordinates, rounded outwards. A leaf's box is
-/// around the common parts of its cell and each of its triangles' boxes. An inner node's box is
-/// around its children's. So any part of a triangle in a cell also lies in the cell's box, which is
-/// often much smaller than the cell.
+/// The box around the contents of a cell, in frame coordinates, rounded outwards. A leaf's box
+/// bounds the intersections of its cell with the box of each of its triangles. An inner node's box
+/// bounds its children's boxes. So any part of a triangle in a cell also lies in the cell's box,
+/// which is often much smaller than the cell.
 struct CellBox {
     std::array<float, 3> lower;
     std::array<float, 3> upper;

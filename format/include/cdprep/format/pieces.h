@@ -14,12 +14,13 @@ namespace cdprep::format {
 /// Bits of Piece::flags.
 enum PieceFlags : std::uint32_t {
     /// No point of the hull is outside the solid that the piece's component bounds. Without this
-    /// bit, nothing is known of the points of the hull beside the piece.
+    /// bit, points of the hull that are not on the piece may be inside or outside.
     piece_contained = 1,
 };
 
 /// A convex piece of the surface. Its triangles all lie on the boundary of the hull of their
-/// corners, or at most outer_error below it. Sections 50 to 53 are all present or all absent.
+/// corners, or at most outer_error below that boundary. Sections 50 to 53 are all present or all
+/// absent.
 ///
 /// Its triangles begin at piece_triangles[first_triangle] and end before those of the next piece,
 /// or at the end of the section. The same holds for the hull's corners in piece_vertices and its
@@ -30,27 +31,28 @@ struct Piece {
     std::uint32_t first_facet;     ///< in piece_facets
     std::uint32_t flags;           ///< PieceFlags
     double outer_error;            ///< model units, >= 0; 0: exactly on the hull
-    std::uint32_t dimension;       ///< of the hull: 3; 2: flat, seen from both sides; 1; 0
+    std::uint32_t dimension;       ///< of the hull, 0 to 3; 2: a polygon with facets on both sides
     std::uint32_t reserved;        ///< zero
 };
 
 /// Bits of PieceFacet::flags.
 enum PieceFacetFlags : std::uint32_t {
     /// The piece's triangles do not fully cover the hull face that contains this facet. A contact
-    /// with it is not yet a contact with the surface.
+    /// with this facet need not be a contact with the surface.
     facet_virtual = 1,
-    facet_first_of_face = 2,  ///< the first of a maximal coplanar face of the hull
+    facet_first_of_face = 2,  ///< the first facet of a maximal coplanar face of the hull
 };
 
 /// A triangle of a hull's boundary, counter-clockwise seen from outside, not degenerate. The facets
 /// of a coplanar face follow each other.
 struct PieceFacet {
-    std::array<std::uint32_t, 3> corner;  ///< places among the corners of its own piece
+    std::array<std::uint32_t, 3> corner;  ///< indices among the corners of its own piece
     std::uint32_t flags;                  ///< PieceFacetFlags
 };
 
-/// The triangles of one piece in a box of the lowest piece_nodes. They follow each other in
-/// piece_triangles. Sections 54 to 56 and 61 are all present or all absent.
+/// A leaf of the BVH over pieces: triangles of one piece that follow each other in piece_triangles.
+/// A box on level 0 of piece_nodes contains them. Sections 54 to 56 and 61 are all present or all
+/// absent.
 struct PieceLeaf {
     std::uint32_t piece;
     std::uint32_t first_triangle;  ///< in piece_triangles
@@ -74,8 +76,9 @@ struct PieceNodeHull {
 /// The largest number of leaves of the BVH over pieces.
 inline constexpr std::uint32_t kMaxPieceLeaves = kMaxTriangles / kBvhWidth;
 
-/// Returns the shape of the BVH over pieces. It is that of a model's BVH, except on level 0. Box j
-/// of node i is there around leaf 8i + j of piece_leaves. `leaves` is at most kMaxPieceLeaves.
+/// Returns the shape of the BVH over pieces. It is that of a model's BVH, except on level 0. On
+/// level 0, box j of node i contains leaf 8i + j of piece_leaves. `leaves` is at most
+/// kMaxPieceLeaves.
 [[nodiscard]] constexpr BvhShape piece_tree_shape(std::uint32_t leaves) noexcept {
     return bvh_shape(leaves * kBvhWidth);
 }
@@ -92,17 +95,17 @@ static_assert(offsetof(PieceNodeHull, slack) == 768 && offsetof(PieceNodeHull, c
 static_assert(std::is_trivially_copyable_v<PieceLeaf> &&
               std::is_trivially_copyable_v<PieceNodeHull>);
 
-/// The facets beyond a facet's edges, numbered within the piece. across[i] is beyond the edge from
-/// corner i to the next. Every edge of a hull has two facets.
+/// The facets on the other side of a facet's edges, numbered within the piece. across[i] is beyond
+/// the edge from corner i to the next. Every edge of a hull has two facets.
 struct PieceAdjacency {
     std::array<std::uint32_t, 3> across;
 };
 
-/// The bend of the surface at an edge of a triangle, by exact signs. Convex and reflex are seen
-/// from outside, where triangles turn counter-clockwise.
+/// The bend of the surface at an edge of a triangle, decided by exact signs. Convex and reflex are
+/// seen from outside, where a triangle's corners are in counter-clockwise order.
 enum class EdgeConvexity : std::uint8_t {
-    /// No two triangles at the edge agree on the outside. The edge is a border or has more than two
-    /// triangles. Or two triangles have opposite windings, fold onto each other in a plane, or one
+    /// The edge has no bend that is defined. It may be a border or have more than two triangles. Or
+    /// its two triangles have opposite windings or fold onto each other in a plane. Or one of them
     /// has no area.
     unknown = 0,
     flat = 1,
@@ -110,13 +113,13 @@ enum class EdgeConvexity : std::uint8_t {
     reflex = 3,
 };
 
-/// Returns the convexity of the edge from corner `edge`, below 3, to the next, given a triangle's
-/// bits in edge_convexity.
+/// Returns the convexity of the edge from corner `edge` to the next. `bits` is the triangle's byte
+/// in section edge_convexity, and `edge` is below 3.
 [[nodiscard]] constexpr EdgeConvexity edge_convexity(std::uint8_t bits, std::size_t edge) noexcept {
     return static_cast<EdgeConvexity>((bits >> (2 * edge)) & 3);
 }
 
-/// Returns the bits of three edges.
+/// Returns a triangle's byte in section edge_convexity for the convexity of its three edges.
 [[nodiscard]] constexpr std::uint8_t edge_convexity_bits(
     const std::array<EdgeConvexity, 3>& edge) noexcept {
     return static_cast<std::uint8_t>(static_cast<unsigned>(edge[0]) |

@@ -44,7 +44,7 @@ public:
     friend constexpr bool operator==(SectionSet, SectionSet) noexcept = default;
 
 private:
-    /// Ids of 64 and more belong to later versions; no reader of this version wants them.
+    /// Ids of 64 and more belong to later versions; no reader of this version reads them.
     static constexpr std::uint64_t bit(SectionId id) noexcept {
         const auto number = static_cast<std::uint32_t>(id);
         return number < 64 ? std::uint64_t{1} << number : 0;

@@ -16,7 +16,7 @@ struct SectionKind {
     const char* name;  ///< as in FORMAT.md and the HDF5 datasets
     Element element;
     const char* count;        ///< the number of elements in a file
-    const char* when;         ///< the condition for its presence in a bake
+    const char* when;         ///< the condition for its presence in a file
     const char* serves;       ///< its use
     const char* units;        ///< HDF5 attribute
     const char* description;  ///< HDF5 attribute

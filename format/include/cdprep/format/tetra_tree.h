@@ -14,87 +14,93 @@ namespace cdprep::format {
 /// split.
 inline constexpr std::uint32_t kMaxTetraLevel = 14;
 
-/// Returns the number of splits above the cone with a key, which is at least 8. Returns 0 for
-/// smaller keys.
+/// Returns the number of splits above the cone with this key. Keys are at least 8; smaller values
+/// give 0.
 [[nodiscard]] constexpr std::uint32_t tetra_level(std::uint32_t key) noexcept {
     return (static_cast<std::uint32_t>(std::bit_width(key | 8)) - 4) / 2;
 }
 
-/// Returns the number of cones of a level. Their keys begin with this number and rise without gaps.
+/// Returns the number of cones of a level. The keys of these cones are consecutive and begin with
+/// this number.
 [[nodiscard]] constexpr std::uint32_t tetra_cones(std::uint32_t level) noexcept {
     return 8U << (2 * level);
 }
 
 /// The bounds of a cone's triangles along its octant's axis.
 enum class TetraBounding : std::uint32_t {
-    tetra = 0,  ///< from the centre to the farthest: tetrahedra as published, radius_min is 0
-    caps = 1,   ///< from the nearest to the farthest: empty middles prune
-    boxes = 2,  ///< as caps, with boxes: sections tetra_boxes and tetra_oriented
+    tetra = 0,  ///< from the centre to the farthest point: tetrahedra as published; radius_min is 0
+    caps = 1,   ///< from the nearest to the farthest point: prunes the empty space at the centre
+    boxes = 2,  ///< as caps, and boxes in sections tetra_boxes and tetra_oriented
 };
 
 /// Bits of TetraTree::flags.
 enum TetraTreeFlags : std::uint32_t {
-    tetra_centre_inside = 1,  ///< a ray from the centre crosses the surface more often outwards
-                              ///< than inwards, or less: if closed, the winding number is not 0
-    tetra_centre_on = 2,      ///< a triangle holds the centre
+    tetra_centre_inside = 1,  ///< a ray from the centre crosses the surface more often in one
+                              ///< direction (inwards or outwards) than in the other; if the mesh
+                              ///< is closed, the winding number at the centre is then not 0
+    tetra_centre_on = 2,      ///< a triangle contains the centre
 };
 
 /// A tetra-tree: eight cones around a centre, one per octant, each split in four.
 ///
-/// The octant's cone has the three half axes as generators. A split adds a generator in the middle
-/// of each two, on the octahedron's flat face |x| + |y| + |z| = 1. It makes the children
+/// The generators of an octant's cone are its three half axes v1, v2 and v3. A split adds the
+/// midpoint m of each two generators, on the octahedron's flat face |x| + |y| + |z| = 1. It makes
+/// the children
 ///
 ///     (v1, m12, m31), (m12, v2, m23), (m31, m23, v3) and (m12, m23, m31).
 ///
-/// Generators of level l are integers divided by 2^l, so membership is exact.
+/// The coordinates of generators of level l are integers divided by 2^l. So tests whether a cone
+/// contains a point are exact.
 struct TetraTree {
     Double3 centre;           ///< C: the mean of the vertices, model units
     std::uint32_t level;      ///< no cone has more splits above it; at most kMaxTetraLevel
     std::uint32_t threshold;  ///< a cone with fewer triangles is not split
-    std::uint32_t top_level;  ///< of tetra_top; at most `level`
+    std::uint32_t top_level;  ///< the level of the cones in tetra_top; at most `level`
     TetraBounding bounding;
-    /// The number of references, the first of tetra_references, to triangles that hold the centre.
-    /// These touch every cone and are in no list.
+    /// The number of triangles that contain the centre. Their references come first in
+    /// tetra_references. These triangles touch every cone, and no leaf lists them.
     std::uint32_t centre_count;
     std::uint32_t flags;  ///< TetraTreeFlags
 };
 
 /// Bits of TetraNode::flags.
 enum TetraNodeFlags : std::uint32_t {
-    tetra_children = 0xf,  ///< mask: the set of children, of four
+    tetra_children = 0xf,  ///< mask: bit i is set if child i exists
     tetra_inner = 0x10,    ///< has children; a leaf lacks this bit
 };
 
-/// A cone that some triangle touches. Nodes are sorted by `key`, so level by level. The octants,
-/// keys 8 to 15, come first.
+/// A cone that some triangle touches. Nodes are sorted by `key` and so stored level by level. The
+/// octants, keys 8 to 15, come first.
 struct TetraNode {
     /// 8 + octant, then two bits per split. Bit 0 of the octant is set if x is negative, bit 1 if y
     /// is, bit 2 if z is. The parent is key >> 2.
     std::uint32_t key;
     std::uint32_t first;  ///< leaf: its first reference; inner node: its first child
     std::uint32_t count;  ///< leaf: references; inner node: children
-    /// The least and greatest distance from the center along n, over the points x of the triangles
-    /// in the closed cone: n . (x - C). n is the octant's (+-1, +-1, +-1) / sqrt(3). Frame units
-    /// (2^FileHeader::frame_exponent), rounded outwards. radius_min is 0 with TetraBounding::tetra.
+    /// The least and greatest distance n . (x - C) from the centre C along n. x ranges over the
+    /// points of the triangles in the closed cone. n is the octant's (+-1, +-1, +-1) / sqrt(3).
+    /// Frame units (2^FileHeader::frame_exponent), rounded outwards. radius_min is 0 with
+    /// TetraBounding::tetra.
     float radius_min;
     float radius_max;
     std::uint32_t flags;  ///< TetraNodeFlags
 };
 
-/// The number of nodes by which the elements of tetra_boxes and tetra_oriented advance.
+/// The number of nodes by which each element of tetra_boxes and tetra_oriented starts after the
+/// element before.
 ///
 /// With TetraBounding::boxes, both sections hold boxes of nodes: tetra_boxes in a BvhNode,
 /// tetra_oriented in an OrientedNode. Lane k of element i belongs to node kTetraBoxStride * i + k.
-/// Both boxes contain the part of the triangles below that lies in the closed cone, as those
-/// elements contain vertices (geometry.h). An inner node's aligned box is the box around its
-/// children's.
+/// Both boxes contain the part of the triangles below that lies in the closed cone. They contain it
+/// in the same sense as the boxes in geometry.h contain vertices. An inner node's aligned box is
+/// the box around its children's.
 ///
-/// Each box is stored twice. So up to four children lie side by side in one element, wherever they
-/// begin. Its number is that of the first child divided by the stride. Octants lie in element 0.
-/// Lanes past the last node are unused ones.
+/// Each box is stored twice. So the boxes of up to four children lie side by side in one element,
+/// wherever the children begin. The index of that element is the first child's index divided by the
+/// stride, rounded down. Octants lie in element 0. Lanes past the last node hold unused boxes.
 inline constexpr std::uint32_t kTetraBoxStride = 4;
 
-/// Returns the number of elements of each section for `nodes` nodes.
+/// Returns the number of elements of tetra_boxes, and of tetra_oriented, for `nodes` nodes.
 [[nodiscard]] constexpr std::uint64_t tetra_box_count(std::uint64_t nodes) noexcept {
     return (nodes + kTetraBoxStride - 1) / kTetraBoxStride;
 }

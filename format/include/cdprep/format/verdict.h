@@ -9,9 +9,9 @@ namespace cdprep::format {
 
 /// Bits of Verdict::facts: facts about a mesh or one component of it. A bit that is not set means
 /// that the fact is false. The exception is self_crossing, which is valid only if
-/// crossings_examined is set. All facts are decided after vertices with equal positions were joined
-/// and triangles with a repeated corner were left out. If no triangle is left, all but
-/// crossings_examined are unset, and promise_surface is the only promise.
+/// crossings_examined is set. Before facts are decided, vertices with equal positions are merged
+/// and triangles with a repeated corner are left out. If no triangle is left, no fact but
+/// crossings_examined can be set, and promise_surface is the only promise.
 enum VerdictFacts : std::uint32_t {
     verdict_closed = 1,               ///< every edge is used by two triangles or more
     verdict_two_manifold = 2,         ///< at most two triangles per edge, one fan per vertex
@@ -29,24 +29,25 @@ enum VerdictPromises : std::uint32_t {
     /// collide, overlap, distance, within, ray and closest, as queries about the surface, are
     /// exact. This holds for any mesh that can be baked.
     promise_surface = 1,
-    /// A winding number decides inside exactly: the mesh is balanced.
+    /// Inside is decided exactly, by winding numbers: the mesh is balanced.
     promise_inside_exact = 2,
-    /// The winding number is 0 or 1 everywhere, and the volume is the enclosed one. The mesh is
-    /// closed, 2-manifold, oriented, not inverted, and examined without a crossing.
+    /// The winding number is 0 or 1 everywhere, and Verdict::volume is the enclosed volume. The
+    /// mesh is closed, 2-manifold, oriented and not inverted. It was examined for crossings, and
+    /// none was found.
     promise_simple_solid = 4,
     /// Convex pieces of the surface may lie within the solid: the mesh is closed and oriented.
     promise_contained_pieces = 8,
 };
 
-/// The facts and promises of the whole mesh or of a component. The first of the section is that of
-/// the mesh. The components follow in the order of their lowest source triangle.
+/// The facts and promises of the whole mesh or of a component. The first verdict of the section is
+/// that of the mesh. Those of the components follow, in the order of their lowest source triangle.
 struct Verdict {
     std::uint32_t facts;           ///< VerdictFacts
     std::uint32_t promises;        ///< VerdictPromises
     std::uint32_t triangle_count;  ///< including those that repeat a corner
     std::uint32_t first_triangle;  ///< the lowest source number; 0 if there is none
     std::uint32_t boundary_loops;  ///< holes, counted as loops of edges with one triangle
-    std::int32_t euler;            ///< vertices - edges + triangles, without repeated corners
+    std::int32_t euler;            ///< V - E + F, over the triangles that repeat no corner
     std::int32_t genus;            ///< handles of a closed orientable 2-manifold; otherwise -1
     std::uint32_t reserved;        ///< zero
     double area;                   ///< square model units
