@@ -229,8 +229,8 @@ void add_mesh_options(const Command& command, BakeOptions& options) {
         .group("Mesh");
     command
         .add_option("--piece-tolerance", options.piece_tolerance,
-                    "For --effects pieces: the largest height of a vertex above its convex "
-                    "piece's triangles, in model units; 0: exact")
+                    "For --effects pieces: largest permitted height of a piece's vertices above "
+                    "the planes of its triangles, in model units; 0: exact")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .show_default()
@@ -256,9 +256,10 @@ void add_bake(const Command& app, Exit& exit) {
     add_mesh_options(command, arguments->options);
     command
         .add_option("--bounds", arguments->bounds,
-                    "Bounding volumes to store in addition to axis-aligned boxes. aabb: none. "
-                    "obb: oriented boxes. pss, lss, rss: spheres swept over a point, a line, a "
-                    "rectangle. auto: obb+rss with the effects distance and within, else obb")
+                    "Bounding volumes to store in addition to axis-aligned boxes. aabb: none. obb: "
+                    "oriented boxes. pss, lss, rss: spheres swept over a point, a line, a "
+                    "rectangle. auto: obb+rss with any of the effects distance, within and "
+                    "contacts; else obb")
         .type_name("BOUNDS")
         .check(one_of({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
         .show_default()

@@ -199,8 +199,9 @@ constexpr const char* kGroup = "Structures";
 void add_cell_rules(const Command& command, StructureArguments& arguments) {
     command
         .add_option("--split", arguments.split,
-                    "Split planes of octree-adaptive. median: the median of the triangles' "
-                    "centres; area: the least sum of area times triangles. Default: by the preset")
+                    "Split planes of octree-adaptive. median: at the median of the triangles' "
+                    "centres; area: where the sum of area times triangles over both sides is "
+                    "least. Default: by the preset")
         .type_name("RULE")
         .check(one_of({"median", "area"}))
         .group(kGroup);
@@ -214,8 +215,9 @@ void add_cell_rules(const Command& command, StructureArguments& arguments) {
     command
         .add_option(
             "--bounding", arguments.bounding,
-            "Bounds of a tetra-tree cone's triangles. boxes: fastest; caps: from the nearest "
-            "to the farthest point; tetra: from the centre. Default: by the preset")
+            "Bounds of a tetra-tree cone's triangles. boxes: bounding boxes, the fastest; caps: "
+            "from the nearest to the farthest point; tetra: from the centre to the farthest point. "
+            "Default: by the preset")
         .type_name("BOUNDS")
         .check(one_of({"boxes", "caps", "tetra"}))
         .group(kGroup);
@@ -224,7 +226,8 @@ void add_cell_rules(const Command& command, StructureArguments& arguments) {
 void add_hull_options(const Command& command, HullChoice& hulls) {
     command
         .add_option("--hull-vertices", hulls.max_vertices,
-                    "Maximum number of vertices of a convex hull; it then encloses the exact one")
+                    "Maximum number of vertices of a convex hull; the hull then encloses the exact "
+                    "hull")
         .check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles))
         .group(kGroup);
     command
@@ -234,7 +237,8 @@ void add_hull_options(const Command& command, HullChoice& hulls) {
         .group(kGroup);
     command
         .add_option("--max-error", hulls.max_error,
-                    "Maximum distance by which these parts stick out, in model units")
+                    "Maximum distance by which the enclosing parts stick out of the mesh, in model "
+                    "units")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .group(kGroup);
@@ -252,7 +256,8 @@ void add_structure_options(const Command& command, StructureArguments& arguments
         .group(kGroup);
     command
         .add_option("--structure-preset", arguments.preset,
-                    "Fineness of octrees and tetra-trees. tuned: for speed; paper: 512 cells")
+                    "Fineness of octrees and tetra-trees. tuned: for speed; paper: 512 cells, as "
+                    "in published studies")
         .type_name("PRESET")
         .check(one_of({"tuned", "paper"}))
         .show_default()

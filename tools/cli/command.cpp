@@ -51,7 +51,9 @@ void add_normalize(const Command& command, bool& normalize) {
 }
 
 void add_weld(const Command& command, double& distance) {
-    command.add_option("--weld", distance, "Merge vertices within this distance, in model units")
+    command
+        .add_option("--weld", distance,
+                    "Merge vertices within this distance of each other, in model units")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .show_default()
@@ -61,8 +63,9 @@ void add_weld(const Command& command, double& distance) {
 void add_max_pairs(const Command& command, std::uint64_t& pairs) {
     command
         .add_option("--max-pairs", pairs,
-                    "Stop the search for crossing triangles after N pairs. The report then gives "
-                    "lower bounds and says so. A million pairs take about 0.6 s")
+                    "Stop the search for crossing triangles after N pairs that meet. The report "
+                    "then says that its counts are lower bounds. A million such pairs take about "
+                    "0.6 s")
         .check(whole_from(1, kMostPairs))
         .show_default()
         .group("Limits");

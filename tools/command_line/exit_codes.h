@@ -25,7 +25,7 @@ struct ExitText {
 /// The only list of exit codes. Manuals and documents are generated from it.
 inline constexpr std::array<ExitText, 8> kExitTexts = {{
     {Exit::success, "success"},
-    {Exit::findings, "findings: a defect, an unreached goal, a broken promise"},
+    {Exit::findings, "findings: a defect, or a goal that was not reached"},
     {Exit::usage, "invalid arguments"},
     {Exit::unreadable, "input not readable"},
     {Exit::unwritable, "output not written"},

@@ -121,8 +121,8 @@ void add_study_options(const Command& command, Arguments& arguments) {
     ComparisonOptions& options = arguments.options;
     command
         .add_option("--pairs", arguments.pairs,
-                    "Pairs of Table 4. paper: the published ones; all: every two models; fitting: "
-                    "paper when every model is a published one, else all")
+                    "Pairs of models in Table 4. paper: the published ones; all: every two models; "
+                    "fitting: paper when every model is a published one, else all")
         .type_name("PAIRS")
         .check(one_of({"fitting", "paper", "all"}))
         .show_default()
@@ -140,7 +140,8 @@ void add_study_options(const Command& command, Arguments& arguments) {
         .group("Study");
     command
         .add_option("--peers", options.peers,
-                    "A program that answers with other libraries (tests/bench/peers)")
+                    "A program that answers the same queries with other libraries "
+                    "(tests/bench/peers)")
         .type_name("FILE")
         .group("Study");
 }
@@ -182,9 +183,9 @@ void add_compare(const Command& app, Exit& exit) {
         "Table 1 shows what each strategy can answer. Table 2 shows the cost of spatial "
         "decompositions, Table 3 that of hulls, hierarchies and convex pieces. Table 4 shows the "
         "times of collisions and overlapping triangles for each pair. Published figures stand "
-        "beside ours where a model has the published counts. Table talk shows pruning with hashed "
-        "octrees. All models are scaled to a diagonal of 1. The exit code is 6 when exact "
-        "strategies disagree.",
+        "beside ours if a model has the published numbers of vertices and triangles. The table "
+        "'talk' shows pruning with hashed octrees. All models are scaled to a diagonal of 1. The "
+        "exit code is 6 when exact strategies disagree.",
         {"cdprep compare bunny.ply horse.ply --quick",
          "cdprep compare scans/*.ply --format html -o tables.html"});
     command

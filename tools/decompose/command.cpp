@@ -187,12 +187,14 @@ const Option add_surface_options(const Command& command, Arguments& arguments) {
     const Option exact =
         command
             .add_flag("--exact", arguments.exact,
-                      "Pieces that lie on their hulls exactly. This is the default")
+                      "Cut the surface into pieces that lie on their hulls exactly. This is the "
+                      "default")
             .group(surface);
     command
         .add_option("--tolerance", arguments.tolerance,
-                    "Largest height of a vertex above the triangles of its piece, in model units; "
-                    "the height used is proved and reported")
+                    "Largest permitted height of a piece's vertices above the planes of its "
+                    "triangles, in model units. A proven bound on the heights that occur is "
+                    "reported")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .excludes(exact)
@@ -212,8 +214,8 @@ void add_enclosing_options(const Command& command, EncloseOptions& enclosed, con
     const char* const enclosing = "Enclosing pieces";
     command
         .add_option("--max-error", enclosed.max_error,
-                    "Use as few pieces as possible that stick out by at most this distance, in "
-                    "model units")
+                    "Use as few pieces as possible, which stick out of the solid by at most this "
+                    "distance, in model units")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .excludes(exact)
@@ -243,7 +245,8 @@ void add_enclosing_options(const Command& command, EncloseOptions& enclosed, con
         .group(enclosing);
     command
         .add_flag("--to-surface", enclosed.to_surface,
-                  "Measure from the surface, not the solid: for sheets and hollow bodies")
+                  "Measure how far pieces stick out of the surface, not of the solid: for sheets "
+                  "and hollow bodies")
         .group(enclosing);
     command
         .add_flag("--merge-components", enclosed.merge_components,
@@ -273,14 +276,13 @@ void add_decompose(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     const Command command = app.add_command("decompose", "Decompose a mesh into convex pieces");
     command.set_notes(
-        "By default, cuts the surface into pieces that lie on their own convex hulls: exactly, "
-        "or within --tolerance. Works for every mesh; no piece crosses a boundary, a "
-        "non-manifold edge or an edge with opposite windings. Names of nodes do not "
-        "matter.\n\nWith --max-error or --parts, encloses the solid in few convex pieces "
-        "instead. The distance by which they stick out is proved and reported. Components and "
-        "nodes stay separate. A node named UCX_..., ...-convex or ..._convex is replaced by its "
-        "convex hull.\n\nIf the request cannot be met, the best result is written and the exit "
-        "code is 1.",
+        "By default, cuts the surface into pieces that lie on their own convex hulls: exactly, or "
+        "within --tolerance. Works for every mesh; no piece crosses a boundary, a non-manifold "
+        "edge or an edge with opposite windings. Names of nodes have no effect.\n\nWith "
+        "--max-error or --parts, encloses the solid in few convex pieces instead. The distance by "
+        "which they stick out is proved and reported. Components and nodes stay separate. A node "
+        "named UCX_..., ...-convex or ..._convex is replaced by its convex hull.\n\nIf the request "
+        "cannot be met, the best result is written and the exit code is 1.",
         {"cdprep decompose part.obj -o pieces.ply",
          "cdprep decompose robot.obj -o robot.urdf --max-error 0.5 --unit mm",
          "cdprep decompose chair.glb -o parts.glb --parts 16 --max-vertices 64"});

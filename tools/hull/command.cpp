@@ -155,7 +155,7 @@ void add_hull(const Command& app, Exit& exit) {
         .group("Output");
     command
         .add_option("--max-vertices", arguments->max_vertices,
-                    "Maximum number of vertices; the hull then encloses the exact one")
+                    "Maximum number of vertices; the hull then encloses the exact hull")
         .check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles))
         .group("Hull");
     command

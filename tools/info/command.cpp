@@ -76,7 +76,7 @@ void add_info(const Command& app, Exit& exit) {
     command.add_option("file", arguments->file, "A baked file (.cdp.h5)").required();
     command
         .add_flag("--deep", arguments->deep,
-                  "Prove that the content is correct; opening proves only that it is safe")
+                  "Prove that the content is correct; opening the file proves only that it is safe")
         .group("Report");
     add_report_format(command, arguments->format);
     command.callback([arguments, &exit] { exit = run(*arguments); });

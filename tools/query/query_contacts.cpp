@@ -90,17 +90,18 @@ void add_contacts(const Command& query, Exit& exit) {
     const Command command =
         query.add_command("contacts", "Compute contact points, normals and depths of two models");
     command.set_notes(
-        "Each line of ndjson is a pose. 'found' counts pairs of pieces within the tolerance; "
-        "'computed' counts those whose contact was computed. A limit makes 'searched' and "
-        "'complete' false. Each of 'contacts' has an 'id', which stays the same as long as its "
-        "two pieces touch. 'normal' has length 1 and points from A to B. 'lower' and 'upper' are "
-        "bounds of the distance. They are negative where the pieces overlap. Moving B by -lower "
-        "along the normal then separates them. Features are numbered as in the imported files. "
-        "'members' counts the contacts that --cluster-deg joined into this one. With --manifold, "
-        "'points' lists the deepest point first. With --as solid, a component inside the other "
-        "model makes a contact with 'deep' true. Moving B by -lower along the normal frees it. "
-        "This needs files baked with --effects contacts,collide. The translation is shorter if "
-        "the enclosing file has parts: --structures hull --parts N.",
+        "Each line of ndjson describes one pose. 'found' counts pairs of pieces within the "
+        "tolerance; 'computed' counts those whose contact was computed. 'searched' is false if "
+        "--budget ended the search. 'complete' is false if --budget or --most left contacts out. "
+        "Each of 'contacts' has an 'id', which stays the same as long as its two pieces touch. "
+        "'normal' has length 1 and points from A to B. 'lower' and 'upper' are bounds of the "
+        "distance. They are negative where the pieces overlap. Moving B by -lower along the normal "
+        "then separates them. Features are numbered as in the imported files. 'members' counts the "
+        "contacts that --cluster-deg joined into this one. With --manifold, 'points' lists the "
+        "deepest point first. With --as solid, a component inside the other model makes a contact "
+        "with 'deep' true. Moving B by -lower along the normal frees the component. For this, "
+        "the files must be baked with --effects contacts,collide. The translation can be shorter "
+        "if the enclosing model is baked with parts: --structures hull --parts N.",
         {"cdprep query contacts arm.cdp.h5 part.cdp.h5 --poses poses.txt --tolerance 0.01",
          "cdprep query contacts a.cdp.h5 b.cdp.h5 --tolerance 0.01 --most 16 --cluster-deg 15"});
     command.add_option("a", arguments->a, "A file baked with --effects contacts").required();
@@ -109,7 +110,7 @@ void add_contacts(const Command& query, Exit& exit) {
     add_body(command, arguments->as);
     command
         .add_option("--tolerance", arguments->tolerance,
-                    "Largest distance of two pieces that counts, in model units")
+                    "Largest distance between two pieces in contact, in model units")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .required()

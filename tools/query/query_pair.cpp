@@ -503,7 +503,7 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
     if (arguments.question == PairQuestion::within) {
         command
             .add_option("--tolerance", arguments.tolerance,
-                        "Largest distance that counts, in model units")
+                        "Largest distance that counts as within, in model units")
             .type_name("DISTANCE")
             .check(zero_or_more())
             .required()
@@ -512,7 +512,9 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
                                  .add_flag("--pairs", arguments.pairs,
                                            "List all triangle pairs within the tolerance")
                                  .group("Query");
-        command.add_flag("--count", arguments.count, "Count these pairs")
+        command
+            .add_flag("--count", arguments.count,
+                      "Count the triangle pairs within the tolerance without listing them")
             .excludes(pairs)
             .group("Query");
         return;
@@ -534,7 +536,8 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
     add_body(command, arguments.as);
     command
         .add_option("--max-distance", arguments.errors.max_distance,
-                    "Stop at this distance, in model units; larger ones are not reported")
+                    "Do not search beyond this distance, in model units; larger distances are not "
+                    "reported")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .group("Query");

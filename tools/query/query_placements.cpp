@@ -44,11 +44,13 @@ void add_placements(const Command& command, PlacementWords& words) {
         command
             .add_option(
                 "--poses", words.poses,
-                "A file with poses of B in A's frame: 12 numbers per line, R by rows, then T")
+                "A file with poses of B in A's frame: 12 numbers per line, the rotation matrix by "
+                "rows, then the translation")
             .type_name("FILE")
             .group(group);
     const Option pose =
-        command.add_option("--pose", words.pose, "One pose of B in A's frame, in the same form")
+        command
+            .add_option("--pose", words.pose, "One pose of B in A's frame, in the form of --poses")
             .type_name("POSE")
             .group(group);
     poses.excludes(pose);

@@ -184,7 +184,7 @@ void add_goal_options(const Command& command, Arguments& arguments) {
         .group(group);
     command
         .add_option("--seam-width,--seam", arguments.options.seam_width,
-                    "Join boundaries within this distance, in model units")
+                    "Join boundaries within this distance of each other, in model units")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .group(group);

@@ -307,14 +307,16 @@ void add_judging_options(const Command& command, ValidateArguments& arguments) {
         .group("Report");
     command
         .add_option("--weld", arguments.options.defects.weld_distance,
-                    "Report distinct vertices within this distance, in model units; 0: do not look")
+                    "Report distinct vertices within this distance of each other, in model units; "
+                    "0: do not search")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .show_default()
         .group(group);
     command
         .add_option("--seam-width,--seam", arguments.options.defects.seam_width,
-                    "Report boundaries within this distance, in model units; 0: do not look")
+                    "Report boundaries within this distance of each other, in model units; 0: do "
+                    "not search")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .show_default()
