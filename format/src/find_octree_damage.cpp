@@ -150,7 +150,7 @@ Found find_bad_tree(Parts& parts) noexcept {
                                    next.reference);
 }
 
-/// Finds damage in the sorted leaves. They must be all leaves, each once, along the z curve. Each
+/// Finds damage in the sorted leaves. They must be all leaves, each once, along the Z-order curve. Each
 /// has its code, and codes rise.
 Found find_bad_sorted_leaf(const Parts& parts) noexcept {
     for (const auto* entry : {&parts.leaf_codes.entry, &parts.leaf_nodes.entry}) {

@@ -238,7 +238,7 @@ struct FoundCell {
 };
 
 /// Returns the leaf that holds a finest cell, or the largest cell there that no leaf overlaps. The
-/// leaves before and after it along the z curve are the nearest.
+/// leaves before and after it along the Z-order curve are the nearest.
 FoundCell find_cell(const Model& model, std::uint64_t code) noexcept {
     const auto codes = model.octree().leaf_codes;
     const auto top = model.octree().top;

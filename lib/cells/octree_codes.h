@@ -8,7 +8,7 @@
 
 namespace cdprep {
 
-/// Returns the place of a finest cell along the z curve: format::code_of() the key of level
+/// Returns the place of a finest cell along the Z-order curve: format::code_of() the key of level
 /// kOctreeBits. The same on every machine; see kernels::Curve.
 inline std::uint64_t octree_code(const CellPlace& cell) noexcept {
     assert(cell[0] < kOctreeSteps && cell[1] < kOctreeSteps && cell[2] < kOctreeSteps);

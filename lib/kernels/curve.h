@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Places along the z curve, the middle part of an octree's keys (format/octree.h).
+/// Places along the Z-order curve, the middle part of an octree's keys (format/octree.h).
 ///
 /// One call makes one code. With BMI2, three instructions distribute the bits of three numbers:
 /// this takes 1.7 ns through a pointer, where shifts and masks take 3.4 ns even inline. Curves are

@@ -20,7 +20,7 @@ using format::OctreeNode;
 constexpr std::uint32_t kMostTopLevel = 6;
 constexpr std::uint64_t kTopCellsPerLeaf = 2;
 
-/// A walk of the tree along the z curve, children in order. The levels are stored one after
+/// A walk of the tree along the Z-order curve, children in order. The levels are stored one after
 /// another, so the next node of each level is the one after the last.
 class LeafWalk {
 public:

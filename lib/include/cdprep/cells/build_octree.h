@@ -20,7 +20,7 @@ struct Octree {
     format::OctreeGrid grid{};
     std::vector<format::OctreeNode> nodes;
     std::vector<std::uint32_t> references;
-    std::vector<std::uint64_t> leaf_codes;     ///< sorted form: z-curve codes of the leaves
+    std::vector<std::uint64_t> leaf_codes;     ///< sorted form: Z-order codes of the leaves
     std::vector<std::uint32_t> leaf_nodes;     ///< the node of each of these leaves
     std::vector<std::uint32_t> top;            ///< first leaf of each cell of grid.top_level
     std::vector<std::uint32_t> modulus_table;  ///< published form: chained, slot by last key bits

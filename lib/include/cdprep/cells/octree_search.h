@@ -39,7 +39,7 @@ struct OctreeIndex {
 [[nodiscard]] OctreeIndex octree_index(const Model& model) noexcept;
 [[nodiscard]] OctreeIndex octree_index(const build::Octree& octree) noexcept;
 
-/// Returns the z-curve code of the finest cell that holds a point. If the point is outside the
+/// Returns the Z-order code of the finest cell that holds a point. If the point is outside the
 /// cube, returns the code of the cell nearest to it. `p` has no NaN.
 [[nodiscard]] std::uint64_t code_of_point(const format::OctreeGrid& grid,
                                           const Double3& p) noexcept;
@@ -128,7 +128,7 @@ inline std::uint32_t find_node(const OctreeIndex& index, CellSearch search,
     return find_node_in_order(index, key);
 }
 
-/// Returns the leaf whose half-open cell contains the finest cell with z-curve code `code`. `code`
+/// Returns the leaf whose half-open cell contains the finest cell with Z-order code `code`. `code`
 /// is below 2^63. Returns kNoNode if there is no such leaf, because no triangle touches the space
 /// there. Every search gives the same answer, that of a descent from the root. CellSearch::sorted
 /// takes O(log of the leaves in one cell of top_level) time, for one bisection. The others go up

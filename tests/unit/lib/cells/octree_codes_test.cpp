@@ -70,7 +70,7 @@ TEST(OctreeCodes, TheActiveOneIsAvailable) {
 }
 
 // The law of keys: a parent's is three bits shorter, levels count bits, and codes of one
-// level rise along the z curve as keys do.
+// level rise along the Z-order curve as keys do.
 TEST(OctreeCodes, KeysKnowTheirParentAndLevelAndRiseAlongTheCurve) {
     for (const CellPlace& cell : some_cells()) {
         const std::uint64_t code = octree_code(cell);
