@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "info/find_cover_falsehood.h"
 
-#include <CGAL/Exact_rational.h>
 #include <CGAL/Lazy_exact_nt.h>
+#include <CGAL/gmpxx.h>
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,8 @@
 namespace cdprep::convex {
 namespace {
 
-using Number = CGAL::Lazy_exact_nt<CGAL::Exact_rational>;
+// CGAL's Exact_rational is the same class, in a header that takes twice as long to compile.
+using Number = CGAL::Lazy_exact_nt<mpq_class>;
 using Row = std::array<Number, 3>;
 
 constexpr std::array<double Double3::*, 3> kAxes = {&Double3::x, &Double3::y, &Double3::z};

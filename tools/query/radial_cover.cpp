@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "query/radial_cover.h"
 
-#include <CGAL/Exact_rational.h>
 #include <CGAL/Interval_nt.h>
+#include <gmpxx.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ namespace cdprep::mesh {
 namespace {
 
 using Interval = CGAL::Interval_nt<false>;
-using Exact = CGAL::Exact_rational;
+using Exact = mpq_class;
 
 template <class Number>
 using Vector = std::array<Number, 3>;
