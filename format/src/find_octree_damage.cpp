@@ -150,8 +150,8 @@ Found find_bad_tree(Parts& parts) noexcept {
                                    next.reference);
 }
 
-/// Finds damage in the sorted leaves. They must be all leaves, each once, along the Z-order curve. Each
-/// has its code, and codes rise.
+/// Finds damage in the sorted leaves. Every leaf must be there once, in Z-order. Each has its code,
+/// and codes rise.
 Found find_bad_sorted_leaf(const Parts& parts) noexcept {
     for (const auto* entry : {&parts.leaf_codes.entry, &parts.leaf_nodes.entry}) {
         if (entry->count != parts.leaf_count) {

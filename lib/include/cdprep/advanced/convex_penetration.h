@@ -21,10 +21,10 @@ struct Penetration {
 /// nothing if they have none, as convex_collide() decides exactly, or if one has no points. So no
 /// contact is lost. If the hulls only touch, or both lie in one plane, upper is 0 up to rounding.
 ///
-/// upper - lower is at most the permitted error or 1e-12 of upper plus 1e-13 of the largest
-/// coordinate of A - B, whichever is larger. The difference exceeds this only if the polytope
-/// described below would exceed 128 corners (convex_penetration_laws_test). Finely rounded bodies
-/// of thousands of points that are deep in each other can need that many. Of `options`, only the
+/// upper - lower is at most 1e-12 of upper plus 1e-13 of the largest coordinate of A - B. A larger
+/// permitted error replaces this limit. The difference exceeds this only if the polytope described
+/// below would exceed 128 corners (convex_penetration_laws_test). Finely rounded bodies of
+/// thousands of points that are deep in each other can need that many. Of `options`, only the
 /// permitted errors are read; the relative one is a share of upper.
 ///
 /// Uses the expanding polytope of van den Bergen (2001) with exact signs. The polytope lies within

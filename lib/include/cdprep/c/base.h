@@ -38,9 +38,9 @@
  * - Callbacks must return: they must not throw or call longjmp(). A visitor may run queries with
  *   another workspace. It runs in the caller's floating-point environment. No floating-point
  *   environment changes an answer.
- * - Null is refused, except where a comment allows it. Three things can crash a call: an invalid
- *   pointer, such as one to a closed model; a damaged file with CDPREP_MAP_TRUSTED; and a mapped
- *   file that is truncated while open. */
+ * - Null is refused, except where a comment allows it. An invalid pointer can crash a call, such as
+ *   one to a closed model. So can a damaged file with CDPREP_MAP_TRUSTED, and a mapped file that is
+ *   truncated while open. */
 
 #ifndef CDPREP_EXPORT /* define it first to use an export macro of your own */
 #if defined(_WIN32) && defined(CDPREP_BUILDING)
