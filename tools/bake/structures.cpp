@@ -232,13 +232,15 @@ void add_hull_options(const Command& command, HullChoice& hulls) {
         .group(kGroup);
     command
         .add_option("--parts", hulls.parts,
-                    "Maximum number of convex parts that enclose the mesh, baked with the hulls")
+                    "For --structures hull: also bake at most N convex parts that together "
+                    "enclose the mesh")
         .check(whole_from(1))
         .group(kGroup);
     command
-        .add_option("--max-error", hulls.max_error,
-                    "Maximum distance by which the enclosing parts stick out of the mesh, in model "
-                    "units")
+        .add_option(
+            "--max-error", hulls.max_error,
+            "For --structures hull: also bake convex parts that together enclose the mesh and "
+            "stick out of it by at most this distance, in model units")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .group(kGroup);

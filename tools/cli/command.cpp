@@ -90,7 +90,10 @@ void add_timings(const Command& command, bool& timings) {
 }
 
 void add_progress(const Command& command, std::string& progress) {
-    command.add_option("--progress", progress, "Progress on stderr: auto, bar, plain or none")
+    command
+        .add_option("--progress", progress,
+                    "Progress on stderr. auto: a bar on a terminal, otherwise none; bar; plain: "
+                    "lines of text; none")
         .type_name("STYLE")
         .show_default()
         .group("General");

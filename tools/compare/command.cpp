@@ -177,8 +177,8 @@ void add_pose_options(const Command& command, Arguments& arguments) {
 
 void add_compare(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    const Command command = app.add_command(
-        "compare", "Reproduce the tables of two published studies with these models");
+    const Command command =
+        app.add_command("compare", "Reproduce the tables of two published studies for mesh files");
     command.set_notes(
         "Table 1 shows what each strategy can answer. Table 2 shows the cost of spatial "
         "decompositions, Table 3 that of hulls, hierarchies and convex pieces. Table 4 shows the "

@@ -600,8 +600,9 @@ void add_question(const Command& query, PairQuestion question, const char* name,
     if (question == PairQuestion::collide) {
         command
             .add_option("--level-of-detail", arguments->level_of_detail,
-                        "Test the facets of this level of both tetra-trees, not the triangles. "
-                        "The answer is yes, no or unknown, with the level's error for each model")
+                        "Test two solids by the cones of their tetra-trees at this level: each has "
+                        "a facet outside its triangles and one inside. The answer is yes, no or "
+                        "unknown, with the level's error for each model")
             .type_name("LEVEL")
             .check(whole_from(0U, format::kMaxTetraLevel))
             .group("Structure");

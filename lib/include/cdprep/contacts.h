@@ -159,7 +159,7 @@ struct ContactsVerdict {
 /// translation by -lower along `normal` frees the component. No translation shorter than -upper
 /// frees it: -upper is the distance of one of its vertices from the other surface. Such a contact
 /// counts in `found`. With options.most, other contacts are listed only in the places that deep
-/// contacts leave free. An open model encloses nothing.
+/// contacts leave free. A model that is not closed encloses nothing.
 ///
 /// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
 /// are the corners of one face, clipped by the other. Each distance is that between the two faces

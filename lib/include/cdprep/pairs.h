@@ -172,7 +172,7 @@ struct Crossing {
 /// are determined exactly, for the vertices as transform_point() moves them. Each coordinate is
 /// then rounded once. The result is the nearest double, unless the coordinate lies within 2^-45
 /// units in the last place of the midpoint between two doubles (crossing_segments_laws_test).
-/// Except for those ties, triangles that share an edge get bit-identical segment ends on it.
+/// Triangles that share an edge get bit-identical segment ends on it, except near such a midpoint.
 /// Subnormal coordinates may be off by one unit in the last place.
 ///
 /// Reads options.overlap and degenerate. Needs Ask::overlap of both models. Takes some microseconds
@@ -211,15 +211,15 @@ struct Distance {
 /// inside the other. If the surfaces touch, both witnesses are a common point. For contained
 /// solids, they are the surfaces' nearest points.
 ///
-/// Among pairs of triangles with equal `upper`, the result has the lowest numbers. Pairs that are
-/// equally near in exact arithmetic may differ in the last bits of `upper`. Any of them may be the
-/// result, but always the same one. Through Structure::pieces, the result may be another pair of
-/// touching triangles.
+/// If several pairs of triangles have the least `upper`, the result is the first in the order of
+/// (triangle_a, triangle_b). Pairs that are equally near in exact arithmetic may differ in the last
+/// bits of `upper`. Any of them may be the result, but always the same one. Through
+/// Structure::pieces, the result may be another pair of touching triangles.
 ///
 /// The interval contains the exact distance of the surfaces whose vertices transform_point() moved.
-/// Without permitted errors its width is at most 1e-12 of the distance plus 1e-15 of the largest
-/// coordinate (triangle_distance_laws_test). With permitted errors, the width is at most the larger
-/// of this bound and the permitted error.
+/// Without permitted errors, its width is at most 1e-12 of the distance plus 1e-15 of the largest
+/// absolute coordinate of the moved vertices (triangle_distance_laws_test). With permitted errors,
+/// the width is at most the larger of this bound and the permitted error.
 ///
 /// Reads pair.options.body and through; the only structure beside the BVH is Structure::pieces.
 /// Needs Ask::distance of both models; Body::solid also Ask::solid, and options.through its

@@ -216,10 +216,11 @@ struct ShapeDistance {
 /// same holds for shapes that touch nothing, such as a sphere with a negative radius.
 ///
 /// The interval contains the exact distance to the surface whose vertices transform_point() moved.
-/// Its width is at most 1e-12 of the distance plus 1e-15 of the largest coordinate. For spheres and
-/// capsules, it is the width for the centre or segment, plus 4 ulp for the radius. Among triangles
-/// with equal `upper`, the result has the lowest number. Among those that are equally near in exact
-/// arithmetic, any may be the result, but always the same one.
+/// Its width is at most 1e-12 of the distance plus 1e-15 of the largest absolute coordinate of the
+/// shape and the moved vertices. For spheres and capsules, it is the width for the centre or
+/// segment, plus 4 ulp for the radius. Among triangles with equal `upper`, the result has the
+/// lowest number. Among those that are equally near in exact arithmetic, any may be the result, but
+/// always the same one.
 ///
 /// Needs Ask::touch. Visits every triangle in the worst case. A box that does not touch takes
 /// twelve triangle queries, each limited to the smallest distance found before. Never allocates.

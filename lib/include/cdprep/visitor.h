@@ -7,7 +7,8 @@ namespace cdprep {
 
 /// A reference to a callable that receives each answer; returning false ends the search. A Visitor
 /// does not copy the callable, which must outlive the query. The callable must not throw and must
-/// not use the workspace of the query. It runs in the caller's floating-point environment.
+/// not use the workspace of the query. The callable runs in the caller's floating-point
+/// environment.
 template <class Answer>
 class Visitor {
 public:

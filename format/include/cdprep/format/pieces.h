@@ -51,8 +51,8 @@ struct PieceFacet {
 };
 
 /// A leaf of the BVH over pieces: triangles of one piece that follow each other in piece_triangles.
-/// A box on level 0 of piece_nodes contains them. Sections 54 to 56 and 61 are all present or all
-/// absent.
+/// Box k % 8 of node k / 8 on the lowest level of piece_nodes contains the triangles of leaf k.
+/// Sections 54 to 56 and 61 are all present or all absent.
 struct PieceLeaf {
     std::uint32_t piece;
     std::uint32_t first_triangle;  ///< in piece_triangles

@@ -178,8 +178,8 @@ typedef struct cdprep_mass {
  * Needs: CDPREP_ASK_RESPONSE */
 CDPREP_API int cdprep_model_mass(const cdprep_model* model, cdprep_mass* mass, cdprep_error* error);
 
-/* Bits of cdprep_verdict.facts. If a bit is not set, its fact is false. SELF_CROSSING is known only
- * if CROSSINGS_EXAMINED is set. */
+/* Bits of cdprep_verdict.facts. If a bit is not set, its fact is false. One fact may be unknown
+ * instead: without CROSSINGS_EXAMINED, nothing is known of SELF_CROSSING. */
 enum {
     CDPREP_FACT_CLOSED = 1,
     CDPREP_FACT_TWO_MANIFOLD = 2,

@@ -212,8 +212,9 @@ typedef struct cdprep_nearest {
 /* Stores the distance of two models. It is 0, exactly, for surfaces that touch. It is also 0 if one
  * solid is proven inside the other; the points are then the surfaces' nearest points. Without
  * permitted errors, the interval's width is at most 1e-12 of the distance plus 1e-15 of the largest
- * coordinate. Among pairs of triangles with equal `upper`, the result has the lowest numbers,
- * except through pieces. `options` may be null.
+ * absolute coordinate of the moved vertices. If several pairs of triangles have the least `upper`,
+ * the result is the first in the order of (triangle_a, triangle_b), except through pieces.
+ * `options` may be null.
  * Uses body; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Takes O(log n) time for typical meshes; visits every triangle in the worst case.
  * Needs: CDPREP_ASK_DISTANCE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
