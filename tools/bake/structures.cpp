@@ -237,10 +237,9 @@ void add_hull_options(const Command& command, HullChoice& hulls) {
         .check(whole_from(1))
         .group(kGroup);
     command
-        .add_option(
-            "--max-error", hulls.max_error,
-            "For --structures hull: also bake convex parts that together enclose the mesh and "
-            "stick out of it by at most this distance, in model units")
+        .add_option("--max-error", hulls.max_error,
+                    "For --structures hull: also bake enclosing convex parts that stick out by at "
+                    "most this distance, in model units")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .group(kGroup);
