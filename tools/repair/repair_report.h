@@ -23,7 +23,7 @@ struct RepairFileReport {
     std::optional<mesh::SelfCrossing> crossing_before;  ///< of the input, if computed
     std::optional<mesh::SelfCrossing> crossing_after;   ///< of the output
     std::optional<bool> goal;  ///< the output keeps the preset's promise; nothing without a preset
-    std::string missed;        ///< the broken promises, in words
+    std::string missed;        ///< the goals that were not reached, in words
     double seconds = 0;
     int exit = 0;                      ///< exit code for this file
     std::optional<std::string> error;  ///< the message, if it failed
