@@ -3,7 +3,8 @@
 // fills in. Fails if one leaves the box, or is faster than 2 m/s after the first second. Prints
 // what still moves after ten seconds.
 //
-// Usage: bullet_pile [NAME...]; the models are those beside the checkout, or in CDPREP_SHARED
+// Usage: bullet_pile [NAME...]; the models are those beside the checkout, or in CDPREP_SHARED. A
+// program that is slower by a factor simulates as many frames fewer: CDPREP_SLOWDOWN=10.
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
@@ -16,6 +17,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <new>
 #include <string>
@@ -204,6 +206,12 @@ private:
     std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
+/// How many frames there are.
+int frame_count() {
+    const char* slowdown = std::getenv("CDPREP_SLOWDOWN");
+    return slowdown ? kFrames / std::max(1, std::atoi(slowdown)) : kFrames;
+}
+
 /// The greatest speed that a point of the body can have.
 double speed_of(const btRigidBody& body) {
     const auto& shape = static_cast<const BoundedShape&>(*body.getCollisionShape());
@@ -245,7 +253,8 @@ bool drop(const std::string& name, Shape& shape) {
     }
     double fastest = 0;
     bool stays = true;
-    for (int frame = 0; frame < kFrames; ++frame) {
+    const int frames = frame_count();
+    for (int frame = 0; frame < frames; ++frame) {
         world.step();
         for (const btRigidBody* body : falling) {
             stays = stays && is_inside(*body);
@@ -258,7 +267,7 @@ bool drop(const std::string& name, Shape& shape) {
     const auto moving = std::count_if(falling.begin(), falling.end(), [](const btRigidBody* body) {
         return speed_of(*body) > kAtRest;
     });
-    std::printf("; after 10 s %d move:", static_cast<int>(moving));
+    std::printf("; after %d frames %d move:", frames, static_cast<int>(moving));
     for (const btRigidBody* body : falling) std::printf(" %.3g", speed_of(*body));
     std::printf(" m/s\n");
     return stays && fastest <= kMostSpeed;

@@ -6,6 +6,7 @@ Each command works on a mesh that keeps it busy for a second or more, and gets a
 several moments. It must end with 130, leave nothing behind, and say one sentence at most. A busy
 machine may delay a process: a moment that fails is tried again, and must fail every time to count.
 Files are in memory where there is room: no process ends while the system syncs them to a busy disk.
+A program that is slower by a factor, as one under a sanitizer, may take longer: CDPREP_SLOWDOWN=10.
 Usage: interrupts.py CDPREP
 """
 import array
@@ -22,7 +23,7 @@ import time
 
 from shared_models import must
 
-SECONDS = 0.2
+SECONDS = 0.2 * float(os.environ.get("CDPREP_SLOWDOWN", "1"))
 MOMENTS = 4 if os.environ.get("CDPREP_ALL_POSES") == "yes" else 2
 TRIES = 5
 
