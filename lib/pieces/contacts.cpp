@@ -15,6 +15,7 @@
 #include "pieces/contact_steps.h"
 #include "pieces/deep_contact.h"
 #include "pieces/list_contacts.h"
+#include "pieces/piece_parts.h"
 #include "walk/contact_pairs.h"
 #include "walk/near_triangles.h"
 
@@ -117,7 +118,7 @@ public:
     bool run(Found&& found) noexcept {
         Contacts contacts(*this, options_.manifold);
         return each_page([&](const NearPieces& near) {
-                   return begin_contact() && found(contacts.of(near));
+                   return begin_contact(work_of(near)) && found(contacts.of(near));
                }) &&
                each_deep(found);
     }
@@ -139,7 +140,7 @@ public:
         });
         std::uint32_t slots = 0;
         const auto compute = [&](ContactCandidate& candidate) {
-            if (!begin_contact()) return false;
+            if (!begin_contact(work_of(candidate.near))) return false;
             const Contact contact = contacts.of(candidate.near);
             candidate.depth = -contact.upper;
             if (slots < kMaxComputedContacts) {
@@ -185,7 +186,7 @@ private:
     template <class Found>
     bool each_deep(Found&& found) noexcept {
         return each_enclosed([&](const Enclosed& enclosed) {
-            return begin_contact() &&
+            return begin_contact(kWorkOfContact) &&
                    found(deep_contact(pair_, enclosed, options_.manifold, workspace_.storage()));
         });
     }
@@ -220,10 +221,20 @@ private:
         } while (gathered_.is_limited() && verdict_.searched);
         return verdict_.searched;
     }
+    /// Returns the work of a contact of two pieces. Features are sought among their triangles.
+    [[nodiscard]] std::uint64_t work_of(const NearPieces& near) const noexcept {
+        const auto triangles = [](const Model& model, std::uint32_t piece) {
+            return part_of_piece(model.pieces().triangles, model, piece,
+                                 &format::Piece::first_triangle)
+                .size();
+        };
+        return kWorkOfContact + triangles(pair_.a, static_cast<std::uint32_t>(near.key >> 32)) +
+               triangles(pair_.b, static_cast<std::uint32_t>(near.key));
+    }
     /// Counts a contact. Returns false if there is no work left for it.
-    [[nodiscard]] bool begin_contact() noexcept {
+    [[nodiscard]] bool begin_contact(std::uint64_t work) noexcept {
         if (is_out_of_work(options_.work)) return false;
-        verdict_.work += kWorkOfContact;
+        verdict_.work += work;
         ++verdict_.computed;
         return true;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Contacts of many scans, at most 16 per pair: a random scene, where bodies overlap deeply, and a
-// resting one, where neighbours in a row touch by a thousandth of their size.
+// resting one, where neighbours in a row touch by a thousandth of their size. Contacts are the 16
+// deepest, found without and with a limit of the work.
 //
 // Beside it, if found at configure time: FCL with the same limit, whose contacts are the first 16
 // pairs of triangles that it meets; and Bullet's GImpact, as Debian builds it in float, which has
@@ -77,19 +78,23 @@ public:
 
 class Ours final : public Contender {
 public:
-    explicit Ours(const std::vector<Model>& models) : models_(models) {}
+    /// `work` is ContactOptions::work.
+    Ours(const char* name, const std::vector<Model>& models, std::uint64_t work)
+        : name_(name), models_(models), work_(work) {}
     [[nodiscard]] const char* name() const override {
-        return "cdprep_16";
+        return name_;
     }
     std::size_t ask(const Body& a, const Body& b) override {
         const Placement placement = Placement::b_moves(relative_pose(a.pose, b.pose));
         return contacts({models_[a.model], models_[b.model], placement}, workspace_, room_,
-                        {.most = kMost})
+                        {.most = kMost, .work = work_})
             .count;
     }
 
 private:
+    const char* name_;
     const std::vector<Model>& models_;
+    std::uint64_t work_;
     Workspace workspace_;
     std::array<Contact, kMost> room_{};
 };
@@ -300,7 +305,9 @@ void run(std::size_t bodies, int rounds, const std::vector<std::string>& paths) 
     std::vector<Model> models;
     for (const std::string& path : paths) models.push_back(open_or_stop(path));
     std::vector<std::unique_ptr<Contender>> contenders;
-    contenders.push_back(std::make_unique<Ours>(models));
+    contenders.push_back(std::make_unique<Ours>("cdprep_16", models, 0));
+    contenders.push_back(
+        std::make_unique<Ours>("cdprep_16_limited", models, 2 * kMost * kWorkOfContact));
 #ifdef CDPREP_HAVE_FCL
     contenders.push_back(std::make_unique<Fcl>(models));
 #endif

@@ -91,8 +91,9 @@ struct ContactOptions {
     /// The maximum number of contacts, at most kMostListedContacts: the deepest, and others spread
     /// over the surface. 0: all contacts, in the order of their pieces.
     std::uint32_t most = 0;
-    /// The maximum work, 0 for no limit: each pair of near triangles counts 1, and each contact
-    /// kWorkOfContact. The search for near triangles takes at most half of it.
+    /// The maximum work, 0 for no limit. Each pair of near triangles counts 1. Each contact counts
+    /// kWorkOfContact and, between two pieces, 1 for each of their triangles. The search for near
+    /// triangles takes at most half of the work, and the last contact may exceed it.
     std::uint64_t work = 0;
     /// Joins contacts that are linked by common pieces and whose normals differ by at most this, in
     /// radians. A joined contact has at most four points. 0: joins none. Needs `most`.

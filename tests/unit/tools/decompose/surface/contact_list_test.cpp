@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cdprep/pairs.h"
 #include "support/brute_force.h"
 #include "support/concave_solids.h"
 #include "unit/tools/with_pieces.h"
@@ -52,6 +53,13 @@ protected:
     }
     static ContactOptions with(std::uint32_t most) {
         return {.tolerance = 0.01, .manifold = Manifold::four, .most = most};
+    }
+    /// Returns what a contact counts by the definition of work.
+    [[nodiscard]] std::uint64_t work_of(const Contact& contact) const {
+        const auto pieces = ring_.model.pieces().of_triangle;
+        return kWorkOfContact + static_cast<std::uint64_t>(
+                                    std::count(pieces.begin(), pieces.end(), contact.piece_a) +
+                                    std::count(pieces.begin(), pieces.end(), contact.piece_b));
     }
 
     OpenModel ring_ = open_with_pieces(torus(1, 0.4, 40, 24));
@@ -135,9 +143,21 @@ TEST_F(ContactList, WithoutRoomThereIsACount) {
     EXPECT_FALSE(list.verdict.complete);
 }
 
+// By the definition of work, from the pairs of triangles and the contacts.
+TEST_F(ContactList, WorkCountsTrianglesAndContacts) {
+    Workspace workspace;
+    std::uint64_t work = pairs_within(pair(), with(0).tolerance, workspace, {});
+    for (const Contact& contact : all_.contacts) work += work_of(contact);
+    EXPECT_EQ(all_.verdict.work, work);
+}
+
 // By the definition of work: half of it at most goes into the search, and each contact takes its
-// share of the rest.
+// share of the rest. The last one may exceed it.
 TEST_F(ContactList, ABudgetEndsIt) {
+    std::uint64_t most_of_contact = 0;
+    for (const Contact& contact : all_.contacts) {
+        most_of_contact = std::max(most_of_contact, work_of(contact));
+    }
     std::size_t last = 0, unsearched = 0, uncomputed = 0;
     for (std::uint64_t work = 1; work < 2 * all_.verdict.work; work += work / 3 + 1) {
         SCOPED_TRACE(work);
@@ -145,7 +165,7 @@ TEST_F(ContactList, ABudgetEndsIt) {
             ContactOptions options = with(most);
             options.work = work;
             const List list = ask(pair(), options);
-            EXPECT_LT(list.verdict.work, work + kWorkOfContact);
+            EXPECT_LT(list.verdict.work, work + most_of_contact);
             EXPECT_EQ(list.contacts.size(), list.verdict.computed);
             EXPECT_EQ(list.verdict.complete, list.contacts.size() == all_.contacts.size());
             EXPECT_EQ(list.verdict.complete,
@@ -186,7 +206,7 @@ TEST_F(ContactList, ABudgetEndsAVisitToo) {
         return ++seen > 0;
     };
     ContactOptions options = with(0);
-    options.work = all_.verdict.work - kWorkOfContact;
+    options.work = all_.verdict.work - work_of(all_.contacts.back());
     EXPECT_FALSE(visit_contacts(pair(), workspace, visit, options));
     EXPECT_LT(seen, all_.contacts.size());
     EXPECT_GT(seen, 0U);
