@@ -200,6 +200,11 @@ inline F8 select(Mask8 where, F8 a, F8 b) noexcept {
     return _mm256_blendv_ps(b.x, a.x, where.x);
 }
 
+/// Returns the last four lanes, then the first four.
+inline F8 halves_exchanged(F8 a) noexcept {
+    return _mm256_permute2f128_ps(a.x, a.x, 1);
+}
+
 /// Eight doubles, in two halves.
 struct D8 {
     struct Mask {
@@ -247,6 +252,7 @@ inline D8 select(const D8::Mask& where, const D8& a, const D8& b) noexcept {
 #include "farthest.h"
 #include "swept_spheres.h"
 #include "weak_planes.h"
+#include "world_boxes.h"
 
 namespace cdprep::kernels {
 
@@ -263,6 +269,10 @@ const Table kAvx2 = {"avx2",
                      {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>},
                      farthest_of<D8>,
                      farthest_moved_of<D8>,
-                     weak_planes_of<F8>};
+                     weak_planes_of<F8>,
+                     met_boxes_of<F8>,
+                     meeting_boxes_of<F8>,
+                     meeting_pairs_of<F8>,
+                     escaped_boxes_of<F8>};
 
 }  // namespace cdprep::kernels

@@ -256,6 +256,11 @@ inline F16 select(F16::Mask where, F16 a, F16 b) noexcept {
     return _mm512_mask_blend_ps(where.x, b.x, a.x);
 }
 
+/// Returns the last four lanes, then the first four.
+inline F8 halves_exchanged(F8 a) noexcept {
+    return _mm256_permute2f128_ps(a.x, a.x, 1);
+}
+
 /// Eight doubles.
 struct D8 {
     struct Mask {
@@ -301,6 +306,7 @@ inline D8 select(D8::Mask where, D8 a, D8 b) noexcept {
 #include "farthest.h"
 #include "swept_spheres.h"
 #include "weak_planes.h"
+#include "world_boxes.h"
 
 namespace cdprep::kernels {
 
@@ -317,6 +323,10 @@ const Table kAvx512 = {"avx512",
                        {kSweptTests<0, F8, F16>, kSweptTests<1, F8, F16>, kSweptTests<2, F8, F16>},
                        farthest_of<D8>,
                        farthest_moved_of<D8>,
-                       weak_planes_of<F16>};
+                       weak_planes_of<F16>,
+                       met_boxes_of<F8>,
+                       meeting_boxes_of<F8>,
+                       meeting_pairs_of<F8>,
+                       escaped_boxes_of<F8>};
 
 }  // namespace cdprep::kernels

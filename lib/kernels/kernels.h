@@ -256,6 +256,22 @@ struct PlaneRows {
     std::size_t stride;
 };
 
+/// A box in world coordinates is padded to eight floats: lower x, y, z, 0, upper x, y, z, 0.
+/// Eight boxes of a tree are a node of 48: lower x, y, z, upper x, y, z, eight each. An absent box
+/// has lower > upper along each axis and meets none.
+inline constexpr std::size_t kPaddedBox = 8;
+inline constexpr std::size_t kPaddedUpper = 4;
+inline constexpr std::size_t kBoxNode = 6 * kLanes;
+inline constexpr unsigned kMostBoxLevels = 11;  ///< for 2^32 boxes
+
+/// A tree of world boxes without links. Node i of level 0 holds the boxes 8 i to 8 i + 7. Lane j of
+/// node i of another level is the box around node 8 i + j of the level below. Lanes without one are
+/// absent. The last level has one node.
+struct BoxTree {
+    const float* level[kMostBoxLevels];
+    unsigned levels;
+};
+
 /// One instruction set's kernels.
 struct Table {
     const char* name;  ///< "scalar", "avx2", "avx512": shown in tests and benchmarks
@@ -333,6 +349,27 @@ struct Table {
     /// sixteen more beyond them.
     std::size_t (*weak_planes)(const BoxPlacement& placement, const PlaneRows& planes,
                                std::size_t count, float limit, std::uint16_t* numbers) noexcept;
+
+    /// Finds the boxes of one level of a tree that a padded box meets, from the number `first` on.
+    /// Box 8 i + j is lane j of node i. Returns how many; stores their numbers, rising. This and
+    /// the next three are the same for every table.
+    std::size_t (*met_boxes)(const BoxTree& tree, const float* box, unsigned level,
+                             std::uint32_t first, std::uint32_t* numbers) noexcept;
+
+    /// Returns the boxes of two nodes that meet: bit 8 i + j for box i of A and box j of B.
+    /// `around_b` is the lane of a node with the box around B's.
+    BoxPairs (*meeting_boxes)(const float* a, const float* b, const float* around_b) noexcept;
+
+    /// Copies the pairs of numbers whose padded boxes meet, in their order. Returns how many.
+    /// `kept` has room for all, and may be `pairs`.
+    std::size_t (*meeting_pairs)(const float* boxes, const std::uint32_t* pairs, std::size_t count,
+                                 std::uint32_t* kept) noexcept;
+
+    /// Finds, among `count` padded boxes from number `first` on, those that are not inside the box
+    /// of their number in `around`. Returns how many; stores their numbers, rising. `numbers` has
+    /// room for all. An absent box is inside every box.
+    std::size_t (*escaped_boxes)(const float* boxes, const float* around, std::uint32_t first,
+                                 std::size_t count, std::uint32_t* numbers) noexcept;
 };
 
 extern const Table kScalar;  ///< the reference, for any processor

@@ -212,6 +212,11 @@ inline F8 select(Mask8 where, const F8& a, const F8& b) noexcept {
     return each([&](unsigned i) { return ((where.x >> i) & 1) != 0 ? a.x[i] : b.x[i]; });
 }
 
+/// Returns the last four lanes, then the first four.
+inline F8 halves_exchanged(const F8& a) noexcept {
+    return each([&](unsigned i) { return a.x[i ^ 4]; });
+}
+
 /// Eight doubles.
 struct D8 {
     double x[8];
@@ -268,6 +273,7 @@ inline D8 select(Mask8 where, const D8& a, const D8& b) noexcept {
 #include "farthest.h"
 #include "swept_spheres.h"
 #include "weak_planes.h"
+#include "world_boxes.h"
 
 namespace cdprep::kernels {
 
@@ -284,6 +290,10 @@ const Table kScalar = {"scalar",
                        {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>},
                        farthest_of<D8>,
                        farthest_moved_of<D8>,
-                       weak_planes_of<F8>};
+                       weak_planes_of<F8>,
+                       met_boxes_of<F8>,
+                       meeting_boxes_of<F8>,
+                       meeting_pairs_of<F8>,
+                       escaped_boxes_of<F8>};
 
 }  // namespace cdprep::kernels

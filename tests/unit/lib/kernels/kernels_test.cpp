@@ -16,6 +16,7 @@
 #include "exact/triangle_contact.h"
 #include "exact/triangle_distance.h"
 #include "support/random_pose.h"
+#include "unit/lib/kernels/each_table.h"
 
 namespace cdprep::kernels {
 namespace {
@@ -23,17 +24,6 @@ namespace {
 using Node = std::array<float, 48>;
 using OrientedNode = std::array<float, 96>;
 using SweptNode = std::array<float, 96>;
-
-/// Runs `check(table)` for each instruction set of this machine.
-template <class Check>
-void for_each_table(Check check) {
-    const Available tables = available();
-    for (std::size_t i = 0; i < tables.count; ++i) {
-        SCOPED_TRACE(tables.table[i]->name);
-        check(*tables.table[i]);
-        if (::testing::Test::HasFatalFailure()) return;
-    }
-}
 
 Node random_node(std::mt19937& random) {
     std::uniform_real_distribution<float> place(-1, 1);

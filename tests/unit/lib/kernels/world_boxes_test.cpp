@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "unit/lib/kernels/each_table.h"
+
+namespace cdprep::kernels {
+namespace {
+
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+using Padded = std::array<float, kPaddedBox>;
+using Numbers = std::vector<std::uint32_t>;
+
+constexpr Padded kAbsent = {kInfinite,  kInfinite,  kInfinite,  0,
+                            -kInfinite, -kInfinite, -kInfinite, 0};
+
+bool meet(const Padded& a, const Padded& b) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (a[axis] > b[4 + axis] || b[axis] > a[4 + axis]) return false;
+    }
+    return true;
+}
+
+bool holds(const Padded& outer, const Padded& inner) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (outer[axis] > inner[axis] || inner[4 + axis] > outer[4 + axis]) return false;
+    }
+    return true;
+}
+
+/// Boxes on a coarse grid, so that many touch; some are absent.
+class Boxes {
+public:
+    explicit Boxes(std::uint32_t seed) : random_(seed) {}
+
+    Padded next(std::uint32_t places = 10) {
+        if (random_() % 8 == 0) return kAbsent;
+        Padded box{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            box[axis] = static_cast<float>(random_() % places);
+            box[4 + axis] = box[axis] + static_cast<float>(random_() % 4);
+        }
+        return box;
+    }
+    std::vector<Padded> some(std::size_t count) {
+        std::vector<Padded> boxes(count);
+        for (Padded& box : boxes) box = next();
+        return boxes;
+    }
+
+private:
+    std::mt19937 random_;
+};
+
+/// A tree over boxes in their order.
+struct Tree {
+    std::vector<std::vector<Padded>> boxes;  ///< [level]
+    std::vector<std::vector<float>> nodes;   ///< [level]
+    BoxTree view{};
+
+    explicit Tree(std::vector<Padded> leaves) {
+        boxes.push_back(std::move(leaves));
+        do {
+            std::vector<Padded>& level = boxes.back();
+            level.resize((level.size() + kLanes - 1) / kLanes * kLanes, kAbsent);
+            std::vector<float> stored(level.size() / kLanes * kBoxNode);
+            std::vector<Padded> around(level.size() / kLanes, kAbsent);
+            for (std::size_t i = 0; i < level.size(); ++i) {
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    float* node = &stored[i / kLanes * kBoxNode];
+                    node[axis * kLanes + i % kLanes] = level[i][axis];
+                    node[(3 + axis) * kLanes + i % kLanes] = level[i][4 + axis];
+                    Padded& box = around[i / kLanes];
+                    box[axis] = std::min(box[axis], level[i][axis]);
+                    box[4 + axis] = std::max(box[4 + axis], level[i][4 + axis]);
+                }
+            }
+            nodes.push_back(std::move(stored));
+            boxes.push_back(std::move(around));
+        } while (boxes.back().size() > 1);
+        boxes.pop_back();
+        for (const auto& level : nodes) view.level[view.levels++] = level.data();
+    }
+};
+
+TEST(WorldBoxes, FindsWhatABoxMeetsOnEachLevel) {
+    Boxes random(3);
+    for (const std::size_t count : {1, 7, 8, 9, 64, 65, 500, 1000}) {
+        const Tree tree(random.some(count));
+        for (int repeat = 0; repeat < 20; ++repeat) {
+            const Padded asked = random.next();
+            for (unsigned level = 0; level < tree.view.levels; ++level) {
+                const std::vector<Padded>& boxes = tree.boxes[level];
+                const std::size_t first = static_cast<std::size_t>(repeat) * boxes.size() / 25;
+                Numbers expected;
+                for (std::size_t i = first; i < boxes.size(); ++i) {
+                    if (meet(asked, boxes[i])) expected.push_back(static_cast<std::uint32_t>(i));
+                }
+                for_each_table([&](const Table& table) {
+                    Numbers found(boxes.size());
+                    found.resize(table.met_boxes(tree.view, asked.data(), level,
+                                                 static_cast<std::uint32_t>(first), found.data()));
+                    ASSERT_EQ(found, expected);
+                });
+            }
+        }
+    }
+}
+
+TEST(WorldBoxes, FindsPairsOfTwoNodes) {
+    Boxes random(5);
+    std::size_t all = 0;
+    for (int repeat = 0; repeat < 300; ++repeat) {
+        const Tree a(random.some(8)), b(random.some(kLanes * kLanes));
+        const auto node = static_cast<std::size_t>(repeat % 8);
+        BoxPairs expected = 0;
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            for (std::size_t j = 0; j < kLanes; ++j) {
+                const bool found = meet(a.boxes[0][i], b.boxes[0][kLanes * node + j]);
+                expected |= BoxPairs{found} << (kLanes * i + j);
+            }
+        }
+        all += static_cast<std::size_t>(expected != 0);
+        for_each_table([&](const Table& table) {
+            ASSERT_EQ(table.meeting_boxes(a.nodes[0].data(), b.nodes[0].data() + node * kBoxNode,
+                                          b.nodes[1].data() + node),
+                      expected);
+        });
+    }
+    EXPECT_GT(all, 100U);
+}
+
+TEST(WorldBoxes, KeepsPairsThatMeet) {
+    Boxes random(7);
+    const std::vector<Padded> boxes = random.some(100);
+    Numbers pairs, expected;
+    for (std::uint32_t a = 0; a < boxes.size(); ++a) {
+        for (std::uint32_t b = 0; b < boxes.size(); ++b) {
+            pairs.insert(pairs.end(), {a, b});
+            if (meet(boxes[a], boxes[b])) expected.insert(expected.end(), {a, b});
+        }
+    }
+    for_each_table([&](const Table& table) {
+        Numbers kept = pairs;  // in place
+        kept.resize(
+            2 * table.meeting_pairs(boxes[0].data(), kept.data(), pairs.size() / 2, kept.data()));
+        ASSERT_EQ(kept, expected);
+    });
+}
+
+TEST(WorldBoxes, FindsThoseThatLeft) {
+    Boxes random(9);
+    const std::vector<Padded> boxes = random.some(1000);
+    std::vector<Padded> around(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        around[i] = random.next(4);
+        if (i % 3 == 0) around[i] = boxes[i];
+    }
+    constexpr std::uint32_t kFirst = 11;
+    Numbers expected;
+    for (std::uint32_t i = kFirst; i < boxes.size(); ++i) {
+        if (!holds(around[i], boxes[i])) expected.push_back(i);
+    }
+    EXPECT_GT(expected.size(), 100U);
+    EXPECT_LT(expected.size(), 900U);
+    for_each_table([&](const Table& table) {
+        Numbers found(boxes.size());
+        found.resize(table.escaped_boxes(boxes[0].data(), around[0].data(), kFirst,
+                                         boxes.size() - kFirst, found.data()));
+        ASSERT_EQ(found, expected);
+    });
+}
+
+}  // namespace
+}  // namespace cdprep::kernels
