@@ -16,6 +16,7 @@ set(lib_rooms
     "hull: core exact kernels"
     "pieces: core exact hull walk"
     "query: core exact pieces walk"
+    "scene: core kernels"
     "cells: core exact kernels walk"
     "cells/build: build cells core exact"
     "c: core kernels pieces walk")

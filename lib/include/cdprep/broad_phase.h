@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "cdprep/advanced/parallel_for.h"
+
+namespace cdprep {
+
+/// A closed, axis-aligned box in the coordinates of a scene. It may be flat or a point. Infinite
+/// numbers count as the largest finite ones. If lower > upper along an axis, the box is absent: it
+/// forms no pair.
+struct WorldBox {
+    float lower[3];
+    float upper[3];
+};
+
+/// The boxes with which a box may form pairs: two boxes form one only if each accepts a layer of
+/// the other. Layers are bits.
+struct BoxFilter {
+    std::uint32_t layers = 1;
+    std::uint32_t accepts = ~std::uint32_t{0};
+
+    [[nodiscard]] bool allows(const BoxFilter& other) const noexcept {
+        return (layers & other.accepts) != 0 && (other.layers & accepts) != 0;
+    }
+    bool operator==(const BoxFilter&) const = default;
+};
+
+/// Two boxes that meet: a < b.
+struct BoxPair {
+    std::uint32_t a;
+    std::uint32_t b;
+    auto operator<=>(const BoxPair&) const = default;
+};
+
+struct BroadPhaseLimits {
+    std::uint32_t boxes;  ///< at most 2^29
+    /// Pairs that meet at a time. If boxes move little, room for twice as many makes it faster.
+    std::uint32_t pairs;
+    std::uint32_t threads = 1;  ///< tasks that an update runs at a time; at least one
+};
+
+/// The result of BroadPhase::update().
+struct BroadPhaseUpdate {
+    /// All pairs of boxes that meet, sorted. They stay until the next update that is not refused.
+    std::span<const BoxPair> pairs = {};
+    bool complete = true;      ///< otherwise `pairs` is empty; the next two say why
+    std::uint64_t needed = 0;  ///< limits.pairs for this update, if there are too many pairs
+    /// The first box with a number that is NaN. The update has changed nothing.
+    std::optional<std::uint32_t> refused = std::nullopt;
+    std::uint32_t escaped = 0;  ///< boxes that left the larger box that is kept around each
+    bool kept = false;          ///< most pairs come from earlier updates
+};
+
+/// Finds the pairs of boxes that meet, as boxes move. Touching counts.
+///
+/// Each box gets a larger box around it, and pairs of larger boxes are kept from update to update.
+/// Only boxes that leave their larger box are searched for again, in a tree of eight boxes a node.
+/// If many leave, all pairs are searched for anew without larger boxes. The tree follows the
+/// Z-order curve (Morton 1966). The answer depends neither on the way nor on the threads.
+///
+/// An update takes O(n + pairs) time if few boxes leave, otherwise O(n log n + pairs) for boxes of
+/// similar size that are spread out. Of boxes that all meet, each pair is looked at.
+/// tests/bench/broad_phase_bench measures both beside other libraries.
+///
+///     cdprep::BroadPhase broad_phase({.boxes = 1000, .pairs = 16000});
+///     const auto update = broad_phase.update(boxes);
+///     for (const cdprep::BoxPair& pair : update.pairs) ...
+class BroadPhase {
+public:
+    /// Allocates memory once; updates never allocate. Stops the program if the limits are not
+    /// possible.
+    explicit BroadPhase(const BroadPhaseLimits& limits);
+
+    /// Makes one in the caller's memory, which must outlive it. Allocates nothing. Returns nothing
+    /// if the memory is smaller than size() or not aligned to alignment(), or if the limits are not
+    /// possible.
+    [[nodiscard]] static std::optional<BroadPhase> in_memory(
+        std::span<std::byte> memory, const BroadPhaseLimits& limits) noexcept;
+    /// Returns the bytes it takes: about 150 for each box, 24 for each pair, and 4 for each box and
+    /// further thread.
+    [[nodiscard]] static std::size_t size(const BroadPhaseLimits& limits) noexcept;
+    [[nodiscard]] static std::size_t alignment() noexcept;  ///< bytes, a power of two
+
+    BroadPhase(BroadPhase&&) noexcept;
+    BroadPhase& operator=(BroadPhase&&) noexcept;
+    ~BroadPhase();
+
+    /// Returns the pairs of boxes that meet. Any box may have moved since the last update. There
+    /// are at most limits.boxes boxes, and as many filters, or none: then all boxes form pairs.
+    /// Calls `parallel_for` at most twice, each time for at most limits.threads tasks.
+    [[nodiscard]] BroadPhaseUpdate update(std::span<const WorldBox> boxes,
+                                          std::span<const BoxFilter> filters = {},
+                                          ParallelFor parallel_for = serial_for) noexcept;
+
+    /// The same if only the boxes with these numbers have changed, or their filters. The number of
+    /// boxes must be that of the last update. The numbers may be in any order, and repeat. This
+    /// takes less time if few boxes move.
+    [[nodiscard]] BroadPhaseUpdate update_moved(std::span<const WorldBox> boxes,
+                                                std::span<const BoxFilter> filters,
+                                                std::span<const std::uint32_t> moved,
+                                                ParallelFor parallel_for = serial_for) noexcept;
+
+private:
+    struct State;
+    /// Frees memory that was allocated, and does not touch the caller's.
+    struct Release {
+        bool owns;
+        void operator()(State* state) const noexcept;
+    };
+    explicit BroadPhase(std::unique_ptr<State, Release> state) noexcept;
+    static State* make(std::byte* memory, const BroadPhaseLimits& limits) noexcept;
+
+    std::unique_ptr<State, Release> state_;
+};
+
+}  // namespace cdprep

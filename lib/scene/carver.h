@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+
+namespace cdprep {
+
+inline constexpr std::size_t kCarveAlignment = 64;  ///< bytes: a line of the cache
+
+/// Divides a block of memory into arrays. Without memory it measures how much they take.
+class Carver {
+public:
+    /// `memory` is null or aligned to kCarveAlignment.
+    explicit Carver(std::byte* memory) noexcept : memory_(memory) {}
+
+    /// Returns an array of `count` objects with initial values; null without memory.
+    template <class T>
+    T* take(std::size_t count) noexcept {
+        static_assert(alignof(T) <= kCarveAlignment && std::is_trivially_destructible_v<T>);
+        T* const begin = memory_ ? reinterpret_cast<T*>(memory_ + used_) : nullptr;
+        used_ += rounded(count * sizeof(T));
+        if (begin) std::uninitialized_value_construct_n(begin, count);
+        return begin;
+    }
+    /// Returns room for an object, which is not made.
+    template <class T>
+    T* take_room() noexcept {
+        static_assert(alignof(T) <= kCarveAlignment);
+        T* const room = memory_ ? reinterpret_cast<T*>(memory_ + used_) : nullptr;
+        used_ += rounded(sizeof(T));
+        return room;
+    }
+    [[nodiscard]] std::size_t used() const noexcept {
+        return used_;
+    }
+
+private:
+    static std::size_t rounded(std::size_t size) noexcept {
+        return (size + kCarveAlignment - 1) / kCarveAlignment * kCarveAlignment;
+    }
+
+    std::byte* memory_;
+    std::size_t used_ = 0;
+};
+
+}  // namespace cdprep

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/broad_phase.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/moving_boxes.h"
+#include "support/run_threads.h"
+
+namespace cdprep {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr WorldBox kAbsent = {{1, 0, 0}, {0, 1, 1}};
+constexpr WorldBox kEverything = {{-kInfinity, -kInfinity, -kInfinity},
+                                  {kInfinity, kInfinity, kInfinity}};
+
+using Pairs = std::vector<BoxPair>;
+
+Pairs pairs_of(const BroadPhaseUpdate& update) {
+    EXPECT_TRUE(update.complete);
+    return {update.pairs.begin(), update.pairs.end()};
+}
+
+BroadPhase made_for(std::size_t boxes, std::size_t pairs) {
+    return BroadPhase(
+        {.boxes = static_cast<std::uint32_t>(boxes), .pairs = static_cast<std::uint32_t>(pairs)});
+}
+
+WorldBox cube(float x, float y, float z, float edge) {
+    return {{x, y, z}, {x + edge, y + edge, z + edge}};
+}
+
+/// Boxes whose faces lie on a coarse grid, so that many touch.
+std::vector<WorldBox> grid_boxes(std::size_t count, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    const auto coordinate = [&] { return static_cast<float>(random() % 12); };
+    std::vector<WorldBox> boxes(count);
+    for (WorldBox& box : boxes) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            box.lower[axis] = coordinate();
+            box.upper[axis] = box.lower[axis] + static_cast<float>(random() % 3);
+        }
+    }
+    return boxes;
+}
+
+TEST(BroadPhase, EqualsBruteForceAsBoxesMove) {
+    for (const test::BoxScene scene : test::kBoxScenes) {
+        for (const std::size_t count : {0, 1, 2, 7, 8, 9, 63, 64, 65, 600}) {
+            SCOPED_TRACE(std::string(test::name_of(scene)) + " " + std::to_string(count));
+            test::MovingBoxes boxes(scene, count, 7);
+            BroadPhase all = made_for(count, 40 * count), some = made_for(count, 40 * count);
+            ASSERT_EQ(pairs_of(some.update(boxes.boxes())), test::brute_force_pairs(boxes.boxes()));
+            for (int step = 0; step < 40; ++step) {
+                const Pairs expected = test::brute_force_pairs(boxes.boxes());
+                ASSERT_EQ(pairs_of(all.update(boxes.boxes())), expected);
+                ASSERT_EQ(pairs_of(some.update_moved(boxes.boxes(), {}, boxes.moved())), expected);
+                boxes.step();
+            }
+        }
+    }
+}
+
+TEST(BroadPhase, EqualsBruteForceOfTenThousand) {
+    for (const test::BoxScene scene : test::kBoxScenes) {
+        SCOPED_TRACE(test::name_of(scene));
+        test::MovingBoxes boxes(scene, 10'000, 3);
+        BroadPhase broad_phase = made_for(10'000, 400'000);
+        for (int step = 0; step < 12; ++step) {
+            const BroadPhaseUpdate update = broad_phase.update(boxes.boxes());
+            if (step % 11 == 0) {
+                ASSERT_EQ(pairs_of(update), test::brute_force_pairs(boxes.boxes()));
+            }
+            boxes.step();
+        }
+    }
+}
+
+// Boxes that move far leave in every update, and then stay: both ways and the changes between them.
+TEST(BroadPhase, BothWaysGiveTheSame) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> any(0, 20);
+    std::vector<WorldBox> boxes(300);
+    BroadPhase broad_phase = made_for(boxes.size(), 10'000);
+    int kept = 0, anew = 0;
+    for (int step = 0; step < 120; ++step) {
+        const std::size_t moves = step / 30 % 2 == 0 ? boxes.size() : 5;
+        for (std::size_t i = 0; i < moves; ++i) {
+            boxes[i] = cube(any(random), any(random), any(random), 2);
+        }
+        const BroadPhaseUpdate update = broad_phase.update(boxes);
+        ASSERT_EQ(pairs_of(update), test::brute_force_pairs(boxes));
+        ++(update.kept ? kept : anew);
+    }
+    EXPECT_GT(kept, 30);
+    EXPECT_GT(anew, 30);
+}
+
+TEST(BroadPhase, ThreadsGiveTheSame) {
+    for (const test::BoxScene scene : test::kBoxScenes) {
+        SCOPED_TRACE(test::name_of(scene));
+        constexpr std::size_t kCount = 3000;
+        test::MovingBoxes boxes(scene, kCount, 41);
+        std::vector<BroadPhase> phases;
+        for (const std::uint32_t threads : {1U, 2U, 8U}) {
+            phases.push_back(
+                BroadPhase({.boxes = kCount, .pairs = 20 * kCount, .threads = threads}));
+        }
+        for (int step = 0; step < 30; ++step) {
+            const Pairs expected = pairs_of(phases[0].update(boxes.boxes()));
+            for (std::size_t i = 1; i < phases.size(); ++i) {
+                ASSERT_EQ(pairs_of(phases[i].update(boxes.boxes(), {}, test::run_threads)),
+                          expected);
+            }
+            boxes.step();
+        }
+    }
+}
+
+TEST(BroadPhase, TouchingBoxesMeet) {
+    const std::vector<WorldBox> boxes = grid_boxes(500, 11);
+    BroadPhase broad_phase = made_for(boxes.size(), 100'000);
+    ASSERT_EQ(pairs_of(broad_phase.update(boxes)), test::brute_force_pairs(boxes));
+    const std::vector<WorldBox> corners = {cube(0, 0, 0, 1), cube(1, 1, 1, 1),
+                                           cube(std::nextafter(1.0F, 2.0F), 0, 0, 1)};
+    ASSERT_EQ(pairs_of(broad_phase.update(corners)), (Pairs{{0, 1}, {1, 2}}));
+}
+
+TEST(BroadPhase, TakesFlatInfiniteEqualAndAbsentBoxes) {
+    std::vector<WorldBox> boxes = grid_boxes(100, 13);
+    boxes[3] = kEverything;
+    boxes[4] = {{-kInfinity, 2, 2}, {kInfinity, 2, 2}};
+    boxes[5] = {{-3e38F, -3e38F, -3e38F}, {3e38F, 3e38F, 3e38F}};
+    boxes[6] = {{5, 5, 5}, {5, 5, 5}};
+    for (std::size_t i = 20; i < 60; ++i) boxes[i] = cube(4, 4, 4, 1);
+    for (std::size_t i = 70; i < 80; ++i) boxes[i] = kAbsent;
+    boxes[80] = {{kInfinity, kInfinity, kInfinity}, {kInfinity, kInfinity, kInfinity}};
+    boxes[81] = {{0, 0, 0}, {-1, -1, kInfinity}};
+    BroadPhase broad_phase = made_for(boxes.size(), 10'000);
+    ASSERT_EQ(pairs_of(broad_phase.update(boxes)), test::brute_force_pairs(boxes));
+    for (std::size_t i = 0; i < boxes.size(); i += 7) std::swap(boxes[i], boxes[99 - i]);
+    ASSERT_EQ(pairs_of(broad_phase.update(boxes)), test::brute_force_pairs(boxes));
+    std::fill(boxes.begin(), boxes.end(), kAbsent);
+    EXPECT_TRUE(pairs_of(broad_phase.update(boxes)).empty());
+    std::fill(boxes.begin(), boxes.end(), kEverything);
+    EXPECT_EQ(broad_phase.update(boxes).pairs.size(), 100U * 99 / 2);
+}
+
+TEST(BroadPhase, BoxesComeAndGo) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<float> any(0, 12);
+    std::vector<WorldBox> boxes(200, kAbsent);
+    BroadPhase broad_phase = made_for(boxes.size(), 10'000);
+    ASSERT_TRUE(pairs_of(broad_phase.update(boxes)).empty());
+    for (int step = 0; step < 2000; ++step) {
+        std::vector<std::uint32_t> moved(random() % 6);
+        for (std::uint32_t& number : moved) {
+            number = static_cast<std::uint32_t>(random() % boxes.size());
+            const float edge = std::exp2(static_cast<float>(random() % 6) - 3);
+            boxes[number] =
+                random() % 3 == 0 ? kAbsent : cube(any(random), any(random), any(random), edge);
+        }
+        const Pairs pairs = pairs_of(broad_phase.update_moved(boxes, {}, moved));
+        ASSERT_EQ(pairs, test::brute_force_pairs(boxes)) << step;
+    }
+}
+
+TEST(BroadPhase, FiltersAreMutual) {
+    std::mt19937 random(19);
+    std::vector<WorldBox> boxes = grid_boxes(300, 19);
+    std::vector<BoxFilter> filters(boxes.size());
+    for (BoxFilter& filter : filters) {
+        filter = {std::uint32_t{1} << random() % 4, static_cast<std::uint32_t>(random() % 16)};
+    }
+    BroadPhase broad_phase = made_for(boxes.size(), 60'000);
+    for (int step = 0; step < 40; ++step) {
+        ASSERT_EQ(pairs_of(broad_phase.update(boxes, filters)),
+                  test::brute_force_pairs(boxes, filters));
+        // No box moves, but some change what they accept.
+        const auto number = static_cast<std::uint32_t>(random() % boxes.size());
+        filters[number].accepts ^= 5;
+        ASSERT_EQ(pairs_of(broad_phase.update_moved(boxes, filters, {&number, 1})),
+                  test::brute_force_pairs(boxes, filters));
+        filters[random() % boxes.size()].layers = 8;
+    }
+    ASSERT_EQ(pairs_of(broad_phase.update(boxes)), test::brute_force_pairs(boxes));
+}
+
+TEST(BroadPhase, SaysHowMuchRoomIsNeeded) {
+    const std::vector<WorldBox> boxes(50, cube(0, 0, 0, 1));
+    constexpr std::size_t kAll = 50 * 49 / 2;
+    for (const std::size_t room : {std::size_t{0}, std::size_t{10}, kAll - 1}) {
+        BroadPhase broad_phase = made_for(boxes.size(), room);
+        for (int repeat = 0; repeat < 3; ++repeat) {
+            const BroadPhaseUpdate update = broad_phase.update(boxes);
+            EXPECT_FALSE(update.complete);
+            EXPECT_TRUE(update.pairs.empty());
+            EXPECT_EQ(update.needed, kAll);
+        }
+    }
+    BroadPhase broad_phase = made_for(boxes.size(), kAll);
+    EXPECT_EQ(pairs_of(broad_phase.update(boxes)).size(), kAll);
+}
+
+// The larger boxes form more pairs than there is room for, the boxes themselves do not.
+TEST(BroadPhase, RoomForThePairsIsEnough) {
+    test::MovingBoxes boxes(test::BoxScene::pile, 400, 23);
+    std::size_t most = 0;
+    std::vector<std::vector<WorldBox>> steps;
+    for (int step = 0; step < 60; ++step) {
+        steps.emplace_back(boxes.boxes().begin(), boxes.boxes().end());
+        most = std::max(most, test::brute_force_pairs(boxes.boxes()).size());
+        boxes.step();
+    }
+    BroadPhase broad_phase = made_for(400, most);
+    for (const auto& step : steps) {
+        ASSERT_EQ(pairs_of(broad_phase.update(step)), test::brute_force_pairs(step));
+    }
+}
+
+TEST(BroadPhase, RefusesNanAndChangesNothing) {
+    std::vector<WorldBox> boxes = grid_boxes(40, 29);
+    BroadPhase broad_phase = made_for(boxes.size(), 2000);
+    const BroadPhaseUpdate before = broad_phase.update(boxes);
+    const Pairs expected = pairs_of(before);
+    for (const bool names_moved : {false, true}) {
+        std::vector<WorldBox> wrong = boxes;
+        wrong[3] = kEverything;
+        wrong[17].upper[1] = kNan;
+        const std::vector<std::uint32_t> moved = {3, 17};
+        const BroadPhaseUpdate update =
+            names_moved ? broad_phase.update_moved(wrong, {}, moved) : broad_phase.update(wrong);
+        EXPECT_FALSE(update.complete);
+        EXPECT_EQ(update.refused, 17U);
+        EXPECT_EQ(pairs_of(before), expected);
+        EXPECT_EQ(pairs_of(broad_phase.update_moved(boxes, {}, {})), expected);
+    }
+}
+
+TEST(BroadPhase, LivesInMemoryOfTheCaller) {
+    const BroadPhaseLimits limits = {.boxes = 100, .pairs = 1000};
+    const std::size_t size = BroadPhase::size(limits), alignment = BroadPhase::alignment();
+    std::vector<std::byte> room(size + 2 * alignment);
+    void* at = room.data();
+    std::size_t space = room.size();
+    auto* const memory = static_cast<std::byte*>(std::align(alignment, size, at, space));
+    EXPECT_FALSE(BroadPhase::in_memory({memory, size - 1}, limits));
+    EXPECT_FALSE(BroadPhase::in_memory({memory + 1, size}, limits));
+    EXPECT_FALSE(BroadPhase::in_memory({memory, size}, {.boxes = 1U << 30, .pairs = 0}));
+    const std::vector<WorldBox> boxes = grid_boxes(100, 31);
+    std::optional<BroadPhase> broad_phase = BroadPhase::in_memory({memory, size}, limits);
+    ASSERT_TRUE(broad_phase);
+    const BroadPhaseUpdate update = broad_phase->update(boxes);
+    EXPECT_EQ(pairs_of(update), test::brute_force_pairs(boxes));
+}
+
+TEST(BroadPhaseDeathTest, StopsOnWrongSizes) {
+    const std::vector<WorldBox> boxes = grid_boxes(10, 37);
+    const std::vector<BoxFilter> filters(9);
+    const std::vector<std::uint32_t> moved = {10};
+    BroadPhase small = made_for(9, 100), enough = made_for(10, 100);
+    EXPECT_DEATH((void)small.update(boxes), "was made for fewer boxes");
+    EXPECT_DEATH((void)enough.update(boxes, filters), "needs a filter for each box");
+    EXPECT_DEATH((void)enough.update_moved(boxes, {}, moved), "differs from the last one");
+    (void)enough.update(boxes);
+    EXPECT_DEATH((void)enough.update_moved(boxes, {}, moved), "does not exist");
+}
+
+}  // namespace
+}  // namespace cdprep
