@@ -36,6 +36,8 @@ constexpr float kMargin = 0.03F;
 constexpr std::uint32_t kLeastMovesAhead = 20;
 constexpr std::uint32_t kMoveSteps = 32;
 constexpr float kMostAhead = 0.4F;
+// Where the way is not known, it reaches up to so far on all sides, again not alike.
+constexpr float kMostMargin = 0.15F;
 
 // Boxes that leave, of all, and for how many updates in a row, before pairs are no longer kept, or
 // kept again.
@@ -84,19 +86,23 @@ void store(const WorldBox& box, float* padded, Move& move) noexcept {
     }
 }
 
-/// Stores the larger box around a box that moved so.
+/// Stores the larger box around a box that moved so. It has not moved, or was absent, where the
+/// move is 0 or not a number.
 void store_around(const float* box, const Move& move, std::uint32_t number,
                   float* larger) noexcept {
     float edges = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) edges += box[kPaddedUpper + axis] - box[axis];
     // An absent box has no edges, and stays absent.
     const float edge = std::max(0.0F, edges / 3);
-    const auto lookahead = static_cast<float>(kLeastMovesAhead + number % kMoveSteps);
+    const std::uint32_t step = number % kMoveSteps;
+    const bool is_moving = move[0] * move[0] + move[1] * move[1] + move[2] * move[2] > 0;
+    const float share = static_cast<float>(step) / kMoveSteps;
+    const float margin = edge * (is_moving ? kMargin : kMargin + (kMostMargin - kMargin) * share);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        // No move is known (NaN) of a box that was absent.
-        const float ahead = std::min(std::abs(lookahead * move[axis]), kMostAhead * edge);
-        const float below = kMargin * edge + (move[axis] < 0 ? ahead : 0);
-        const float above = kMargin * edge + (move[axis] > 0 ? ahead : 0);
+        const float way = std::abs(move[axis]) * static_cast<float>(kLeastMovesAhead + step);
+        const float ahead = is_moving ? std::min(way, kMostAhead * edge) : 0;
+        const float below = margin + (move[axis] < 0 ? ahead : 0);
+        const float above = margin + (move[axis] > 0 ? ahead : 0);
         larger[axis] = std::max(box[axis] - below, -kLargest);
         larger[kPaddedUpper + axis] = std::min(box[kPaddedUpper + axis] + above, kLargest);
     }
@@ -205,6 +211,7 @@ void BroadPhase::State::forget(std::uint32_t boxes) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
         const float absent[kPaddedBox] = {kInfinite,  kInfinite,  kInfinite,  0,
                                           -kInfinite, -kInfinite, -kInfinite, 0};
+        std::copy_n(absent, kPaddedBox, exact + i * kPaddedBox);
         std::copy_n(absent, kPaddedBox, larger + i * kPaddedBox);
     }
 }

@@ -275,7 +275,7 @@ void compare(test::BoxScene scene, std::size_t count, int steps, int rounds) {
             if (count > all[c].most) continue;
             test::MovingBoxes boxes(scene, count, 1);
             const std::unique_ptr<Contender> contender = all[c].make(boxes.boxes());
-            constexpr int kWarm = 10;
+            constexpr int kWarm = 40;
             for (int step = -kWarm; step < steps; ++step) {
                 boxes.step();
                 const double begun = thread_us();
