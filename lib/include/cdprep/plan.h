@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cdprep/ask.h"
+#include "cdprep/broad_phase.h"
+#include "cdprep/pairs.h"
+
+namespace cdprep {
+
+/// The number of layers of a scene. An object is in one of them.
+inline constexpr std::uint32_t kLayers = 32;
+
+/// What the objects of two layers are asked about each other. The two may be the same layer.
+struct LayerPair {
+    std::uint32_t a = 0;  ///< a layer, below kLayers
+    std::uint32_t b = 0;
+    /// Any of Ask::collide, within and distance; others are refused. Nothing: the pair is dropped.
+    Ask effects = Ask::nothing;
+    double tolerance = 0;  ///< of `within`, in units of the models; finite, at least 0
+    /// Of `distance`: farther objects have none. In units of the models; finite, at least 0.
+    double max_distance = 0;
+    Body body = Body::surface;          ///< of `collide` and `distance`
+    Overlap overlap = Overlap::closed;  ///< of `collide`
+};
+
+/// The use of a model in a scene.
+struct ModelUse {
+    std::string_view name;  ///< for refusals
+    Ask serves;             ///< Model::asks()
+    std::uint32_t layers;   ///< of its objects: bit i for layer i
+};
+
+struct SceneLimits {
+    std::uint32_t objects = 0;
+    std::uint32_t pairs = 0;    ///< whose boxes meet at a time, as BroadPhaseLimits::pairs
+    std::uint32_t threads = 1;  ///< tasks that a step runs at a time; at least one
+};
+
+struct PlanOptions {
+    std::span<const LayerPair> pairs;
+    std::span<const ModelUse> models = {};
+    SceneLimits limits;
+};
+
+/// What a scene computes, and nothing else: compiled once from the effects of pairs of layers.
+///
+/// Objects of layers that are not paired are never looked at together, not even their boxes. A
+/// query runs only for effects that its pair of layers asks for.
+class Plan {
+public:
+    /// Returns the plan, or every reason why there is none, a sentence each. Refused are unknown
+    /// layers, a pair of layers that stands twice, effects that are not built, numbers out of
+    /// range, options that no effect reads, and models that do not serve an effect of their layers.
+    struct Compiled;
+    [[nodiscard]] static Compiled compile(const PlanOptions& options);
+
+    [[nodiscard]] const SceneLimits& limits() const noexcept {
+        return limits_;
+    }
+    /// The pairs of layers that ask for something, in their order.
+    [[nodiscard]] std::span<const LayerPair> pairs() const noexcept {
+        return pairs_;
+    }
+    /// Returns the number of the pair of two layers among pairs(), or nothing if they are not
+    /// paired.
+    [[nodiscard]] std::optional<std::uint32_t> find_pair(std::uint32_t a,
+                                                         std::uint32_t b) const noexcept;
+    /// Returns what the objects of a layer are asked for: open their models for this.
+    [[nodiscard]] Ask asks_of(std::uint32_t layer) const noexcept;
+    /// Returns the layers with which a layer is paired.
+    [[nodiscard]] BoxFilter filter_of(std::uint32_t layer) const noexcept;
+    /// Returns how far the boxes of a layer's objects reach beyond them, in units of the models.
+    [[nodiscard]] double reach_of(std::uint32_t layer) const noexcept;
+    /// Returns all effects of all pairs.
+    [[nodiscard]] Ask effects() const noexcept;
+
+    /// Returns a page of text: for each pair of layers its effects and the queries that run, then
+    /// what is not computed.
+    [[nodiscard]] std::string describe() const;
+
+private:
+    explicit Plan(const PlanOptions& options);
+
+    SceneLimits limits_;
+    std::vector<LayerPair> pairs_;
+    std::array<std::uint16_t, kLayers * kLayers> number_{};  ///< [a][b]: 1 more than the pair's
+};
+
+struct Plan::Compiled {
+    std::optional<Plan> plan;
+    std::vector<std::string> refusals;  ///< empty if and only if there is a plan
+};
+
+}  // namespace cdprep

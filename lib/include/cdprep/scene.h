@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "cdprep/advanced/parallel_for.h"
+#include "cdprep/model.h"
+#include "cdprep/pairs.h"
+#include "cdprep/plan.h"
+#include "cdprep/pose.h"
+#include "cdprep/workspace.h"
+
+namespace cdprep {
+
+/// An object of a scene. A slot that is used again has another generation; generation 0 is no
+/// object.
+struct ObjectId {
+    std::uint32_t slot = 0;
+    std::uint32_t generation = 0;
+    auto operator<=>(const ObjectId&) const = default;
+};
+
+/// An object to add. The model must outlive it, and serve Plan::asks_of(layer).
+struct SceneObject {
+    const Model* model = nullptr;
+    std::uint32_t layer = 0;
+    Pose world_from_model;
+};
+
+/// Two objects for which an effect holds: a.slot < b.slot.
+struct SceneHit {
+    ObjectId a;
+    ObjectId b;
+    std::uint32_t pair;  ///< of layers: its number in Plan::pairs()
+    /// Of Ask::collide, within and distance: the effects that hold. `distance` holds if the
+    /// distance is at most max_distance.
+    Ask holds;
+    /// Of `collide`. If it is not known whether they collide, the two are listed without a hit.
+    Collision collision;
+};
+
+/// The distance of two objects.
+struct SceneDistance {
+    ObjectId a;
+    ObjectId b;
+    std::uint32_t pair;
+    Distance distance;  ///< A is the object with the lower slot; witnesses are in the world
+};
+
+/// The reason of an event.
+enum class EventReason : std::uint32_t {
+    moved,      ///< an object moved, or was added
+    removed,    ///< an object was removed
+    relayered,  ///< an object changed its layer
+};
+
+/// An effect that begins or ceases to hold for two objects. Each begin is followed by one end
+/// before the next begin of the same objects and effect.
+struct SceneEvent {
+    ObjectId a;
+    ObjectId b;
+    std::uint32_t pair;  ///< of layers, when it began
+    Ask effect;          ///< one of Ask::collide, within, distance
+    bool begins;
+    EventReason reason;
+};
+
+/// The work of a step.
+struct SceneCounts {
+    std::uint64_t moved = 0;       ///< objects that moved, were added or changed their layer
+    std::uint64_t candidates = 0;  ///< pairs whose boxes meet
+    std::uint64_t kept = 0;        ///< candidates of which neither object moved: not asked again
+    std::uint64_t collide = 0;     ///< calls of collide()
+    std::uint64_t within = 0;      ///< calls of within()
+    std::uint64_t distance = 0;    ///< calls of distance()
+};
+
+/// The result of Scene::step().
+struct SceneStep {
+    bool complete = true;            ///< otherwise nothing has changed
+    std::uint64_t needed_pairs = 0;  ///< SceneLimits::pairs for this step, if there are too many
+};
+
+/// Many objects that move. A step asks what the plan asks for, of the pairs of objects that are
+/// near each other, and of which one has moved.
+///
+/// Results are sorted by the slots of a and b. They depend neither on threads nor on the order of
+/// calls, and equal those of single queries with Placement::world. They stay until the next step
+/// that is complete. After construction nothing is allocated.
+///
+///     cdprep::Scene scene(plan);
+///     const auto crate = scene.add({.model = &model, .layer = 1, .world_from_model = pose});
+///     scene.set_pose(*crate, next);
+///     if (scene.step(workspaces).complete) use(scene.events());
+class Scene {
+public:
+    /// Allocates the memory for plan.limits(). Stops the program if the limits are not possible.
+    explicit Scene(const Plan& plan);
+
+    /// Makes one in the caller's memory, which must outlive it, as the plan must. Returns nothing
+    /// if the memory is smaller than size() or not aligned to alignment().
+    [[nodiscard]] static std::optional<Scene> in_memory(std::span<std::byte> memory,
+                                                        const Plan& plan) noexcept;
+    [[nodiscard]] static std::size_t size(const Plan& plan) noexcept;  ///< bytes
+    [[nodiscard]] static std::size_t alignment() noexcept;             ///< bytes, a power of two
+
+    Scene(Scene&&) noexcept;
+    Scene& operator=(Scene&&) noexcept;
+    ~Scene();
+
+    /// Adds an object to the lowest free slot. Returns nothing if the scene is full. Stops the
+    /// program if the layer is unknown, or the model does not serve what the layer asks for.
+    std::optional<ObjectId> add(const SceneObject& object) noexcept;
+    /// Removes an object. The next step ends its events. Returns false if there is none with this
+    /// id.
+    bool remove(ObjectId object) noexcept;
+    /// Moves an object. Returns false if there is none with this id.
+    bool set_pose(ObjectId object, const Pose& world_from_model) noexcept;
+    /// Changes the layer of an object. Returns false if there is none with this id.
+    bool set_layer(ObjectId object, std::uint32_t layer) noexcept;
+
+    /// Computes the effects of all objects as they are now. Uses as many workspaces as
+    /// limits.threads allows; there must be at least one. Calls `parallel_for` at most three times.
+    SceneStep step(std::span<Workspace> workspaces, ParallelFor parallel_for = serial_for) noexcept;
+
+    [[nodiscard]] std::span<const SceneHit> hits() const noexcept;
+    [[nodiscard]] std::span<const SceneDistance> distances() const noexcept;
+    /// The events of the last step that was complete, in the order of hits.
+    [[nodiscard]] std::span<const SceneEvent> events() const noexcept;
+    [[nodiscard]] const SceneCounts& counts() const noexcept;
+    [[nodiscard]] std::uint32_t object_count() const noexcept;
+    /// Returns a hash of all hits, distances and events: equal for any threads and instruction set.
+    [[nodiscard]] std::uint64_t state_hash() const noexcept;
+
+private:
+    struct State;
+    struct Release {
+        bool owns;
+        void operator()(State* state) const noexcept;
+    };
+    explicit Scene(std::unique_ptr<State, Release> state) noexcept;
+    static State* make(std::byte* memory, const Plan& plan) noexcept;
+
+    std::unique_ptr<State, Release> state_;
+};
+
+}  // namespace cdprep

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/plan.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "cdprep/format/float_environment.h"
+
+namespace cdprep {
+namespace {
+
+/// The effects that a scene computes, in the order of texts.
+constexpr std::array kBuilt = {Ask::collide, Ask::within, Ask::distance};
+constexpr const char* kBuiltNames = "collide, within and distance";
+constexpr std::uint32_t kMostObjects = std::uint32_t{1} << 29;
+
+bool has(Ask asks, Ask one) noexcept {
+    return contains(asks, one);
+}
+
+std::string text_of(double number) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+    return {text.data(), end};
+}
+
+/// The name of an effect, or its bit if it has none.
+std::string name_of(Ask one) {
+    const Needs* needs = find_needs(one);
+    if (needs != nullptr) return needs->name;
+    return "effect bit " + std::to_string(std::countr_zero(static_cast<std::uint32_t>(one)));
+}
+
+/// Calls `visit` with each bit.
+template <class Visit>
+void for_each_bit(Ask asks, const Visit& visit) {
+    for (auto bits = static_cast<std::uint32_t>(asks); bits != 0; bits &= bits - 1) {
+        visit(static_cast<Ask>(bits & (~bits + 1)));
+    }
+}
+
+/// What a pair of layers asks of the models: its effects, and Ask::solid for solid bodies.
+Ask asks_of_models(const LayerPair& pair) noexcept {
+    const bool is_solid =
+        pair.body == Body::solid && (pair.effects & (Ask::collide | Ask::distance)) != Ask::nothing;
+    return is_solid ? pair.effects | Ask::solid : pair.effects;
+}
+
+/// Collects the reasons why there is no plan.
+class Refusals {
+public:
+    explicit Refusals(const PlanOptions& options) : options_(options) {
+        check_limits();
+        for (std::size_t i = 0; i < options.pairs.size(); ++i) check_pair(i);
+        for (const ModelUse& model : options.models) check_model(model);
+    }
+    [[nodiscard]] std::vector<std::string> take() noexcept {
+        return std::move(sentences_);
+    }
+
+private:
+    void add(std::string sentence) {
+        sentences_.push_back(std::move(sentence));
+    }
+
+    void check_limits() {
+        if (options_.limits.objects > kMostObjects) {
+            add("limits.objects is " + std::to_string(options_.limits.objects) +
+                "; at most 536870912 are possible.");
+        }
+        if (options_.limits.threads == 0) add("limits.threads is 0; at least 1 is needed.");
+    }
+
+    void check_pair(std::size_t number) {
+        const LayerPair& pair = options_.pairs[number];
+        const std::string place = "Pair " + std::to_string(number) + " of layers: ";
+        for (const std::uint32_t layer : {pair.a, pair.b}) {
+            if (layer < kLayers) continue;
+            add(place + "layer " + std::to_string(layer) + " does not exist; there are 0 to 31.");
+        }
+        for (std::size_t other = 0; other < number; ++other) {
+            const LayerPair& before = options_.pairs[other];
+            if (std::minmax(pair.a, pair.b) != std::minmax(before.a, before.b)) continue;
+            add(place + "layers " + std::to_string(pair.a) + " and " + std::to_string(pair.b) +
+                " are also those of pair " + std::to_string(other) + ".");
+        }
+        for_each_bit(pair.effects, [&](Ask one) {
+            if (std::find(kBuilt.begin(), kBuilt.end(), one) != kBuilt.end()) return;
+            add(place + name_of(one) + " is not built in a scene. Built are " + kBuiltNames + ".");
+        });
+        check_number(place, "tolerance", pair.tolerance, has(pair.effects, Ask::within), "within");
+        check_number(place, "max_distance", pair.max_distance, has(pair.effects, Ask::distance),
+                     "distance");
+        const bool reads_body = (pair.effects & (Ask::collide | Ask::distance)) != Ask::nothing;
+        if (pair.body != Body::surface && !reads_body) {
+            add(place + "body has no meaning without collide or distance.");
+        }
+        if (pair.overlap != Overlap::closed && !has(pair.effects, Ask::collide)) {
+            add(place + "overlap has no meaning without collide.");
+        }
+    }
+
+    void check_number(const std::string& place, const char* name, double value, bool is_read,
+                      const char* effect) {
+        if (!std::isfinite(value) || value < 0) {
+            add(place + name + " is " + text_of(value) + "; it must be finite and at least 0.");
+        } else if (value != 0 && !is_read) {
+            add(place + name + " has no meaning without " + effect + ".");
+        }
+    }
+
+    void check_model(const ModelUse& model) {
+        Ask lacking = Ask::nothing;
+        for (const LayerPair& pair : options_.pairs) {
+            if (std::max(pair.a, pair.b) >= kLayers) continue;
+            const std::uint32_t layers = 1U << pair.a | 1U << pair.b;
+            if ((model.layers & layers) == 0) continue;
+            lacking = lacking | without(asks_of_models(pair), model.serves);
+        }
+        for_each_bit(lacking, [&](Ask one) {
+            const Needs* needs = find_needs(one);
+            if (needs == nullptr) return;  // refused above
+            add(std::string(model.name) + ": its layers ask for " + needs->name +
+                ", which the model does not serve. Bake it with " + needs->bake_option + ".");
+        });
+    }
+
+    const PlanOptions& options_;
+    std::vector<std::string> sentences_;
+};
+
+std::string sentence_of(const LayerPair& pair) {
+    std::string effects;
+    const auto add = [&](const std::string& text) {
+        effects += (effects.empty() ? "" : ", ") + text;
+    };
+    const char* solid = pair.body == Body::solid ? " of solids" : "";
+    if (has(pair.effects, Ask::collide)) {
+        add(std::string("collide") + solid + (pair.overlap == Overlap::proper ? ", proper" : ""));
+    }
+    if (has(pair.effects, Ask::within)) add("within " + text_of(pair.tolerance));
+    if (has(pair.effects, Ask::distance)) {
+        add(std::string("distance") + solid + " up to " + text_of(pair.max_distance));
+    }
+    return "layers " + std::to_string(pair.a) + " and " + std::to_string(pair.b) + ": " + effects;
+}
+
+}  // namespace
+
+Plan::Plan(const PlanOptions& options) : limits_(options.limits) {
+    for (const LayerPair& pair : options.pairs) {
+        if (pair.effects == Ask::nothing) continue;
+        pairs_.push_back(pair);
+        const auto number = static_cast<std::uint16_t>(pairs_.size());
+        number_[pair.a * kLayers + pair.b] = number_[pair.b * kLayers + pair.a] = number;
+    }
+}
+
+Plan::Compiled Plan::compile(const PlanOptions& options) {
+    const format::FloatEnvironment environment;
+    Compiled compiled;
+    compiled.refusals = Refusals(options).take();
+    if (compiled.refusals.empty()) compiled.plan = Plan(options);
+    return compiled;
+}
+
+std::optional<std::uint32_t> Plan::find_pair(std::uint32_t a, std::uint32_t b) const noexcept {
+    if (a >= kLayers || b >= kLayers) return std::nullopt;
+    const std::uint32_t number = number_[a * kLayers + b];
+    return number == 0 ? std::nullopt : std::optional(number - 1);
+}
+
+Ask Plan::asks_of(std::uint32_t layer) const noexcept {
+    Ask asks = Ask::nothing;
+    for (const LayerPair& pair : pairs_) {
+        if (pair.a == layer || pair.b == layer) asks = asks | asks_of_models(pair);
+    }
+    return asks;
+}
+
+BoxFilter Plan::filter_of(std::uint32_t layer) const noexcept {
+    BoxFilter filter = {.layers = layer < kLayers ? 1U << layer : 0, .accepts = 0};
+    for (std::uint32_t other = 0; other < kLayers; ++other) {
+        if (find_pair(layer, other)) filter.accepts |= 1U << other;
+    }
+    return filter;
+}
+
+// Two boxes that each reach half the distance beyond their objects meet if the objects are near.
+double Plan::reach_of(std::uint32_t layer) const noexcept {
+    double most = 0;
+    for (const LayerPair& pair : pairs_) {
+        if (pair.a == layer || pair.b == layer) {
+            most = std::max({most, pair.tolerance, pair.max_distance});
+        }
+    }
+    return most / 2;
+}
+
+Ask Plan::effects() const noexcept {
+    Ask all = Ask::nothing;
+    for (const LayerPair& pair : pairs_) all = all | pair.effects;
+    return all;
+}
+
+std::string Plan::describe() const {
+    std::string text;
+    std::uint32_t layers = 0;
+    for (const LayerPair& pair : pairs_) {
+        text += sentence_of(pair) + "\n";
+        layers |= 1U << pair.a | 1U << pair.b;
+    }
+    std::string rest;
+    for (const Ask one : kBuilt) {
+        if (!has(effects(), one)) rest += (rest.empty() ? "" : ", ") + name_of(one);
+    }
+    if (!rest.empty()) text += "not computed, for no pair of layers asks: " + rest + "\n";
+    std::string apart;
+    for (std::uint32_t a = 0; a < kLayers; ++a) {
+        for (std::uint32_t b = a; b < kLayers; ++b) {
+            if ((layers >> a & layers >> b & 1) == 0 || find_pair(a, b)) continue;
+            apart += (apart.empty() ? "" : ", ") + std::to_string(a) + " and " + std::to_string(b);
+        }
+    }
+    if (!apart.empty()) text += "layers that are never looked at together: " + apart + "\n";
+    return text;
+}
+
+}  // namespace cdprep

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace cdprep {
+namespace {
+
+constexpr SceneLimits kLimits = {.objects = 10, .pairs = 100};
+
+Plan::Compiled compiled(const std::vector<LayerPair>& pairs,
+                        const std::vector<ModelUse>& models = {},
+                        const SceneLimits& limits = kLimits) {
+    return Plan::compile({.pairs = pairs, .models = models, .limits = limits});
+}
+
+using Sentences = std::vector<std::string>;
+
+TEST(Plan, DropsWhatNobodyAsksFor) {
+    const Plan::Compiled made = compiled({{.a = 0, .b = 1, .effects = Ask::collide},
+                                          {.a = 2, .b = 2, .effects = Ask::nothing},
+                                          {.a = 3,
+                                           .b = 1,
+                                           .effects = Ask::within | Ask::distance,
+                                           .tolerance = 0.5,
+                                           .max_distance = 2}});
+    ASSERT_TRUE(made.plan);
+    EXPECT_EQ(made.refusals, Sentences());
+    const Plan& plan = *made.plan;
+    EXPECT_EQ(plan.pairs().size(), 2U);
+    EXPECT_EQ(plan.find_pair(0, 1), 0U);
+    EXPECT_EQ(plan.find_pair(1, 3), 1U);
+    EXPECT_EQ(plan.find_pair(2, 2), std::nullopt);
+    EXPECT_EQ(plan.find_pair(99, 1), std::nullopt);
+    EXPECT_EQ(plan.asks_of(1), Ask::collide | Ask::within | Ask::distance);
+    EXPECT_EQ(plan.asks_of(2), Ask::nothing);
+    EXPECT_EQ(plan.reach_of(0), 0);
+    EXPECT_EQ(plan.reach_of(1), 1);
+    EXPECT_FALSE(plan.filter_of(0).allows(plan.filter_of(3)));
+    EXPECT_TRUE(plan.filter_of(3).allows(plan.filter_of(1)));
+    EXPECT_EQ(plan.describe(),
+              "layers 0 and 1: collide\n"
+              "layers 3 and 1: within 0.5, distance up to 2\n"
+              "layers that are never looked at together: 0 and 0, 0 and 3, 1 and 1, 3 and 3\n");
+    EXPECT_EQ(compiled({}).plan->describe(),
+              "not computed, for no pair of layers asks: collide, within, distance\n");
+}
+
+TEST(Plan, AsksForSolidsWhereTheyAreRead) {
+    const auto made = compiled({{.effects = Ask::collide, .body = Body::solid}});
+    EXPECT_EQ(made.plan->asks_of(0), Ask::collide | Ask::solid);
+}
+
+// Each set of three effects is built, and each other effect is refused by its name.
+TEST(Plan, DecidesEveryEffect) {
+    constexpr std::array kBuilt = {Ask::collide, Ask::within, Ask::distance};
+    for (unsigned set = 0; set < 8; ++set) {
+        Ask effects = Ask::nothing;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if ((set >> i & 1) != 0) effects = effects | kBuilt[i];
+        }
+        const auto made = compiled({{.a = 4, .b = 7, .effects = effects}});
+        ASSERT_TRUE(made.plan);
+        EXPECT_EQ(made.plan->effects(), effects);
+    }
+    for (int bit = 0; bit < 32; ++bit) {
+        const auto one = static_cast<Ask>(1U << bit);
+        if (contains(kBuilt[0] | kBuilt[1] | kBuilt[2], one)) continue;
+        const Needs* needs = find_needs(one);
+        const std::string name =
+            needs ? std::string(needs->name) : "effect bit " + std::to_string(bit);
+        EXPECT_EQ(compiled({{.effects = one}}).refusals,
+                  Sentences({"Pair 0 of layers: " + name +
+                             " is not built in a scene. Built are "
+                             "collide, within and distance."}));
+    }
+}
+
+TEST(Plan, NamesEveryRefusal) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    const auto made =
+        compiled({{.a = 32, .b = 0, .effects = Ask::collide},
+                  {.a = 1, .b = 2, .effects = Ask::collide, .tolerance = 1},
+                  {.a = 2, .b = 1, .effects = Ask::within, .tolerance = -1, .body = Body::solid},
+                  {.a = 3,
+                   .b = 3,
+                   .effects = Ask::distance,
+                   .max_distance = kNan,
+                   .overlap = Overlap::proper}},
+                 {}, {.objects = 1U << 30, .pairs = 1, .threads = 0});
+    EXPECT_FALSE(made.plan);
+    EXPECT_EQ(made.refusals,
+              Sentences({"limits.objects is 1073741824; at most 536870912 are possible.",
+                         "limits.threads is 0; at least 1 is needed.",
+                         "Pair 0 of layers: layer 32 does not exist; there are 0 to 31.",
+                         "Pair 1 of layers: tolerance has no meaning without within.",
+                         "Pair 2 of layers: layers 2 and 1 are also those of pair 1.",
+                         "Pair 2 of layers: tolerance is -1; it must be finite and at least 0.",
+                         "Pair 2 of layers: body has no meaning without collide or distance.",
+                         "Pair 3 of layers: max_distance is nan; it must be finite and at least 0.",
+                         "Pair 3 of layers: overlap has no meaning without collide."}));
+}
+
+TEST(Plan, SaysHowToBakeWhatAModelLacks) {
+    const std::vector<LayerPair> pairs = {
+        {.a = 0, .b = 1, .effects = Ask::distance, .max_distance = 1}};
+    const std::vector<ModelUse> models = {
+        {.name = "arm.cdp.h5", .serves = Ask::collide, .layers = 2},
+        {.name = "cup.cdp.h5", .serves = Ask::collide, .layers = 4},
+        {.name = "part.cdp.h5", .serves = Ask::distance | Ask::ray, .layers = 3}};
+    EXPECT_EQ(compiled(pairs, models).refusals,
+              Sentences({"arm.cdp.h5: its layers ask for distance, which the model does not serve. "
+                         "Bake it with --effects distance."}));
+}
+
+}  // namespace
+}  // namespace cdprep
