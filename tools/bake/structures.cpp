@@ -252,7 +252,7 @@ void add_structure_options(const Command& command, StructureArguments& arguments
         .add_option("--structures", arguments.list,
                     "Comma-separated structures for 'cdprep query --structure': octree, "
                     "octree-adaptive, hashed-octree, tetra-tree, hull; or all, or none. Default: "
-                    "all with --effects all, else none")
+                    "all if --effects is all, tetra-tree if it includes inaccessible, else none")
         .type_name("LIST")
         .group(kGroup);
     command

@@ -587,10 +587,9 @@ void add_question(const Command& query, PairQuestion question, const char* name,
     command.add_flag("--timings", arguments->timings, "Print times of the queries to stderr")
         .group("Report");
     command
-        .add_flag(
-            "--counts", arguments->counts,
-            "Print to stderr how many boxes, triangles and hulls were tested, and which stage "
-            "decided")
+        .add_flag("--counts", arguments->counts,
+                  "Print to stderr how many pairs of boxes, leaves and triangles were tested, and "
+                  "how many were decided in float, in double and exactly")
         .group("Report");
     if (question == PairQuestion::collide || question == PairQuestion::overlap) {
         add_contact_options(command, *arguments);
@@ -625,7 +624,7 @@ void add_question(const Command& query, PairQuestion question, const char* name,
 void add_pair_questions(const Command& query, Exit& exit) {
     add_question(query, PairQuestion::collide, "collide", "Test whether two models collide", exit);
     add_question(query, PairQuestion::overlap, "overlap",
-                 "List the overlapping triangles of two models", exit);
+                 "List the pairs of overlapping triangles of two models", exit);
     add_question(query, PairQuestion::distance, "distance", "Compute the distance of two models",
                  exit);
     add_question(query, PairQuestion::within, "within",

@@ -146,8 +146,8 @@ struct ContactsVerdict {
 /// translation snags, the shortest one that does not is used, and contact_internal_edge is set. A
 /// translation that tilts across a reflex edge is used nevertheless if it is less than half as long
 /// as that one. It must not tilt across a flat edge or lead deeper into a solid. `upper` is still
-/// minus the length of the shortest separating translation. For shallow contacts away from such
-/// edges, `lower` and `upper` are equal up to rounding. Bodies may overlap by more than the size of
+/// minus the length of the shortest separating translation. If that one does not snag, `lower` and
+/// `upper` are equal up to rounding. Bodies may overlap by more than the size of
 /// a piece. Then a contact separates its two pieces only, not the bodies: push by the deepest, and
 /// query again. Inside a solid, the inner side of a wall may be near (contact_from_behind); such a
 /// contact should not push.

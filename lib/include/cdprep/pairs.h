@@ -258,8 +258,8 @@ struct Distance {
                                        std::span<TrianglePair> room) noexcept;
 
 /// Calls `visit` once for each pair that pairs_within() finds, as the search finds it. The order is
-/// that of visit_overlaps(). Returns false if `visit` ended the search. Reads what pairs_within()
-/// reads. Needs Ask::within of both models, and options.through its ask_of().
+/// that of visit_overlaps(). Returns false if `visit` ended the search. Reads the same options as
+/// pairs_within(). Needs Ask::within of both models, and options.through its ask_of().
 ///
 ///     std::vector<bool> is_near(pair.a.get().triangle_count());
 ///     const auto visit = [&](const cdprep::TrianglePair& found) {

@@ -63,9 +63,10 @@ struct Inclusion {
 /// tetra-tree reads the triangles of one cone; octrees read those of the cells along a ray.
 /// Structure::pieces is treated as Structure::bvh. A query on an open model always uses the BVH.
 ///
-/// Exact for balanced models. Needs Ask::inside and ask_of() the structure. The BVH takes O(log n +
-/// hits) time, a tetra-tree O(level + triangles in one cone). An octree takes O(cells along the ray
-/// + their triangles). QueryCounts::ray_triangles counts these triangles. Never allocates.
+/// Exact if the model is balanced: each edge is used equally often in both directions. Needs
+/// Ask::inside and ask_of() the structure. The BVH takes O(log n + hits) time, a tetra-tree O(level
+/// + triangles in one cone). An octree takes O(cells along the ray + their triangles).
+/// QueryCounts::ray_triangles counts these triangles. Never allocates.
 [[nodiscard]] Inclusion points_inside(const Model& model, const Double3& p, Workspace& workspace,
                                       Structure through = Structure::bvh) noexcept;
 

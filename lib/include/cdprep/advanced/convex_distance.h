@@ -24,8 +24,9 @@ namespace cdprep {
 // or nearly touch, within about 1e-15 of their coordinates, integer arithmetic decides in tens of
 // microseconds.
 
-/// The points at which the last query about two hulls ended, owned by the caller. The next query
-/// about the same two begins there, and is faster the less they have moved. Any content is allowed
+/// The simplex with which the last GJK query about two hulls ended, as point numbers. The caller
+/// owns it. The next query about the same two hulls begins there: the less they have moved, the
+/// less time it takes. Any content is allowed
 /// and gives the same yes or no; bounds may differ in their last digits. Use one cache for each
 /// pair of hulls and thread. All zero is a new cache.
 struct ConvexCache {

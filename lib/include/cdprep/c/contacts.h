@@ -182,8 +182,9 @@ typedef struct cdprep_penetration {
     double on_a[3], on_b[3]; /* the points that touch after this motion */
 } cdprep_penetration;
 
-/* Stores the penetration depth of two hulls. `options` may be null; max_distance has no meaning.
- * Takes the time of ten to a hundred distance queries.
+/* Stores the penetration depth of two hulls. `options` may be null. Takes the time of ten
+ * to a hundred distance queries.
+ * Errors: CDPREP_WHY_NO_MEANING for a finite max_distance.
  * Needs: as cdprep_hull_find() */
 CDPREP_API int cdprep_hulls_penetration(const cdprep_hull_pair* pair,
                                         const cdprep_distance_options* options,

@@ -149,7 +149,7 @@ typedef struct cdprep_array {
  * order for triangles). The address is valid as long as the model. FORMAT.md lists the sections and
  * their elements. Section 24 (repaired_from) holds the number of each triangle before a repair.
  * Errors: CDPREP_WHY_OUT_OF_RANGE if no section has this number; CDPREP_WHY_NOT_BAKED if the file
- * lacks the section; CDPREP_WHY_NOT_OPENED if it was not opened. */
+ * lacks the section; CDPREP_WHY_NOT_OPENED if the model was opened without it. */
 CDPREP_API int cdprep_model_section(const cdprep_model* model, uint32_t section,
                                     cdprep_array* array, cdprep_error* error);
 

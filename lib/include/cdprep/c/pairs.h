@@ -155,9 +155,8 @@ typedef struct cdprep_marks {
 } cdprep_marks;
 
 /* Marks the triangles of each model that overlap any triangle of the other, and clears all other
- * bits. Faster than a list if many pairs share few triangles. Uses overlap, degenerate.
- * Errors: CDPREP_WHY_TOO_SMALL for too few words.
- * Needs: CDPREP_ASK_OVERLAP */
+ * bits. Takes less time than cdprep_overlaps() if few triangles form many pairs. Uses overlap,
+ * degenerate. Errors: CDPREP_WHY_TOO_SMALL for too few words. Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_overlaps_mark(const cdprep_pair* pair, cdprep_workspace* workspace,
                                     cdprep_marks* marks, cdprep_error* error);
 
@@ -223,8 +222,8 @@ CDPREP_API int cdprep_distance(const cdprep_pair* pair, const cdprep_distance_op
                                cdprep_error* error);
 
 /* Stores whether two surfaces are at most `tolerance` apart. `tolerance` must be at least 0. Exact
- * to the last bit. Uses through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES. Takes less time than a
- * distance.
+ * to the last bit. Uses through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES. Takes as long as
+ * cdprep_distance(), or less if the distance differs clearly from `tolerance`.
  * Needs: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_within(const cdprep_pair* pair, double tolerance, cdprep_workspace* workspace,
                              uint32_t* within, cdprep_error* error);
