@@ -28,43 +28,85 @@ float rounded_up(double x) noexcept {
 
 // Let u = 2^-53. The corners of the root box, its middle c and half h are off by less than 8 u of
 // m = |o| + |c| + h, where o is the origin of the frame. R c + t adds 4 u (|R| m + |t|), and the
-// vertices that transform_point() computes as much. 32 u covers these, and the sums below.
-WorldBox object_box(const Model& model, const Pose& world_from_model, double reach) noexcept {
+// vertices that transform_point() computes as much. R deviates from a rotation by 1e-12 at most,
+// which may make the model longer than h by as much. 2^-39 covers all these, and the sums below.
+constexpr double kSlack = 0x1p-39;
+
+RootBox root_box(const Model& model, const Pose& world_from_model, double reach) noexcept {
     const auto& nodes = model.bvh().nodes;
-    if (nodes.empty()) return {{1, 1, 1}, {-1, -1, -1}};
+    RootBox root{};
+    root.half = {-1, -1, -1};
+    if (nodes.empty()) return root;
     const format::FileHeader& header = model.header();
     const std::array<double, 3> origin = {header.frame_origin.x, header.frame_origin.y,
                                           header.frame_origin.z};
-    std::array<double, 3> middle{}, half{}, most{};
+    const Double3& t = world_from_model.translation();
+    root.axes = world_from_model.rotation();
+    root.middle = {t.x, t.y, t.z};
+    root.size = std::abs(t.x) + std::abs(t.y) + std::abs(t.z) + reach;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         float lower = kLargest, upper = -kLargest;
         for (std::size_t box = 0; box < format::kBvhWidth; ++box) {
-            const format::BvhNode& root = nodes[0];
-            if (root.lower[axis][box] > root.upper[axis][box]) continue;
-            lower = std::min(lower, root.lower[axis][box]);
-            upper = std::max(upper, root.upper[axis][box]);
+            if (nodes[0].lower[axis][box] > nodes[0].upper[axis][box]) continue;
+            lower = std::min(lower, nodes[0].lower[axis][box]);
+            upper = std::max(upper, nodes[0].upper[axis][box]);
         }
         const auto in_model = [&](double x) { return std::ldexp(x, -header.frame_exponent); };
-        middle[axis] = origin[axis] + in_model((double{lower} + upper) / 2);
-        half[axis] = in_model((double{upper} - lower) / 2);
-        most[axis] = std::abs(origin[axis]) + std::abs(middle[axis]) + half[axis];
+        const double middle = origin[axis] + in_model((double{lower} + upper) / 2);
+        root.half[axis] = in_model((double{upper} - lower) / 2) + reach;
+        root.size += std::abs(origin[axis]) + std::abs(middle) + root.half[axis];
+        for (std::size_t k = 0; k < 3; ++k) root.middle[k] += root.axes[3 * k + axis] * middle;
     }
-    const auto& r = world_from_model.rotation();
-    const Double3& t = world_from_model.translation();
-    const std::array<double, 3> shift = {t.x, t.y, t.z};
+    for (double& half : root.half) half += kSlack * root.size;
+    return root;
+}
+
+WorldBox box_around(const RootBox& root) noexcept {
+    if (root.half[0] < 0) return {{1, 1, 1}, {-1, -1, -1}};
     WorldBox box{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        double at = shift[axis], wide = 0, size = std::abs(shift[axis]) + reach;
-        for (std::size_t k = 0; k < 3; ++k) {
-            at += r[3 * axis + k] * middle[k];
-            wide += std::abs(r[3 * axis + k]) * half[k];
-            size += std::abs(r[3 * axis + k]) * most[k];
-        }
-        wide += reach + 32 * kUnit * size;
-        box.lower[axis] = rounded_down(at - wide);
-        box.upper[axis] = rounded_up(at + wide);
+        double wide = kSlack * root.size;
+        for (std::size_t k = 0; k < 3; ++k)
+            wide += std::abs(root.axes[3 * axis + k]) * root.half[k];
+        box.lower[axis] = rounded_down(root.middle[axis] - wide);
+        box.upper[axis] = rounded_up(root.middle[axis] + wide);
     }
     return box;
+}
+
+bool may_meet(const RootBox& a, const RootBox& b) noexcept {
+    const double slack = kSlack * (a.size + b.size);
+    std::array<double, 9> turn{}, size{};  // [axis of A][axis of B]
+    std::array<double, 3> way{};           // from A to B along A's axes
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            way[i] += a.axes[3 * k + i] * (b.middle[k] - a.middle[k]);
+            for (std::size_t j = 0; j < 3; ++j) {
+                turn[3 * i + j] += a.axes[3 * k + i] * b.axes[3 * k + j];
+            }
+        }
+    }
+    for (std::size_t i = 0; i < 9; ++i) size[i] = std::abs(turn[i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        double reach = a.half[i], along = 0, reach_of_b = b.half[i];
+        for (std::size_t j = 0; j < 3; ++j) {
+            reach += size[3 * i + j] * b.half[j];
+            along += turn[3 * j + i] * way[j];
+            reach_of_b += size[3 * j + i] * a.half[j];
+        }
+        if (std::abs(way[i]) > reach + slack || std::abs(along) > reach_of_b + slack) return false;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::size_t j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+            const double along = way[i2] * turn[3 * i1 + j] - way[i1] * turn[3 * i2 + j];
+            const double reach = a.half[i1] * size[3 * i2 + j] + a.half[i2] * size[3 * i1 + j] +
+                                 b.half[j1] * size[3 * i + j2] + b.half[j2] * size[3 * i + j1];
+            if (std::abs(along) > reach + slack) return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace cdprep

@@ -1,15 +1,32 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
 #include "cdprep/broad_phase.h"
 #include "cdprep/model.h"
 #include "cdprep/pose.h"
 
 namespace cdprep {
 
+/// The root box of a moved model, along the axes of the model, with a reach on all sides.
+struct RootBox {
+    std::array<double, 3> middle{};
+    std::array<double, 9> axes{};  ///< column k is axis k of the model in the world
+    std::array<double, 3> half{};  ///< negative if there are no triangles
+    double size = 0;               ///< at least the sum of all magnitudes that were added
+};
+
 /// Returns a box that contains all points of a moved model, as transform_point() rounds them, and
-/// reaches `reach` beyond them. The box of a model without triangles is absent.
-[[nodiscard]] WorldBox object_box(const Model& model, const Pose& world_from_model,
-                                  double reach) noexcept;
+/// reaches `reach` beyond them.
+[[nodiscard]] RootBox root_box(const Model& model, const Pose& world_from_model,
+                               double reach) noexcept;
+
+/// Returns the axis-aligned box around a root box; absent if there are no triangles.
+[[nodiscard]] WorldBox box_around(const RootBox& root) noexcept;
+
+/// Returns false if two root boxes are certainly apart: by the fifteen directions of Gottschalk,
+/// Lin and Manocha 1996.
+[[nodiscard]] bool may_meet(const RootBox& a, const RootBox& b) noexcept;
 
 }  // namespace cdprep

@@ -35,7 +35,8 @@ struct Record {
     std::uint32_t pair = 0;
     Ask holds = Ask::nothing;
     Collision collision;
-    bool is_new = false;  ///< asked in this step
+    bool is_new = false;    ///< looked at in this step
+    bool is_apart = false;  ///< by the root boxes: nothing is asked
 
     [[nodiscard]] BoxPair slots() const noexcept {
         return {a.slot, b.slot};
@@ -98,6 +99,7 @@ struct Scene::State {
     State(Carver& carver, const Plan& of) noexcept
         : plan(&of),
           objects(carver.take<Object>(of.limits().objects)),
+          roots(carver.take<RootBox>(of.limits().objects)),
           boxes(carver.take<WorldBox>(of.limits().objects)),
           filters(carver.take<BoxFilter>(of.limits().objects)),
           changed(carver.take<std::uint32_t>(of.limits().objects)),
@@ -128,7 +130,8 @@ struct Scene::State {
 
     const Plan* plan;
     std::optional<BroadPhase> broad_phase;
-    Object* objects;  ///< by slot, as the next two
+    Object* objects;  ///< by slot, as the next three
+    RootBox* roots;
     WorldBox* boxes;
     BoxFilter* filters;
     std::uint32_t* changed;  ///< slots
@@ -166,7 +169,8 @@ void Scene::State::place(std::uint32_t slot) noexcept {
         boxes[slot] = {{1, 1, 1}, {-1, -1, -1}};
         filters[slot] = {0, 0};
     } else {
-        boxes[slot] = object_box(*object.model, object.pose, plan->reach_of(object.layer));
+        roots[slot] = root_box(*object.model, object.pose, plan->reach_of(object.layer));
+        boxes[slot] = box_around(roots[slot]);
         filters[slot] = plan->filter_of(object.layer);
     }
 }
@@ -205,6 +209,8 @@ void Scene::State::list_candidates(std::span<const BoxPair> candidates) noexcept
 
 /// Asks what the plan asks for.
 void Scene::State::ask(Record& record, Distance* distance, Workspace& workspace) const noexcept {
+    record.is_apart = !may_meet(roots[record.a.slot], roots[record.b.slot]);
+    if (record.is_apart) return;
     const LayerPair& asks = plan->pairs()[record.pair];
     const Object &a = objects[record.a.slot], &b = objects[record.b.slot];
     const Pair pair{*a.model,
@@ -238,6 +244,8 @@ void Scene::State::ask_all(std::span<Workspace> workspaces, ParallelFor parallel
 void Scene::State::count_calls() noexcept {
     counts = {.moved = changed_count, .candidates = next.count, .kept = next.count - asked_count};
     for (std::uint32_t i = 0; i < asked_count; ++i) {
+        counts.apart += next.record[asked[i]].is_apart ? 1 : 0;
+        if (next.record[asked[i]].is_apart) continue;
         const Ask effects = plan->pairs()[next.record[asked[i]].pair].effects;
         counts.collide += contains(effects, Ask::collide) ? 1 : 0;
         counts.within += contains(effects, Ask::within) ? 1 : 0;

@@ -126,8 +126,7 @@ private:
 #ifdef CDPREP_HAVE_FCL
 class Fcl final : public Contender {
 public:
-    Fcl(const std::vector<Model>& models, const std::vector<Pose>& poses, Ask effect)
-        : effect_(effect) {
+    Fcl(const std::vector<Model>& models, const std::vector<Pose>& poses) {
         std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes;
         for (const Model& model : models) {
             shapes.push_back(
@@ -148,33 +147,18 @@ public:
             objects_[i]->computeAABB();
         }
         manager_.update();
-        Found found;
-        if (effect_ == Ask::collide) {
-            manager_.collide(&found,
-                             [](fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
-                                 fcl::CollisionResultd result;
-                                 fcl::collide(a, b, fcl::CollisionRequestd(1, false), result);
-                                 static_cast<Found*>(data)->pairs += result.isCollision() ? 1 : 0;
-                                 return false;
-                             });
-        } else {
-            manager_.distance(&found, [](fcl::CollisionObjectd* a, fcl::CollisionObjectd* b,
-                                         void* data, double& limit) {
-                limit = kTolerance;  // boxes farther apart are not called
-                fcl::DistanceResultd result;
-                const double apart = fcl::distance(a, b, fcl::DistanceRequestd(false), result);
-                static_cast<Found*>(data)->pairs += apart <= kTolerance ? 1 : 0;
-                return false;
-            });
-        }
-        return found.pairs;
+        std::size_t found = 0;
+        manager_.collide(&found,
+                         [](fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* count) {
+                             fcl::CollisionResultd result;
+                             fcl::collide(a, b, fcl::CollisionRequestd(1, false), result);
+                             *static_cast<std::size_t*>(count) += result.isCollision() ? 1 : 0;
+                             return false;
+                         });
+        return found;
     }
 
 private:
-    struct Found {
-        std::size_t pairs = 0;
-    };
-    Ask effect_;
     std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
     fcl::DynamicAABBTreeCollisionManagerd manager_;
 };
@@ -186,8 +170,9 @@ void compare(const std::vector<Model>& models, std::size_t bodies, int frames,
     std::vector<std::pair<const char*, std::unique_ptr<Contender>>> contenders;
     contenders.emplace_back("cdprep", std::make_unique<Ours>(models, start.poses(), pair));
 #ifdef CDPREP_HAVE_FCL
-    contenders.emplace_back("fcl_obbrss",
-                            std::make_unique<Fcl>(models, start.poses(), pair.effects));
+    if (pair.effects == Ask::collide) {
+        contenders.emplace_back("fcl_obbrss", std::make_unique<Fcl>(models, start.poses()));
+    }
 #endif
     std::vector<double> ours;
     for (auto& [name, contender] : contenders) {
@@ -216,6 +201,8 @@ void run(std::size_t bodies, int frames, const std::vector<std::string>& paths) 
     for (const std::string& path : paths) models.push_back(open_or_stop(path));
     std::printf("effect,contender,bodies,candidates,found,ms,ms_95,us_candidate,times\n");
     compare(models, bodies, frames, {.effects = Ask::collide});
+    compare(models, bodies, frames, {.effects = Ask::within, .tolerance = kTolerance});
+    compare(models, bodies, frames, {.effects = Ask::distance, .max_distance = kTolerance});
 }
 
 }  // namespace

@@ -75,6 +75,7 @@ struct SceneCounts {
     std::uint64_t moved = 0;       ///< objects that moved, were added or changed their layer
     std::uint64_t candidates = 0;  ///< pairs whose boxes meet
     std::uint64_t kept = 0;        ///< candidates of which neither object moved: not asked again
+    std::uint64_t apart = 0;       ///< candidates whose root boxes are apart: nothing is asked
     std::uint64_t collide = 0;     ///< calls of collide()
     std::uint64_t within = 0;      ///< calls of within()
     std::uint64_t distance = 0;    ///< calls of distance()

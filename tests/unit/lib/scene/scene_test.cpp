@@ -163,7 +163,7 @@ private:
 
 // Single queries of all pairs are the oracle, and the difference of two steps that of events.
 TEST(Scene, EqualsSingleQueriesAndTheirDifferences) {
-    std::size_t begun = 0, kept = 0;
+    std::size_t begun = 0, kept = 0, apart = 0;
     for (std::uint32_t seed = 0; seed < 12; ++seed) {
         const Plan plan = plan_for(24, 300);
         World world(seed, plan);
@@ -182,6 +182,7 @@ TEST(Scene, EqualsSingleQueriesAndTheirDifferences) {
             ASSERT_EQ(without(ends, begins), without(held, holding));
             begun += begins.size();
             kept += world.scene().counts().kept;
+            apart += world.scene().counts().apart;
             held = holding;
             const std::uint32_t changes = world.any(6);
             for (std::uint32_t i = 0; i < changes; ++i) world.change_one();
@@ -190,6 +191,7 @@ TEST(Scene, EqualsSingleQueriesAndTheirDifferences) {
     }
     EXPECT_GT(begun, 100U);
     EXPECT_GT(kept, 100U);
+    EXPECT_GT(apart, 10U);
 }
 
 TEST(Scene, ThreadsGiveTheSame) {
