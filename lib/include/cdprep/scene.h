@@ -100,8 +100,9 @@ struct SceneStep {
 ///     if (scene.step(workspaces).complete) use(scene.events());
 class Scene {
 public:
-    /// Allocates the memory for plan.limits(). Stops the program if the limits are not possible.
+    /// Allocates the memory for plan.limits(). The plan must outlive the scene, unchanged.
     explicit Scene(const Plan& plan);
+    explicit Scene(Plan&& plan) = delete;
 
     /// Makes one in the caller's memory, which must outlive it, as the plan must. Returns nothing
     /// if the memory is smaller than size() or not aligned to alignment().
