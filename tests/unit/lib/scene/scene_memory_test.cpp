@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "cdprep/scene.h"
+#include "support/counted_memory.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
+
+namespace cdprep {
+namespace {
+
+// Objects are added, removed, moved and asked, with one set of events after the other.
+TEST(SceneMemory, NothingIsAllocatedAfterConstruction) {
+    const test::OpenModel ball = test::open_tiny(test::icosphere(2));
+    const std::vector<LayerPair> pairs = {{.effects = Ask::collide | Ask::within | Ask::distance,
+                                           .tolerance = 0.1,
+                                           .max_distance = 0.5,
+                                           .body = Body::solid}};
+    const Plan plan =
+        *Plan::compile({.pairs = pairs, .limits = {.objects = 30, .pairs = 500}}).plan;
+    Scene scene(plan);
+    std::vector<Workspace> workspaces(1);
+    std::mt19937 random(3);
+    std::vector<ObjectId> objects(30);
+    std::size_t events = 0;
+    const std::size_t before = test::most = test::used;
+    for (int step = 0; step < 50; ++step) {
+        for (ObjectId& object : objects) {
+            const Pose pose = test::random_pose(random, 3);
+            if (random() % 4 == 0) static_cast<void>(scene.remove(object));
+            if (scene.set_pose(object, pose)) continue;
+            if (const auto added = scene.add({&ball.model, 0, pose})) object = *added;
+        }
+        if (!scene.step(workspaces).complete) FAIL();
+        events += scene.events().size();
+    }
+    EXPECT_EQ(test::most, before);
+    EXPECT_GT(events, 100U);
+}
+
+}  // namespace
+}  // namespace cdprep
