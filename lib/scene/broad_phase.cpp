@@ -45,6 +45,7 @@ constexpr std::uint32_t kManyLeave = 8;
 constexpr std::uint32_t kFewLeave = 16;
 constexpr std::uint32_t kUpdatesOfMany = 2;
 constexpr std::uint32_t kUpdatesOfFew = 8;
+constexpr std::uint32_t kUpdatesAfterFull = 64;  ///< where larger boxes had too many pairs
 // So long an order along the curve serves: updates without kept pairs, or boxes that left, of all.
 constexpr std::uint32_t kUpdatesOfOrder = 8;
 constexpr std::uint32_t kLeaversOfOrder = 2;
@@ -76,7 +77,7 @@ bool has_nan(const WorldBox& box) noexcept {
 /// Stores a box as kernels take it, and its move. Infinite coordinates would meet those of absent
 /// boxes.
 void store(const WorldBox& box, float* padded, Move& move) noexcept {
-    const bool absent = is_absent(box);
+    const bool absent = is_absent(box);  // by the numbers as given
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const float before = padded[axis] + padded[kPaddedUpper + axis];
         padded[axis] = absent ? kInfinite : std::clamp(box.lower[axis], -kLargest, kLargest);
@@ -198,7 +199,10 @@ struct BroadPhase::State {
     bool has_order = false;                 ///< the tree has an order
     bool keeps = true;                      ///< the way that is chosen
     std::uint32_t of_many = 0, of_few = 0;  ///< updates in a row
-    std::uint32_t order_age = 0;            ///< updates, or boxes that left
+    std::uint32_t wait = 0;                 ///< updates before pairs may be kept again
+    /// Updates without kept pairs, otherwise boxes that left: a change between them only makes the
+    /// next order earlier.
+    std::uint32_t order_age = 0;
 };
 
 // Ways in -----------------------------------------------------------------------------------------
@@ -207,7 +211,7 @@ void BroadPhase::State::forget(std::uint32_t boxes) noexcept {
     count = boxes;
     has_kept = has_order = false;
     keeps = true;
-    of_many = of_few = 0;
+    of_many = of_few = wait = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const float absent[kPaddedBox] = {kInfinite,  kInfinite,  kInfinite,  0,
                                           -kInfinite, -kInfinite, -kInfinite, 0};
@@ -278,7 +282,8 @@ void BroadPhase::State::choose_way() noexcept {
     of_many = left * kManyLeave > count ? of_many + 1 : 0;
     of_few = left * kFewLeave < count ? of_few + 1 : 0;
     if (keeps && of_many >= kUpdatesOfMany) keeps = false;
-    if (!keeps && of_few >= kUpdatesOfFew) keeps = true;
+    if (wait > 0) --wait;
+    if (!keeps && wait == 0 && of_few >= kUpdatesOfFew) keeps = true;
 }
 
 /// Copies the kept pairs whose boxes meet to `found`. Returns how many they are.
@@ -315,7 +320,8 @@ BroadPhaseUpdate BroadPhase::State::finish(ParallelFor run) noexcept {
         result.pairs = {found, find_meeting(run)};
         result.kept = true;
     } else {
-        has_kept = false;
+        if (keeps) wait = kUpdatesAfterFull;
+        has_kept = keeps = false;
         result = find_without_kept(run);
     }
     result.escaped = escaped;
@@ -421,7 +427,7 @@ bool BroadPhase::State::update_kept(ParallelFor run) noexcept {
     has_order = true;
     order_age = 0;
     const std::uint64_t pairs = find_all(run);
-    has_kept = keeps = pairs <= limits.pairs;
+    has_kept = pairs <= limits.pairs;
     if (!has_kept) return false;
     sort(pages, pairs, kept);
     kept_count = static_cast<std::uint32_t>(pairs);
@@ -457,7 +463,7 @@ bool BroadPhase::State::search_leavers(ParallelFor run) noexcept {
                      [&](std::size_t i, std::uint32_t* scratch, PairPages::Writer& writer) {
                          find_pairs_of_leaver(leavers[i], scratch, writer);
                      });
-    has_kept = keeps = pairs <= limits.pairs && merge_found(static_cast<std::uint32_t>(pairs));
+    has_kept = pairs <= limits.pairs && merge_found(static_cast<std::uint32_t>(pairs));
     return has_kept;
 }
 

@@ -19,6 +19,7 @@ public:
     template <class T>
     T* take(std::size_t count) noexcept {
         static_assert(alignof(T) <= kCarveAlignment && std::is_trivially_destructible_v<T>);
+        static_assert(sizeof(std::size_t) >= 8);  // no size below overflows
         T* const begin = memory_ ? reinterpret_cast<T*>(memory_ + used_) : nullptr;
         used_ += rounded(count * sizeof(T));
         if (begin) std::uninitialized_value_construct_n(begin, count);

@@ -28,9 +28,11 @@ float rounded_up(double x) noexcept {
 
 // Let u = 2^-53. The corners of the root box, its middle c and half h are off by less than 8 u of
 // m = |o| + |c| + h, where o is the origin of the frame. R c + t adds 4 u (|R| m + |t|), and the
-// vertices that transform_point() computes as much. R deviates from a rotation by 1e-12 at most,
-// which may make the model longer than h by as much. 2^-39 covers all these, and the sums below.
-constexpr double kSlack = 0x1p-39;
+// vertices that transform_point() computes as much. Each R deviates from a rotation by 1e-12 at
+// most, so the products of two of them, and of three for the directions of edges, by 6e-12. 2^-37
+// covers all these, and the sums below. Where numbers underflow, kLeast covers the rest.
+constexpr double kSlack = 0x1p-37;
+constexpr double kLeast = std::numeric_limits<double>::min();
 
 RootBox root_box(const Model& model, const Pose& world_from_model, double reach) noexcept {
     const auto& nodes = model.bvh().nodes;
@@ -57,11 +59,11 @@ RootBox root_box(const Model& model, const Pose& world_from_model, double reach)
         root.size += std::abs(origin[axis]) + std::abs(middle) + root.half[axis];
         for (std::size_t k = 0; k < 3; ++k) root.middle[k] += root.axes[3 * k + axis] * middle;
     }
-    for (double& half : root.half) half += kSlack * root.size;
+    for (double& half : root.half) half += kSlack * root.size + kLeast;
     return root;
 }
 
-WorldBox box_around(const RootBox& root) noexcept {
+WorldBox world_box(const RootBox& root) noexcept {
     if (root.half[0] < 0) return {{1, 1, 1}, {-1, -1, -1}};
     WorldBox box{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -75,7 +77,7 @@ WorldBox box_around(const RootBox& root) noexcept {
 }
 
 bool may_meet(const RootBox& a, const RootBox& b) noexcept {
-    const double slack = kSlack * (a.size + b.size);
+    const double slack = kSlack * (a.size + b.size) + kLeast;
     std::array<double, 9> turn{}, size{};  // [axis of A][axis of B]
     std::array<double, 3> way{};           // from A to B along A's axes
     for (std::size_t i = 0; i < 3; ++i) {

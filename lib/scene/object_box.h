@@ -23,7 +23,7 @@ struct RootBox {
                                double reach) noexcept;
 
 /// Returns the axis-aligned box around a root box; absent if there are no triangles.
-[[nodiscard]] WorldBox box_around(const RootBox& root) noexcept;
+[[nodiscard]] WorldBox world_box(const RootBox& root) noexcept;
 
 /// Returns false if two root boxes are certainly apart: by the fifteen directions of Gottschalk,
 /// Lin and Manocha 1996.

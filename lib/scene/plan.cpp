@@ -189,7 +189,8 @@ BoxFilter Plan::filter_of(std::uint32_t layer) const noexcept {
     return filter;
 }
 
-// Two boxes that each reach half the distance beyond their objects meet if the objects are near.
+// Two boxes that each reach half the distance beyond their objects meet if the objects are near. No
+// two points of moved models are farther apart than the bound.
 double Plan::reach_of(std::uint32_t layer) const noexcept {
     double most = 0;
     for (const LayerPair& pair : pairs_) {
@@ -197,7 +198,7 @@ double Plan::reach_of(std::uint32_t layer) const noexcept {
             most = std::max({most, pair.tolerance, pair.max_distance});
         }
     }
-    return most / 2;
+    return std::min(most / 2, 16 * format::kMaxCoordinate);
 }
 
 Ask Plan::effects() const noexcept {

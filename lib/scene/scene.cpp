@@ -24,8 +24,8 @@ struct Object {
     Pose pose;
     std::uint32_t layer = 0;
     std::uint32_t generation = 0;
-    bool is_changed = false;    ///< since the last step that was complete
-    bool is_relayered = false;  ///< likewise
+    std::uint32_t last_layer = 0;  ///< in the last step that was complete, or when it was added
+    bool is_changed = false;       ///< since that step
 };
 
 /// What is known of two objects whose boxes meet.
@@ -170,7 +170,7 @@ void Scene::State::place(std::uint32_t slot) noexcept {
         filters[slot] = {0, 0};
     } else {
         roots[slot] = root_box(*object.model, object.pose, plan->reach_of(object.layer));
-        boxes[slot] = box_around(roots[slot]);
+        boxes[slot] = world_box(roots[slot]);
         filters[slot] = plan->filter_of(object.layer);
     }
 }
@@ -209,6 +209,7 @@ void Scene::State::list_candidates(std::span<const BoxPair> candidates) noexcept
 
 /// Asks what the plan asks for.
 void Scene::State::ask(Record& record, Distance* distance, Workspace& workspace) const noexcept {
+    const format::FloatEnvironment environment;
     record.is_apart = !may_meet(roots[record.a.slot], roots[record.b.slot]);
     if (record.is_apart) return;
     const LayerPair& asks = plan->pairs()[record.pair];
@@ -259,7 +260,8 @@ EventReason Scene::State::reason_of(const Record& record, bool begins) const noe
         return object.model == nullptr || object.generation != id.generation;
     };
     if (!begins && (is_gone(a, record.a) || is_gone(b, record.b))) return EventReason::removed;
-    return a.is_relayered || b.is_relayered ? EventReason::relayered : EventReason::moved;
+    const bool is_relayered = a.layer != a.last_layer || b.layer != b.last_layer;
+    return is_relayered ? EventReason::relayered : EventReason::moved;
 }
 
 void Scene::State::add_events(const Record& record, Ask effects, bool begins) noexcept {
@@ -302,6 +304,7 @@ SceneStep Scene::State::step(std::span<Workspace> workspaces, ParallelFor parall
     const std::size_t size = plan->limits().objects;
     const BroadPhaseUpdate candidates = broad_phase->update_moved(
         {boxes, size}, {filters, size}, {changed, changed_count}, parallel_for);
+    assert(!candidates.refused);  // boxes of valid poses are numbers
     if (!candidates.complete) return {.complete = false, .needed_pairs = candidates.needed};
     list_candidates(candidates.pairs);
     ask_all(workspaces, parallel_for);
@@ -310,7 +313,9 @@ SceneStep Scene::State::step(std::span<Workspace> workspaces, ParallelFor parall
     std::swap(last, next);
     list_results();
     for (std::uint32_t i = 0; i < changed_count; ++i) {
-        objects[changed[i]].is_changed = objects[changed[i]].is_relayered = false;
+        Object& object = objects[changed[i]];
+        object.is_changed = false;
+        object.last_layer = object.layer;
     }
     changed_count = 0;
     return {};
@@ -387,8 +392,7 @@ std::optional<ObjectId> Scene::add(const SceneObject& object) noexcept {
     Object& place = state.objects[slot];
     place.model = object.model;
     place.pose = object.world_from_model;
-    place.layer = object.layer;
-    place.is_relayered = false;
+    place.layer = place.last_layer = object.layer;
     if (++place.generation == 0) place.generation = 1;
     state.change(slot);
     ++state.object_count;
@@ -421,7 +425,6 @@ bool Scene::set_layer(ObjectId object, std::uint32_t layer) noexcept {
     require(*found->model, state_->plan->asks_of(layer));
     if (found->layer == layer) return true;
     found->layer = layer;
-    found->is_relayered = true;
     state_->change(object.slot);
     return true;
 }
@@ -449,6 +452,9 @@ std::uint32_t Scene::object_count() const noexcept {
 
 std::uint64_t Scene::state_hash() const noexcept {
     Hash hash;
+    for (const std::size_t count : {hits().size(), distances().size(), events().size()}) {
+        hash.add(count);
+    }
     const auto add = [&](const ObjectId& a, const ObjectId& b, std::uint32_t pair) {
         hash.add(a);
         hash.add(b);
@@ -461,7 +467,9 @@ std::uint64_t Scene::state_hash() const noexcept {
     }
     for (const SceneDistance& found : distances()) {
         add(found.a, found.b, found.pair);
+        hash.add(std::bit_cast<std::uint64_t>(found.distance.lower));
         hash.add(std::bit_cast<std::uint64_t>(found.distance.upper));
+        hash.add(std::uint64_t{found.distance.triangle_a} << 32 | found.distance.triangle_b);
     }
     for (const SceneEvent& event : events()) {
         add(event.a, event.b, event.pair);

@@ -13,8 +13,8 @@
 namespace cdprep {
 
 /// A closed, axis-aligned box in the coordinates of a scene. It may be flat or a point. Infinite
-/// numbers count as the largest finite ones. If lower > upper along an axis, the box is absent: it
-/// forms no pair.
+/// numbers count as the largest finite ones. If lower > upper along an axis, as given, the box is
+/// absent: it forms no pair.
 struct WorldBox {
     float lower[3];
     float upper[3];
@@ -52,10 +52,12 @@ struct BroadPhaseUpdate {
     std::span<const BoxPair> pairs = {};
     bool complete = true;      ///< otherwise `pairs` is empty; the next two say why
     std::uint64_t needed = 0;  ///< limits.pairs for this update, if there are too many pairs
-    /// The first box with a number that is NaN. The update has changed nothing.
+    /// The first box with a number that is NaN, in the order of `moved` if that is given. The
+    /// update has changed nothing.
     std::optional<std::uint32_t> refused = std::nullopt;
-    std::uint32_t escaped = 0;  ///< boxes that left the larger box that is kept around each
-    bool kept = false;          ///< most pairs come from earlier updates
+    /// Boxes that left the larger box around them, or whose filter has changed.
+    std::uint32_t escaped = 0;
+    bool kept = false;  ///< pairs of larger boxes are kept for the next update
 };
 
 /// Finds the pairs of boxes that meet, as boxes move. Touching counts.

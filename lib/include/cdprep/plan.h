@@ -57,10 +57,10 @@ struct PlanOptions {
 /// query runs only for effects that its pair of layers asks for.
 class Plan {
 public:
+    struct Compiled;
     /// Returns the plan, or every reason why there is none, a sentence each. Refused are unknown
     /// layers, a pair of layers that stands twice, effects that are not built, numbers out of
     /// range, options that no effect reads, and models that do not serve an effect of their layers.
-    struct Compiled;
     [[nodiscard]] static Compiled compile(const PlanOptions& options);
 
     [[nodiscard]] const SceneLimits& limits() const noexcept {

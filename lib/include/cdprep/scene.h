@@ -25,7 +25,8 @@ struct ObjectId {
     auto operator<=>(const ObjectId&) const = default;
 };
 
-/// An object to add. The model must outlive it, and serve Plan::asks_of(layer).
+/// An object to add. The model must outlive it, and serve Plan::asks_of(layer). After
+/// RuntimeModel::refit(), call set_pose() for each object of the model, even with the same pose.
 struct SceneObject {
     const Model* model = nullptr;
     std::uint32_t layer = 0;
@@ -56,7 +57,7 @@ struct SceneDistance {
 enum class EventReason : std::uint32_t {
     moved,      ///< an object moved, or was added
     removed,    ///< an object was removed
-    relayered,  ///< an object changed its layer
+    relayered,  ///< an object is in another layer than in the last step
 };
 
 /// An effect that begins or ceases to hold for two objects. Each begin is followed by one end
@@ -72,7 +73,7 @@ struct SceneEvent {
 
 /// The work of a step.
 struct SceneCounts {
-    std::uint64_t moved = 0;       ///< objects that moved, were added or changed their layer
+    std::uint64_t moved = 0;       ///< objects that moved, were added, removed or relayered
     std::uint64_t candidates = 0;  ///< pairs whose boxes meet
     std::uint64_t kept = 0;        ///< candidates of which neither object moved: not asked again
     std::uint64_t apart = 0;       ///< candidates whose root boxes are apart: nothing is asked
@@ -90,9 +91,9 @@ struct SceneStep {
 /// Many objects that move. A step asks what the plan asks for, of the pairs of objects that are
 /// near each other, and of which one has moved.
 ///
-/// Results are sorted by the slots of a and b. They depend neither on threads nor on the order of
-/// calls, and equal those of single queries with Placement::world. They stay until the next step
-/// that is complete. After construction nothing is allocated.
+/// Results are sorted by the slots of a and b. They do not depend on threads, and equal those of
+/// single queries with Placement::world. They stay until the next step that is complete. After
+/// construction nothing is allocated.
 ///
 ///     cdprep::Scene scene(plan);
 ///     const auto crate = scene.add({.model = &model, .layer = 1, .world_from_model = pose});
@@ -108,6 +109,7 @@ public:
     /// if the memory is smaller than size() or not aligned to alignment().
     [[nodiscard]] static std::optional<Scene> in_memory(std::span<std::byte> memory,
                                                         const Plan& plan) noexcept;
+    static std::optional<Scene> in_memory(std::span<std::byte> memory, Plan&& plan) = delete;
     [[nodiscard]] static std::size_t size(const Plan& plan) noexcept;  ///< bytes
     [[nodiscard]] static std::size_t alignment() noexcept;             ///< bytes, a power of two
 
@@ -123,7 +125,8 @@ public:
     bool remove(ObjectId object) noexcept;
     /// Moves an object. Returns false if there is none with this id.
     bool set_pose(ObjectId object, const Pose& world_from_model) noexcept;
-    /// Changes the layer of an object. Returns false if there is none with this id.
+    /// Changes the layer of an object. Returns false if there is none with this id. Stops the
+    /// program as add() does.
     bool set_layer(ObjectId object, std::uint32_t layer) noexcept;
 
     /// Computes the effects of all objects as they are now. Uses as many workspaces as
@@ -136,7 +139,8 @@ public:
     [[nodiscard]] std::span<const SceneEvent> events() const noexcept;
     [[nodiscard]] const SceneCounts& counts() const noexcept;
     [[nodiscard]] std::uint32_t object_count() const noexcept;
-    /// Returns a hash of all hits, distances and events: equal for any threads and instruction set.
+    /// Returns a hash of all hits, distances (bounds and triangles) and events. It is equal for any
+    /// threads and instruction set.
     [[nodiscard]] std::uint64_t state_hash() const noexcept;
 
 private:

@@ -5,12 +5,16 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <memory>
 #include <random>
 #include <tuple>
 #include <vector>
 
+#include "cdprep/advanced/runtime_model.h"
+#include "support/aligned_bytes.h"
+#include "support/float_modes.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 #include "support/run_threads.h"
@@ -290,6 +294,84 @@ TEST(Scene, EventsSayWhy) {
     EXPECT_FALSE(scene.set_layer(b, 0));
     EXPECT_FALSE(scene.remove({99, 1}));
     EXPECT_FALSE(scene.remove({}));
+}
+
+TEST(Scene, FloatModesChangeNothing) {
+    const Plan plan = plan_for(40, 600, 2);
+    const test::OpenModel ring = test::open_tiny(test::torus(0.7, 0.2, 12, 8));
+    std::mt19937 random(9);
+    std::vector<Pose> poses;
+    for (int i = 0; i < 120; ++i) poses.push_back(test::random_pose(random, 2));
+    std::vector<std::uint64_t> hashes;
+    for (const test::FloatMode& mode : test::float_modes()) {
+        Scene scene(plan);
+        std::vector<Workspace> workspaces(2);
+        std::vector<ObjectId> objects;
+        const std::uint64_t left = test::run_in(mode, [&] {
+            for (std::uint32_t i = 0; i < 40; ++i) {
+                objects.push_back(*scene.add({&ring.model, i % 3, poses[i]}));
+            }
+            for (std::size_t step = 0; step < 3; ++step) {
+                for (std::size_t i = 0; i < 40; ++i) {
+                    static_cast<void>(scene.set_pose(objects[i], poses[40 * step + i]));
+                }
+                static_cast<void>(scene.step(workspaces, test::run_threads));
+                hashes.push_back(scene.state_hash());
+                hashes.push_back(scene.counts().apart);
+            }
+        });
+        EXPECT_EQ(left, test::control_bits(mode.control)) << mode.name;
+        EXPECT_GT(scene.hits().size(), 20U);
+        for (std::size_t i = 0; i < 6; ++i) {
+            EXPECT_EQ(hashes[hashes.size() - 6 + i], hashes[i]) << mode.name;
+        }
+    }
+}
+
+// The greatest numbers that a plan accepts reach everything.
+TEST(Scene, TakesAnyDistance) {
+    const test::OpenModel ball = test::open_tiny(test::icosphere(1));
+    constexpr double kMost = std::numeric_limits<double>::max();
+    for (const double limit : {kMost, 0x1p1000}) {
+        const std::vector<LayerPair> pairs = {
+            {.effects = Ask::distance | Ask::within, .tolerance = limit, .max_distance = limit}};
+        const Plan plan =
+            *Plan::compile({.pairs = pairs, .limits = {.objects = 3, .pairs = 9}}).plan;
+        Scene scene(plan);
+        std::vector<Workspace> workspaces(1);
+        for (const double x : {0.0, 1e30, -1e200}) {
+            const Pose pose = Pose::from_quaternion(1, 0, 0, 0, {x, 0, 0}).value();
+            ASSERT_TRUE(scene.add({&ball.model, 0, pose}));
+        }
+        ASSERT_TRUE(scene.step(workspaces).complete);
+        EXPECT_EQ(scene.hits().size(), 3U);
+        EXPECT_EQ(scene.distances().size(), 3U);
+    }
+}
+
+// The vertices change, the pose does not: set_pose() says so.
+TEST(Scene, SeesModelsThatWereRefitted) {
+    const test::TestMesh mesh = test::icosphere(1);
+    const auto arrays =
+        build::build_model(mesh.positions, mesh.triangles, {.bounds = build::BvhBounds::aligned});
+    test::AlignedBytes room(build::RuntimeModel::bytes(arrays.value()).value());
+    auto object = build::RuntimeModel::in(room.span(), arrays.value());
+    ASSERT_TRUE(object);
+    const test::OpenModel ball = test::open_tiny(mesh);
+    const Plan plan = plan_for(2, 4);
+    Scene scene(plan);
+    std::vector<Workspace> workspaces(1);
+    const Pose far = Pose::from_quaternion(1, 0, 0, 0, {5, 0, 0}).value();
+    ASSERT_TRUE(scene.add({&ball.model, 0, far}));
+    const ObjectId moving = *scene.add({&object.value().model(), 1, Pose()});
+    ASSERT_TRUE(scene.step(workspaces).complete);
+    EXPECT_TRUE(scene.hits().empty());
+    std::vector<Double3> positions = mesh.positions;
+    for (Double3& p : positions) p.x += 4;
+    ASSERT_TRUE(object.value().refit(positions));
+    ASSERT_TRUE(scene.set_pose(moving, Pose()));
+    ASSERT_TRUE(scene.step(workspaces).complete);
+    EXPECT_EQ(scene.hits().size(), 1U);
 }
 
 TEST(Scene, LivesInMemoryOfTheCaller) {
