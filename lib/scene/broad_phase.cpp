@@ -25,28 +25,26 @@ using kernels::kLanes;
 using kernels::kPaddedBox;
 using kernels::kPaddedUpper;
 
-constexpr std::uint32_t kMostBoxes = std::uint32_t{1} << 29;
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-// The larger box reaches so far beyond a box on all sides, relative to the mean of its edges.
+// The margin of a larger box on all sides, relative to the mean edge of the box.
 constexpr float kMargin = 0.03F;
-// And so many moves further the way it moves, but not beyond that part of the edges. The number
-// differs from box to box, so that boxes that move alike do not all leave in the same update.
+// In the direction of its last move, the margin grows by this many moves, up to a share of the mean
+// edge. The number of moves depends on the box, so that equal motions end in different updates.
 constexpr std::uint32_t kLeastMovesAhead = 20;
 constexpr std::uint32_t kMoveSteps = 32;
 constexpr float kMostAhead = 0.4F;
-// Where the way is not known, it reaches up to so far on all sides, again not alike.
+// The largest margin of a box whose direction is unknown. It also depends on the box.
 constexpr float kMostMargin = 0.15F;
 
-// Boxes that leave, of all, and for how many updates in a row, before pairs are no longer kept, or
-// kept again.
+// Pairs are no longer kept if more than 1/8 of the boxes leave in two updates in a row. They are
+// kept again after eight updates with fewer than 1/16.
 constexpr std::uint32_t kManyLeave = 8;
 constexpr std::uint32_t kFewLeave = 16;
 constexpr std::uint32_t kUpdatesOfMany = 2;
 constexpr std::uint32_t kUpdatesOfFew = 8;
 constexpr std::uint32_t kUpdatesAfterFull = 64;  ///< where larger boxes had too many pairs
-// So long an order along the curve serves: updates without kept pairs, or boxes that left, of all.
+// The life of an order along the curve: updates without kept pairs, or leavers for each box.
 constexpr std::uint32_t kUpdatesOfOrder = 8;
 constexpr std::uint32_t kLeaversOfOrder = 2;
 
@@ -59,7 +57,7 @@ constexpr std::size_t kJobsOfTask = 32;
 using Move = std::array<float, 3>;
 
 bool is_possible(const BroadPhaseLimits& limits) noexcept {
-    return limits.boxes <= kMostBoxes && limits.threads > 0;
+    return limits.boxes <= kMostWorldBoxes && limits.threads > 0;
 }
 
 bool is_absent(const WorldBox& box) noexcept {
@@ -79,10 +77,11 @@ bool has_nan(const WorldBox& box) noexcept {
 void store(const WorldBox& box, float* padded, Move& move) noexcept {
     const bool absent = is_absent(box);  // by the numbers as given
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float before = padded[axis] + padded[kPaddedUpper + axis];
-        padded[axis] = absent ? kInfinite : std::clamp(box.lower[axis], -kLargest, kLargest);
-        padded[kPaddedUpper + axis] =
-            absent ? -kInfinite : std::clamp(box.upper[axis], -kLargest, kLargest);
+        const std::size_t upper = kPaddedUpper + axis;
+        const float before = padded[axis] + padded[upper];
+        padded[axis] = absent ? kAbsentBox[axis] : std::clamp(box.lower[axis], -kLargest, kLargest);
+        padded[upper] =
+            absent ? kAbsentBox[upper] : std::clamp(box.upper[axis], -kLargest, kLargest);
         move[axis] = 0.5F * (padded[axis] + padded[kPaddedUpper + axis] - before);
     }
 }
@@ -213,10 +212,8 @@ void BroadPhase::State::forget(std::uint32_t boxes) noexcept {
     keeps = true;
     of_many = of_few = wait = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const float absent[kPaddedBox] = {kInfinite,  kInfinite,  kInfinite,  0,
-                                          -kInfinite, -kInfinite, -kInfinite, 0};
-        std::copy_n(absent, kPaddedBox, exact + i * kPaddedBox);
-        std::copy_n(absent, kPaddedBox, larger + i * kPaddedBox);
+        std::copy_n(kAbsentBox.begin(), kPaddedBox, exact + i * kPaddedBox);
+        std::copy_n(kAbsentBox.begin(), kPaddedBox, larger + i * kPaddedBox);
     }
 }
 
@@ -330,8 +327,8 @@ BroadPhaseUpdate BroadPhase::State::finish(ParallelFor run) noexcept {
 
 // All pairs ---------------------------------------------------------------------------------------
 
-/// Calls `body(job, scratch, writer)` for each job. Returns the number of pairs that were written,
-/// which stand in `room` if there are at most limits.pairs.
+/// Calls `body(job, scratch, writer)` for each job. Returns the number of pairs. They are in `room`
+/// if there are at most limits.pairs.
 template <class Body>
 std::uint64_t BroadPhase::State::gather_pairs(std::span<BoxPair> room, std::size_t jobs,
                                               ParallelFor run, const Body& body) noexcept {

@@ -12,10 +12,7 @@
 namespace cdprep {
 namespace {
 
-/// The effects that a scene computes, in the order of texts.
-constexpr std::array kBuilt = {Ask::collide, Ask::within, Ask::distance};
 constexpr const char* kBuiltNames = "collide, within and distance";
-constexpr std::uint32_t kMostObjects = std::uint32_t{1} << 29;
 
 bool has(Ask asks, Ask one) noexcept {
     return contains(asks, one);
@@ -67,7 +64,7 @@ private:
     }
 
     void check_limits() {
-        if (options_.limits.objects > kMostObjects) {
+        if (options_.limits.objects > kMostWorldBoxes) {
             add("limits.objects is " + std::to_string(options_.limits.objects) +
                 "; at most 536870912 are possible.");
         }
@@ -88,7 +85,8 @@ private:
                 " are also those of pair " + std::to_string(other) + ".");
         }
         for_each_bit(pair.effects, [&](Ask one) {
-            if (std::find(kBuilt.begin(), kBuilt.end(), one) != kBuilt.end()) return;
+            if (std::find(kSceneEffects.begin(), kSceneEffects.end(), one) != kSceneEffects.end())
+                return;
             add(place + name_of(one) + " is not built in a scene. Built are " + kBuiltNames + ".");
         });
         check_number(place, "tolerance", pair.tolerance, has(pair.effects, Ask::within), "within");
@@ -215,7 +213,7 @@ std::string Plan::describe() const {
         layers |= 1U << pair.a | 1U << pair.b;
     }
     std::string rest;
-    for (const Ask one : kBuilt) {
+    for (const Ask one : kSceneEffects) {
         if (!has(effects(), one)) rest += (rest.empty() ? "" : ", ") + name_of(one);
     }
     if (!rest.empty()) text += "not computed, for no pair of layers asks: " + rest + "\n";

@@ -17,8 +17,6 @@
 namespace cdprep {
 namespace {
 
-constexpr std::array kEffects = {Ask::collide, Ask::within, Ask::distance};
-
 struct Object {
     const Model* model = nullptr;  ///< null: the slot is free
     Pose pose;
@@ -53,8 +51,8 @@ struct Records {
     std::uint32_t count = 0;
 };
 
-/// Calls `visit(x, y)` for the indices of each two records with the same slots, of which one may be
-/// missing: then its index is the count.
+/// Calls `visit(i, j)` for each pair of slots: with the index of its record in x and in y, or the
+/// count where it has none.
 template <class Visit>
 void merge(const Records& x, const Records& y, const Visit& visit) {
     std::uint32_t i = 0, j = 0;
@@ -265,7 +263,7 @@ EventReason Scene::State::reason_of(const Record& record, bool begins) const noe
 }
 
 void Scene::State::add_events(const Record& record, Ask effects, bool begins) noexcept {
-    for (const Ask effect : kEffects) {
+    for (const Ask effect : kSceneEffects) {
         if (!contains(effects, effect)) continue;
         events[event_count++] = {record.a, record.b, record.pair,
                                  effect,   begins,   reason_of(record, begins)};

@@ -19,8 +19,6 @@ using kernels::kPaddedBox;
 using kernels::kPaddedUpper;
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
-constexpr std::array<float, kPaddedBox> kAbsent = {kInfinite,  kInfinite,  kInfinite,  0,
-                                                   -kInfinite, -kInfinite, -kInfinite, 0};
 
 // A key holds the place on the curve, a bit for large boxes above it, and the number of the box.
 constexpr int kCurveBits = 10;  ///< of each axis
@@ -174,7 +172,7 @@ void WorldTree::rebuild(const float* boxes) noexcept {
     for (unsigned level = 0; level < view_.levels; ++level) {
         const std::size_t nodes = std::max<std::size_t>(groups_of(count), 1);
         for (std::size_t place = count; place < nodes * kLanes; ++place) {
-            set_lane(level, place, kAbsent.data());
+            set_lane(level, place, kAbsentBox.data());
         }
         if (level + 1 == view_.levels) break;
         for (std::size_t i = 0; i < nodes; ++i) {

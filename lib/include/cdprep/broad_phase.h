@@ -39,8 +39,11 @@ struct BoxPair {
     auto operator<=>(const BoxPair&) const = default;
 };
 
+/// The most boxes of a broad phase, and objects of a scene.
+inline constexpr std::uint32_t kMostWorldBoxes = std::uint32_t{1} << 29;
+
 struct BroadPhaseLimits {
-    std::uint32_t boxes;  ///< at most 2^29
+    std::uint32_t boxes;  ///< at most kMostWorldBoxes
     /// Pairs that meet at a time. If boxes move little, room for twice as many makes it faster.
     std::uint32_t pairs;
     std::uint32_t threads = 1;  ///< tasks that an update runs at a time; at least one

@@ -19,6 +19,9 @@ namespace cdprep {
 /// The number of layers of a scene. An object is in one of them.
 inline constexpr std::uint32_t kLayers = 32;
 
+/// The effects that a scene computes.
+inline constexpr std::array kSceneEffects = {Ask::collide, Ask::within, Ask::distance};
+
 /// What the objects of two layers are asked about each other. The two may be the same layer.
 struct LayerPair {
     std::uint32_t a = 0;  ///< a layer, below kLayers

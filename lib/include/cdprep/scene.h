@@ -88,8 +88,8 @@ struct SceneStep {
     std::uint64_t needed_pairs = 0;  ///< SceneLimits::pairs for this step, if there are too many
 };
 
-/// Many objects that move. A step asks what the plan asks for, of the pairs of objects that are
-/// near each other, and of which one has moved.
+/// Many objects that move. A step runs the plan's queries for pairs of objects that are near each
+/// other, if one of the two has moved.
 ///
 /// Results are sorted by the slots of a and b. They do not depend on threads, and equal those of
 /// single queries with Placement::world. They stay until the next step that is complete. After
