@@ -66,11 +66,12 @@ int main(int argc, char** argv) {
         for (const auto& event : scene.events()) {
             const bool is_hit = event.effect == cdprep::Ask::collide;
             std::cout << "frame " << frame << ": bolt " << event.b.slot - kRow
-                      << (event.begins ? " begins to " : " ceases to ")
+                      << (event.kind == cdprep::EventKind::begins ? " begins to " : " ceases to ")
                       << (is_hit ? "hit" : "be near") << " bracket " << event.a.slot << '\n';
         }
     }
     const auto& counts = scene.counts();
     std::cout << scene.object_count() << " objects: of " << counts.candidates
-              << " candidates in the last frame " << counts.collide << " were asked\n";
+              << " candidates in the last frame " << counts.calls_of(cdprep::Ask::collide)
+              << " were asked\n";
 }

@@ -12,11 +12,16 @@
 namespace cdprep {
 namespace {
 
-constexpr const char* kBuiltNames = "collide, within and distance";
-
 bool has(Ask asks, Ask one) noexcept {
     return contains(asks, one);
 }
+
+bool has_any(Ask asks, Ask some) noexcept {
+    return (asks & some) != Ask::nothing;
+}
+
+constexpr Ask kReadsBody = Ask::collide | Ask::distance | Ask::contacts;
+constexpr Ask kReadsOverlap = Ask::collide | Ask::overlap;
 
 std::string text_of(double number) {
     std::array<char, 32> text{};
@@ -31,6 +36,16 @@ std::string name_of(Ask one) {
     return "effect bit " + std::to_string(std::countr_zero(static_cast<std::uint32_t>(one)));
 }
 
+/// Names of effects: "collide, overlap and within".
+std::string list_of(std::span<const Ask> effects) {
+    std::string text;
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+        const char* before = i + 1 < effects.size() ? ", " : " and ";
+        text += (i == 0 ? "" : before) + name_of(effects[i]);
+    }
+    return text;
+}
+
 /// Calls `visit` with each bit.
 template <class Visit>
 void for_each_bit(Ask asks, const Visit& visit) {
@@ -41,8 +56,7 @@ void for_each_bit(Ask asks, const Visit& visit) {
 
 /// What a pair of layers asks of the models: its effects, and Ask::solid for solid bodies.
 Ask asks_of_models(const LayerPair& pair) noexcept {
-    const bool is_solid =
-        pair.body == Body::solid && (pair.effects & (Ask::collide | Ask::distance)) != Ask::nothing;
+    const bool is_solid = pair.body == Body::solid && has_any(pair.effects, kReadsBody);
     return is_solid ? pair.effects | Ask::solid : pair.effects;
 }
 
@@ -87,18 +101,35 @@ private:
         for_each_bit(pair.effects, [&](Ask one) {
             if (std::find(kSceneEffects.begin(), kSceneEffects.end(), one) != kSceneEffects.end())
                 return;
-            add(place + name_of(one) + " is not built in a scene. Built are " + kBuiltNames + ".");
+            add(place + name_of(one) + " is not built in a scene. Built are " +
+                list_of(kSceneEffects) + ".");
         });
         check_number(place, "tolerance", pair.tolerance, has(pair.effects, Ask::within), "within");
         check_number(place, "max_distance", pair.max_distance, has(pair.effects, Ask::distance),
                      "distance");
-        const bool reads_body = (pair.effects & (Ask::collide | Ask::distance)) != Ask::nothing;
-        if (pair.body != Body::surface && !reads_body) {
-            add(place + "body has no meaning without collide or distance.");
+        if (pair.body != Body::surface && !has_any(pair.effects, kReadsBody)) {
+            add(place + "body has no meaning without collide, distance or contacts.");
         }
-        if (pair.overlap != Overlap::closed && !has(pair.effects, Ask::collide)) {
-            add(place + "overlap has no meaning without collide.");
+        if (pair.overlap != Overlap::closed && !has_any(pair.effects, kReadsOverlap)) {
+            add(place + "overlap has no meaning without collide or overlap.");
         }
+        check_contacts(place, pair);
+    }
+
+    void check_contacts(const std::string& place, const LayerPair& pair) {
+        const ContactOptions& options = pair.contacts;
+        const ContactOptions unused = LayerPair().contacts;
+        const bool is_read = has(pair.effects, Ask::contacts);
+        check_number(place, "contacts.tolerance", options.tolerance, is_read, "contacts");
+        check_number(place, "contacts.cluster_angle", options.cluster_angle, is_read, "contacts");
+        if (is_read && (options.most == 0 || options.most > kMostListedContacts)) {
+            add(place + "contacts.most is " + std::to_string(options.most) + "; it must be 1 to " +
+                std::to_string(kMostListedContacts) + ".");
+        }
+        const bool is_default = options.most == unused.most && options.work == unused.work &&
+                                options.manifold == unused.manifold;
+        if (!is_read && !is_default)
+            add(place + "contacts has no meaning without the effect contacts.");
     }
 
     void check_number(const std::string& place, const char* name, double value, bool is_read,
@@ -135,13 +166,23 @@ std::string sentence_of(const LayerPair& pair) {
     const auto add = [&](const std::string& text) {
         effects += (effects.empty() ? "" : ", ") + text;
     };
-    const char* solid = pair.body == Body::solid ? " of solids" : "";
+    const std::string solid = pair.body == Body::solid ? " of solids" : "";
+    const std::string proper = pair.overlap == Overlap::proper ? ", proper" : "";
+    const bool has_overlap = has(pair.effects, Ask::overlap);
+    const bool has_distance = has(pair.effects, Ask::distance);
     if (has(pair.effects, Ask::collide)) {
-        add(std::string("collide") + solid + (pair.overlap == Overlap::proper ? ", proper" : ""));
+        add("collide" + solid + proper + (has_overlap ? " (overlap tells it)" : ""));
     }
-    if (has(pair.effects, Ask::within)) add("within " + text_of(pair.tolerance));
-    if (has(pair.effects, Ask::distance)) {
-        add(std::string("distance") + solid + " up to " + text_of(pair.max_distance));
+    if (has_overlap) add("overlap" + proper);
+    if (has(pair.effects, Ask::within)) {
+        add("within " + text_of(pair.tolerance) +
+            (has_distance ? " (distance mostly tells it)" : ""));
+    }
+    if (has_distance) add("distance" + solid + " up to " + text_of(pair.max_distance));
+    if (has(pair.effects, Ask::contacts)) {
+        add("contacts" + solid + " within " + text_of(pair.contacts.tolerance) + ", at most " +
+            std::to_string(pair.contacts.most) +
+            (pair.contacts.work == 0 ? "" : ", work " + std::to_string(pair.contacts.work)));
     }
     return "layers " + std::to_string(pair.a) + " and " + std::to_string(pair.b) + ": " + effects;
 }
@@ -193,7 +234,7 @@ double Plan::reach_of(std::uint32_t layer) const noexcept {
     double most = 0;
     for (const LayerPair& pair : pairs_) {
         if (pair.a == layer || pair.b == layer) {
-            most = std::max({most, pair.tolerance, pair.max_distance});
+            most = std::max({most, pair.tolerance, pair.max_distance, pair.contacts.tolerance});
         }
     }
     return std::min(most / 2, 16 * format::kMaxCoordinate);

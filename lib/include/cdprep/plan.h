@@ -12,6 +12,7 @@
 
 #include "cdprep/ask.h"
 #include "cdprep/broad_phase.h"
+#include "cdprep/contacts.h"
 #include "cdprep/pairs.h"
 
 namespace cdprep {
@@ -20,19 +21,24 @@ namespace cdprep {
 inline constexpr std::uint32_t kLayers = 32;
 
 /// The effects that a scene computes.
-inline constexpr std::array kSceneEffects = {Ask::collide, Ask::within, Ask::distance};
+inline constexpr std::array kSceneEffects = {Ask::collide, Ask::overlap, Ask::within, Ask::distance,
+                                             Ask::contacts};
 
 /// What the objects of two layers are asked about each other. The two may be the same layer.
 struct LayerPair {
     std::uint32_t a = 0;  ///< a layer, below kLayers
     std::uint32_t b = 0;
-    /// Any of Ask::collide, within and distance; others are refused. Nothing: the pair is dropped.
+    /// Any of kSceneEffects; others are refused. Nothing: the pair is dropped.
     Ask effects = Ask::nothing;
     double tolerance = 0;  ///< of `within`, in units of the models; finite, at least 0
     /// Of `distance`: farther objects have none. In units of the models; finite, at least 0.
     double max_distance = 0;
-    Body body = Body::surface;          ///< of `collide` and `distance`
-    Overlap overlap = Overlap::closed;  ///< of `collide`
+    Body body = Body::surface;          ///< of `collide`, `distance` and `contacts`
+    Overlap overlap = Overlap::closed;  ///< of `collide` and `overlap`
+    /// Of `contacts`: the tolerance is finite, and `most` is at least 1.
+    ContactOptions contacts = {.most = 16};
+    /// Also lists an event in each step for an effect that goes on.
+    bool lists_stays = false;
 };
 
 /// The use of a model in a scene.
@@ -46,6 +52,10 @@ struct SceneLimits {
     std::uint32_t objects = 0;
     std::uint32_t pairs = 0;    ///< whose boxes meet at a time, as BroadPhaseLimits::pairs
     std::uint32_t threads = 1;  ///< tasks that a step runs at a time; at least one
+    /// Of `overlap` and `contacts`: how many all lists hold together. Takes memory only if a pair
+    /// of layers asks for the effect.
+    std::uint32_t triangle_pairs = 0;
+    std::uint32_t contacts = 0;
 };
 
 struct PlanOptions {

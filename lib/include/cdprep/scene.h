@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <span>
 
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/contacts.h"
 #include "cdprep/model.h"
 #include "cdprep/pairs.h"
 #include "cdprep/plan.h"
@@ -38,8 +40,8 @@ struct SceneHit {
     ObjectId a;
     ObjectId b;
     std::uint32_t pair;  ///< of layers: its number in Plan::pairs()
-    /// Of Ask::collide, within and distance: the effects that hold. `distance` holds if the
-    /// distance is at most max_distance.
+    /// The effects that hold: `distance` if the distance is at most max_distance, `overlap` and
+    /// `contacts` if their list has items.
     Ask holds;
     /// Of `collide`. If it is not known whether they collide, the two are listed without a hit.
     Collision collision;
@@ -53,39 +55,72 @@ struct SceneDistance {
     Distance distance;  ///< A is the object with the lower slot; witnesses are in the world
 };
 
+/// The triangles of two objects that overlap: all of them, in the order of (a, b).
+struct SceneOverlaps {
+    ObjectId a;
+    ObjectId b;
+    std::uint32_t pair;
+    std::span<const TrianglePair> triangles;  ///< A is the object with the lower slot
+};
+
+/// The contacts of two objects, in the world. Normals point from the object with the lower slot to
+/// the other.
+struct SceneContacts {
+    ObjectId a;
+    ObjectId b;
+    std::uint32_t pair;
+    std::span<const Contact> contacts;
+    ContactsVerdict verdict;  ///< what options.most and options.work left out
+};
+
+enum class EventKind : std::uint32_t {
+    ends,
+    stays,  ///< listed only if LayerPair::lists_stays
+    begins,
+};
+
 /// The reason of an event.
 enum class EventReason : std::uint32_t {
     moved,      ///< an object moved, or was added
     removed,    ///< an object was removed
     relayered,  ///< an object is in another layer than in the last step
+    paused,     ///< the effect was paused or resumed
+    unchanged,  ///< of EventKind::stays: neither object moved
 };
 
-/// An effect that begins or ceases to hold for two objects. Each begin is followed by one end
-/// before the next begin of the same objects and effect.
+/// An effect that begins, goes on or ceases to hold for two objects. Each begin is followed by one
+/// end before the next begin of the same objects and effect.
 struct SceneEvent {
     ObjectId a;
     ObjectId b;
     std::uint32_t pair;  ///< of layers, when it began
-    Ask effect;          ///< one of Ask::collide, within, distance
-    bool begins;
+    Ask effect;          ///< one of kSceneEffects
+    EventKind kind;
     EventReason reason;
 };
 
-/// The work of a step.
+/// The work of a step. A query is not called if another one has told its answer: overlap() tells
+/// that of collide(), and distance() mostly that of collide() and within().
 struct SceneCounts {
     std::uint64_t moved = 0;       ///< objects that moved, were added, removed or relayered
     std::uint64_t candidates = 0;  ///< pairs whose boxes meet
     std::uint64_t kept = 0;        ///< candidates of which neither object moved: not asked again
     std::uint64_t apart = 0;       ///< candidates whose root boxes are apart: nothing is asked
-    std::uint64_t collide = 0;     ///< calls of collide()
-    std::uint64_t within = 0;      ///< calls of within()
-    std::uint64_t distance = 0;    ///< calls of distance()
+    std::array<std::uint64_t, kSceneEffects.size()> calls{};  ///< by effect
+    std::uint64_t triangle_pairs = 0;                         ///< in all lists of overlaps()
+    std::uint64_t contacts = 0;                               ///< in all lists of contacts()
+
+    /// Returns the calls of one effect; 0 if it is none of kSceneEffects.
+    [[nodiscard]] std::uint64_t calls_of(Ask effect) const noexcept;
 };
 
-/// The result of Scene::step().
+/// The result of Scene::step(). If it is not complete, nothing has changed, and the limits that
+/// were too small are named. Lists are computed only if limits.pairs suffices.
 struct SceneStep {
-    bool complete = true;            ///< otherwise nothing has changed
-    std::uint64_t needed_pairs = 0;  ///< SceneLimits::pairs for this step, if there are too many
+    bool complete = true;
+    std::uint64_t needed_pairs = 0;           ///< SceneLimits::pairs for this step, else 0
+    std::uint64_t needed_triangle_pairs = 0;  ///< SceneLimits::triangle_pairs, else 0
+    std::uint64_t needed_contacts = 0;        ///< SceneLimits::contacts, else 0
 };
 
 /// Many objects that move. A step runs the plan's queries for pairs of objects that are near each
@@ -129,18 +164,35 @@ public:
     /// program as add() does.
     bool set_layer(ObjectId object, std::uint32_t layer) noexcept;
 
+    /// Pauses these effects from the next step on, and resumes all others. Paused effects are not
+    /// computed, and their events end. Effects that the plan does not ask for stay as they are.
+    void set_paused(Ask effects) noexcept;
+
     /// Computes the effects of all objects as they are now. Uses as many workspaces as
-    /// limits.threads allows; there must be at least one. Calls `parallel_for` at most three times.
+    /// limits.threads allows; there must be at least one. Calls `parallel_for` at most five times.
     SceneStep step(std::span<Workspace> workspaces, ParallelFor parallel_for = serial_for) noexcept;
+    /// Does the same with the pairs of a broad phase of the caller: pairs of slots, in any order.
+    /// They must contain all pairs whose boxes meet; a pair that is missing is not looked at. Pairs
+    /// of free slots, of layers that are not paired and of boxes that do not meet are ignored.
+    /// If pairs are listed twice, needed_pairs may be larger than is needed.
+    SceneStep step_with(std::span<const BoxPair> candidates, std::span<Workspace> workspaces,
+                        ParallelFor parallel_for = serial_for) noexcept;
+    /// Returns the box of each slot in the next step, for such a broad phase; free slots have
+    /// absent boxes.
+    [[nodiscard]] std::span<const WorldBox> boxes() noexcept;
 
     [[nodiscard]] std::span<const SceneHit> hits() const noexcept;
+    [[nodiscard]] std::span<const SceneOverlaps> overlaps() const noexcept;
     [[nodiscard]] std::span<const SceneDistance> distances() const noexcept;
-    /// The events of the last step that was complete, in the order of hits.
+    /// Two objects whose search for contacts options.work ended early are listed without contacts.
+    [[nodiscard]] std::span<const SceneContacts> contacts() const noexcept;
+    /// The events of the last step that was complete, in the order of hits. For the same objects,
+    /// first what ends, then what stays, then what begins.
     [[nodiscard]] std::span<const SceneEvent> events() const noexcept;
     [[nodiscard]] const SceneCounts& counts() const noexcept;
     [[nodiscard]] std::uint32_t object_count() const noexcept;
-    /// Returns a hash of all hits, distances (bounds and triangles) and events. It is equal for any
-    /// threads and instruction set.
+    /// Returns a hash of all hits, overlaps, distances, contacts and events. It is equal for any
+    /// number of threads and any instruction set.
     [[nodiscard]] std::uint64_t state_hash() const noexcept;
 
 private:

@@ -46,39 +46,58 @@ TEST(Plan, DropsWhatNobodyAsksFor) {
     EXPECT_TRUE(plan.filter_of(3).allows(plan.filter_of(1)));
     EXPECT_EQ(plan.describe(),
               "layers 0 and 1: collide\n"
-              "layers 3 and 1: within 0.5, distance up to 2\n"
+              "layers 3 and 1: within 0.5 (distance mostly tells it), distance up to 2\n"
+              "not computed, for no pair of layers asks: overlap, contacts\n"
               "layers that are never looked at together: 0 and 0, 0 and 3, 1 and 1, 3 and 3\n");
-    EXPECT_EQ(compiled({}).plan->describe(),
-              "not computed, for no pair of layers asks: collide, within, distance\n");
+    EXPECT_EQ(
+        compiled({}).plan->describe(),
+        "not computed, for no pair of layers asks: collide, overlap, within, distance, contacts\n");
 }
 
 TEST(Plan, AsksForSolidsWhereTheyAreRead) {
-    const auto made = compiled({{.effects = Ask::collide, .body = Body::solid}});
-    EXPECT_EQ(made.plan->asks_of(0), Ask::collide | Ask::solid);
+    const auto made = compiled({{.effects = Ask::collide, .body = Body::solid},
+                                {.a = 1, .effects = Ask::contacts, .body = Body::solid}});
+    EXPECT_EQ(made.plan->asks_of(0), Ask::collide | Ask::contacts | Ask::solid);
+    EXPECT_EQ(made.plan->asks_of(1), Ask::contacts | Ask::solid);
 }
 
-// Each set of three effects is built, and each other effect is refused by its name.
+TEST(Plan, DescribesListsAndTheirLimits) {
+    const auto made = compiled({{.effects = Ask::collide | Ask::overlap | Ask::contacts,
+                                 .overlap = Overlap::proper,
+                                 .contacts = {.tolerance = 0.25, .most = 8, .work = 1000}}});
+    EXPECT_EQ(
+        made.plan->describe(),
+        "layers 0 and 0: collide, proper (overlap tells it), overlap, proper, contacts within "
+        "0.25, at most 8, work 1000\n"
+        "not computed, for no pair of layers asks: within, distance\n");
+    EXPECT_EQ(made.plan->reach_of(0), 0.125);
+}
+
+// Each set of the five effects is built, and each other effect is refused by its name.
 TEST(Plan, DecidesEveryEffect) {
-    constexpr std::array kBuilt = {Ask::collide, Ask::within, Ask::distance};
-    for (unsigned set = 0; set < 8; ++set) {
+    constexpr std::array kBuilt = {Ask::collide, Ask::overlap, Ask::within, Ask::distance,
+                                   Ask::contacts};
+    Ask all = Ask::nothing;
+    for (unsigned set = 0; set < 32; ++set) {
         Ask effects = Ask::nothing;
-        for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t i = 0; i < 5; ++i) {
             if ((set >> i & 1) != 0) effects = effects | kBuilt[i];
         }
         const auto made = compiled({{.a = 4, .b = 7, .effects = effects}});
         ASSERT_TRUE(made.plan);
         EXPECT_EQ(made.plan->effects(), effects);
+        all = all | effects;
     }
     for (int bit = 0; bit < 32; ++bit) {
         const auto one = static_cast<Ask>(1U << bit);
-        if (contains(kBuilt[0] | kBuilt[1] | kBuilt[2], one)) continue;
+        if (contains(all, one)) continue;
         const Needs* needs = find_needs(one);
         const std::string name =
             needs ? std::string(needs->name) : "effect bit " + std::to_string(bit);
         EXPECT_EQ(compiled({{.effects = one}}).refusals,
                   Sentences({"Pair 0 of layers: " + name +
                              " is not built in a scene. Built are "
-                             "collide, within and distance."}));
+                             "collide, overlap, within, distance and contacts."}));
     }
 }
 
@@ -92,7 +111,12 @@ TEST(Plan, NamesEveryRefusal) {
                    .b = 3,
                    .effects = Ask::distance,
                    .max_distance = kNan,
-                   .overlap = Overlap::proper}},
+                   .overlap = Overlap::proper,
+                   .contacts = {.tolerance = 2, .most = 8}},
+                  {.a = 4,
+                   .effects = Ask::contacts,
+                   .contacts = {.tolerance = kNan, .most = 0, .cluster_angle = -1}},
+                  {.a = 5, .effects = Ask::contacts, .contacts = {.most = 257}}},
                  {}, {.objects = 1U << 30, .pairs = 1, .threads = 0});
     EXPECT_FALSE(made.plan);
     EXPECT_EQ(made.refusals,
@@ -102,9 +126,18 @@ TEST(Plan, NamesEveryRefusal) {
                          "Pair 1 of layers: tolerance has no meaning without within.",
                          "Pair 2 of layers: layers 2 and 1 are also those of pair 1.",
                          "Pair 2 of layers: tolerance is -1; it must be finite and at least 0.",
-                         "Pair 2 of layers: body has no meaning without collide or distance.",
+                         "Pair 2 of layers: body has no meaning without collide, distance or "
+                         "contacts.",
                          "Pair 3 of layers: max_distance is nan; it must be finite and at least 0.",
-                         "Pair 3 of layers: overlap has no meaning without collide."}));
+                         "Pair 3 of layers: overlap has no meaning without collide or overlap.",
+                         "Pair 3 of layers: contacts.tolerance has no meaning without contacts.",
+                         "Pair 3 of layers: contacts has no meaning without the effect contacts.",
+                         "Pair 4 of layers: contacts.tolerance is nan; it must be finite and at "
+                         "least 0.",
+                         "Pair 4 of layers: contacts.cluster_angle is -1; it must be finite and at "
+                         "least 0.",
+                         "Pair 4 of layers: contacts.most is 0; it must be 1 to 256.",
+                         "Pair 5 of layers: contacts.most is 257; it must be 1 to 256."}));
 }
 
 TEST(Plan, SaysHowToBakeWhatAModelLacks) {

@@ -6,6 +6,7 @@
 
 #include "cdprep/scene.h"
 #include "support/counted_memory.h"
+#include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
@@ -14,13 +15,19 @@ namespace {
 
 // Objects are added, removed, moved and asked, with one set of events after the other.
 TEST(SceneMemory, NothingIsAllocatedAfterConstruction) {
-    const test::OpenModel ball = test::open_tiny(test::icosphere(2));
-    const std::vector<LayerPair> pairs = {{.effects = Ask::collide | Ask::within | Ask::distance,
-                                           .tolerance = 0.1,
-                                           .max_distance = 0.5,
-                                           .body = Body::solid}};
+    const test::TestMesh mesh = test::icosphere(2);
+    const test::OpenModel ball = test::open_tiny(
+        test::with_contacts(test::with_one_piece(test::bake_tiny(mesh.positions, mesh.triangles))));
+    const std::vector<LayerPair> pairs = {
+        {.effects = Ask::collide | Ask::overlap | Ask::within | Ask::distance | Ask::contacts,
+         .tolerance = 0.1,
+         .max_distance = 0.5,
+         .body = Body::solid}};
     const Plan plan =
-        *Plan::compile({.pairs = pairs, .limits = {.objects = 30, .pairs = 500}}).plan;
+        *Plan::compile(
+             {.pairs = pairs,
+              .limits = {.objects = 30, .pairs = 500, .triangle_pairs = 100000, .contacts = 8000}})
+             .plan;
     Scene scene(plan);
     std::vector<Workspace> workspaces(1);
     std::mt19937 random(3);

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "cdprep/broad_phase.h"
+#include "cdprep/contacts.h"
+#include "cdprep/pairs.h"
+#include "cdprep/scene.h"
+#include "scene/carver.h"
+
+namespace cdprep {
+
+/// The items of one record among those of all records.
+struct RecordList {
+    std::size_t source = 0;   ///< of the first, where the step has it from
+    std::uint32_t place = 0;  ///< of the first
+    std::uint32_t count = 0;
+};
+
+/// What is known of two objects whose boxes meet.
+struct Record {
+    ObjectId a;
+    ObjectId b;
+    std::uint32_t pair = 0;
+    Ask asked = Ask::nothing;   ///< effects that are known
+    Ask called = Ask::nothing;  ///< effects whose query was called in this step
+    Ask holds = Ask::nothing;
+    Collision collision;
+    RecordList triangle_pairs;
+    RecordList contacts;
+    bool is_new = false;    ///< looked at in this step
+    bool is_apart = false;  ///< by the root boxes: nothing is asked
+
+    [[nodiscard]] BoxPair slots() const noexcept {
+        return {a.slot, b.slot};
+    }
+    [[nodiscard]] bool is_same(const Record& other) const noexcept {
+        return a == other.a && b == other.b && pair == other.pair;
+    }
+};
+
+/// The records of a step, sorted by slots. Arrays of effects that the plan does not ask for are
+/// null.
+struct Records {
+    Records(Carver& carver, const Plan& plan) noexcept
+        : record(carver.take<Record>(plan.limits().pairs)) {
+        const SceneLimits& limits = plan.limits();
+        const Ask effects = plan.effects();
+        if (contains(effects, Ask::distance)) distance = carver.take<Distance>(limits.pairs);
+        if (contains(effects, Ask::overlap)) {
+            triangle_pairs = carver.take<TrianglePair>(limits.triangle_pairs);
+        }
+        if (contains(effects, Ask::contacts)) {
+            verdict = carver.take<ContactsVerdict>(limits.pairs);
+            contacts = carver.take<Contact>(limits.contacts);
+        }
+    }
+
+    std::uint32_t count = 0;
+    Record* record;
+    Distance* distance = nullptr;        ///< by record
+    ContactsVerdict* verdict = nullptr;  ///< by record
+    TrianglePair* triangle_pairs = nullptr;
+    Contact* contacts = nullptr;
+};
+
+/// Calls `visit(i, j)` for each pair of slots: with the index of its record in x and in y, or the
+/// count where it has none.
+template <class Visit>
+void merge(const Records& x, const Records& y, const Visit& visit) {
+    std::uint32_t i = 0, j = 0;
+    while (i < x.count || j < y.count) {
+        const bool takes_x =
+            j == y.count || (i < x.count && x.record[i].slots() <= y.record[j].slots());
+        const bool takes_y =
+            i == x.count || (j < y.count && y.record[j].slots() <= x.record[i].slots());
+        visit(takes_x ? i : x.count, takes_y ? j : y.count);
+        i += takes_x ? 1 : 0;
+        j += takes_y ? 1 : 0;
+    }
+}
+
+}  // namespace cdprep

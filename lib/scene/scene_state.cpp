@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MIT
+#include "scene/scene_state.h"
+
+#include <cassert>
+#include <utility>
+
+#include "cdprep/format/float_environment.h"
+#include "core/share_out.h"
+
+namespace cdprep {
+
+// Objects -----------------------------------------------------------------------------------------
+
+ObjectSlot* Scene::State::find(ObjectId id) noexcept {
+    if (id.slot >= plan->limits().objects || id.generation == 0) return nullptr;
+    ObjectSlot& object = objects[id.slot];
+    return object.model != nullptr && object.generation == id.generation ? &object : nullptr;
+}
+
+void Scene::State::change(std::uint32_t slot) noexcept {
+    if (!std::exchange(objects[slot].is_changed, true)) changed[changed_count++] = slot;
+}
+
+/// Brings the box and the filter of a slot up to date.
+void Scene::State::place(std::uint32_t slot) noexcept {
+    const ObjectSlot& object = objects[slot];
+    if (object.model == nullptr) {
+        boxes[slot] = {{1, 1, 1}, {-1, -1, -1}};
+        filters[slot] = {0, 0};
+    } else {
+        roots[slot] = root_box(*object.model, object.pose, plan->reach_of(object.layer));
+        boxes[slot] = world_box(roots[slot]);
+        filters[slot] = plan->filter_of(object.layer);
+    }
+}
+
+void Scene::State::place_changed() noexcept {
+    const format::FloatEnvironment environment;
+    for (std::uint32_t i = 0; i < changed_count; ++i) place(changed[i]);
+}
+
+// Candidates --------------------------------------------------------------------------------------
+
+bool Scene::State::is_changed(const Record& record) const noexcept {
+    return objects[record.a.slot].is_changed || objects[record.b.slot].is_changed;
+}
+
+void Scene::State::add_candidate(BoxPair slots) noexcept {
+    const ObjectSlot &a = objects[slots.a], &b = objects[slots.b];
+    Record& record = next.record[next.count++];
+    record = Record{.a = {slots.a, a.generation},
+                    .b = {slots.b, b.generation},
+                    .pair = *plan->find_pair(a.layer, b.layer),
+                    .collision = {},
+                    .triangle_pairs = {},
+                    .contacts = {},
+                    .is_new = true};
+}
+
+/// Whether the slots have objects of paired layers whose boxes meet.
+bool Scene::State::is_candidate(BoxPair slots) const noexcept {
+    const std::uint32_t most = plan->limits().objects;
+    if (slots.a >= slots.b || slots.b >= most) return false;
+    const ObjectSlot &a = objects[slots.a], &b = objects[slots.b];
+    if (a.model == nullptr || b.model == nullptr || !plan->find_pair(a.layer, b.layer)) {
+        return false;
+    }
+    const WorldBox &x = boxes[slots.a], &y = boxes[slots.b];
+    for (int axis = 0; axis < 3; ++axis) {
+        if (x.lower[axis] > y.upper[axis] || y.lower[axis] > x.upper[axis]) return false;
+    }
+    return true;
+}
+
+/// Fills `next` with records of the candidates among the caller's pairs. Returns how many there
+/// are; if they are more than fit, equal ones are counted again.
+std::uint64_t Scene::State::list_given(std::span<const BoxPair> candidates) noexcept {
+    std::uint64_t count = 0;
+    next.count = 0;
+    for (const auto [one, two] : candidates) {
+        const BoxPair slots = {std::min(one, two), std::max(one, two)};
+        if (!is_candidate(slots)) continue;
+        if (count++ < plan->limits().pairs) add_candidate(slots);
+    }
+    if (count > plan->limits().pairs) return count;
+    const auto end = next.record + next.count;
+    const auto is_before = [](const Record& x, const Record& y) { return x.slots() < y.slots(); };
+    const auto is_equal = [](const Record& x, const Record& y) { return x.slots() == y.slots(); };
+    std::sort(next.record, end, is_before);
+    next.count = static_cast<std::uint32_t>(std::unique(next.record, end, is_equal) - next.record);
+    return next.count;
+}
+
+/// Takes over what the last step knew of two objects, as far as it is not paused.
+void Scene::State::keep(std::uint32_t old, std::uint32_t now) noexcept {
+    Record& record = next.record[now];
+    record = last.record[old];
+    record.is_new = false;
+    record.called = Ask::nothing;
+    record.asked = record.asked & effects_of(record);
+    record.holds = record.holds & record.asked;
+    if (!contains(record.asked, Ask::collide)) record.collision = {};
+    if (!contains(record.asked, Ask::overlap)) record.triangle_pairs = {};
+    if (!contains(record.asked, Ask::contacts)) record.contacts = {};
+    record.triangle_pairs.source = record.triangle_pairs.place;
+    record.contacts.source = record.contacts.place;
+    if (next.distance) next.distance[now] = last.distance[old];
+    if (next.verdict) next.verdict[now] = last.verdict[old];
+}
+
+/// Keeps the records of objects that have not changed, and lists the others to be asked.
+void Scene::State::keep_known() noexcept {
+    merge(last, next, [&](std::uint32_t old, std::uint32_t now) {
+        if (old == last.count || now == next.count) return;
+        const Record &before = last.record[old], &record = next.record[now];
+        const bool is_known = contains(before.asked, effects_of(record));
+        if (is_known && !is_changed(record) && record.is_same(before)) keep(old, now);
+    });
+    asked_count = 0;
+    for (std::uint32_t i = 0; i < next.count; ++i) {
+        if (next.record[i].is_new) asked[asked_count++] = i;
+    }
+}
+
+// Queries -----------------------------------------------------------------------------------------
+
+ListWriters Scene::State::start_lists(std::size_t worker) noexcept {
+    ListWriters lists{};
+    if (triangle_pairs) lists.triangle_pairs = &triangle_pairs->writer(worker);
+    if (contact_pages) {
+        lists.contacts = &contact_pages->writer(worker);
+        lists.contact_room = {contact_room + worker * most_contacts, most_contacts};
+    }
+    return lists;
+}
+
+/// Asks what the plan asks for.
+void Scene::State::ask(std::uint32_t number, Workspace& workspace,
+                       const ListWriters& lists) noexcept {
+    const format::FloatEnvironment environment;
+    Record& record = next.record[number];
+    record.asked = effects_of(record);
+    record.is_apart =
+        record.asked != Ask::nothing && !may_meet(roots[record.a.slot], roots[record.b.slot]);
+    if (record.is_apart || record.asked == Ask::nothing) return;
+    const LayerPair& asks = plan->pairs()[record.pair];
+    const ObjectSlot &a = objects[record.a.slot], &b = objects[record.b.slot];
+    const Pair pair{*a.model,
+                    *b.model,
+                    Placement::world(a.pose, b.pose),
+                    {.body = asks.body, .overlap = asks.overlap}};
+    if (lists.triangle_pairs) record.triangle_pairs.source = lists.triangle_pairs->begin_list();
+    if (lists.contacts) record.contacts.source = lists.contacts->begin_list();
+    const PairAnswer answer = ask_pair(pair, asks, record.asked, workspace, lists);
+    record.holds = answer.holds;
+    record.called = answer.called;
+    record.collision = answer.collision;
+    // A list that does not fit is longer than its count says; then the step is not complete.
+    record.triangle_pairs.count = static_cast<std::uint32_t>(answer.overlapping);
+    record.contacts.count = static_cast<std::uint32_t>(answer.contacts.count);
+    if (next.distance) next.distance[number] = answer.distance;
+    if (next.verdict) next.verdict[number] = answer.contacts;
+}
+
+void Scene::State::ask_all(std::span<Workspace> workspaces, ParallelFor parallel_for) noexcept {
+    const std::size_t threads = std::min<std::size_t>(workspaces.size(), plan->limits().threads);
+    if (triangle_pairs) triangle_pairs->start();
+    if (contact_pages) contact_pages->start();
+    share_jobs(asked_count, threads, parallel_for, [&](std::size_t job, std::size_t worker) {
+        ask(asked[job], workspaces[worker], start_lists(worker));
+    });
+}
+
+// Lists -------------------------------------------------------------------------------------------
+
+/// Gives each list its place in the order of records. Returns what the limits lack.
+SceneStep Scene::State::place_lists() noexcept {
+    std::uint64_t pairs = triangle_pairs ? triangle_pairs->count() : 0;
+    std::uint64_t found = contact_pages ? contact_pages->count() : 0;
+    std::uint32_t pair_place = 0, contact_place = 0;
+    for (std::uint32_t i = 0; i < next.count; ++i) {
+        Record& record = next.record[i];
+        record.triangle_pairs.place =
+            std::exchange(pair_place, pair_place + record.triangle_pairs.count);
+        record.contacts.place = std::exchange(contact_place, contact_place + record.contacts.count);
+        if (record.is_new) continue;
+        pairs += record.triangle_pairs.count;
+        found += record.contacts.count;
+    }
+    SceneStep step;
+    if (pairs > plan->limits().triangle_pairs) step.needed_triangle_pairs = pairs;
+    if (found > plan->limits().contacts) step.needed_contacts = found;
+    step.complete = step.needed_triangle_pairs == 0 && step.needed_contacts == 0;
+    return step;
+}
+
+namespace {
+
+/// Brings the items of a record to their place.
+template <class Item>
+void fill_list(const RecordList& list, bool is_new, const ListPages<Item>& pages,
+               const Item* last_items, Item* items) noexcept {
+    if (is_new) {
+        pages.copy(list.source, list.count, items + list.place);
+    } else {
+        std::copy_n(last_items + list.source, list.count, items + list.place);
+    }
+}
+
+}  // namespace
+
+void Scene::State::fill_lists(std::size_t threads, ParallelFor parallel_for) noexcept {
+    if (!triangle_pairs && !contact_pages) return;
+    share_jobs(next.count, threads, parallel_for, [&](std::size_t job, std::size_t) {
+        const Record& record = next.record[job];
+        if (record.triangle_pairs.count > 0) {
+            fill_list(record.triangle_pairs, record.is_new, *triangle_pairs, last.triangle_pairs,
+                      next.triangle_pairs);
+            TrianglePair* const first = next.triangle_pairs + record.triangle_pairs.place;
+            if (record.is_new) std::sort(first, first + record.triangle_pairs.count);
+        }
+        if (record.contacts.count > 0) {
+            fill_list(record.contacts, record.is_new, *contact_pages, last.contacts, next.contacts);
+        }
+    });
+}
+
+// Results -----------------------------------------------------------------------------------------
+
+void Scene::State::count_calls() noexcept {
+    counts = {.moved = changed_count, .candidates = next.count, .kept = next.count - asked_count};
+    for (std::uint32_t i = 0; i < next.count; ++i) {
+        const Record& record = next.record[i];
+        counts.triangle_pairs += record.triangle_pairs.count;
+        counts.contacts += record.contacts.count;
+        if (!record.is_new) continue;
+        counts.apart += record.is_apart ? 1 : 0;
+        for (std::size_t effect = 0; effect < kSceneEffects.size(); ++effect) {
+            counts.calls[effect] += contains(record.called, kSceneEffects[effect]) ? 1 : 0;
+        }
+    }
+}
+
+EventReason Scene::State::reason_of(const Record& record, Ask effect,
+                                    EventKind kind) const noexcept {
+    const ObjectSlot &a = objects[record.a.slot], &b = objects[record.b.slot];
+    const auto is_gone = [](const ObjectSlot& object, const ObjectId& id) {
+        return object.model == nullptr || object.generation != id.generation;
+    };
+    const bool ends = kind == EventKind::ends;
+    if (ends && (is_gone(a, record.a) || is_gone(b, record.b))) return EventReason::removed;
+    if (a.layer != a.last_layer || b.layer != b.last_layer) return EventReason::relayered;
+    if (contains(paused, effect) != contains(last_paused, effect)) return EventReason::paused;
+    return kind == EventKind::stays && !is_changed(record) ? EventReason::unchanged
+                                                           : EventReason::moved;
+}
+
+void Scene::State::add_events(const Record& record, Ask effects, EventKind kind) noexcept {
+    for (const Ask effect : kSceneEffects) {
+        if (!contains(effects, effect)) continue;
+        events[event_count++] = {record.a, record.b, record.pair,
+                                 effect,   kind,     reason_of(record, effect, kind)};
+    }
+}
+
+/// Lists what ends, stays and begins from the last step to the next.
+void Scene::State::list_events() noexcept {
+    event_count = 0;
+    const Record none;
+    merge(last, next, [&](std::uint32_t old, std::uint32_t now) {
+        const Record& before = old < last.count ? last.record[old] : none;
+        const Record& after = now < next.count ? next.record[now] : none;
+        const Ask common = before.is_same(after) ? before.holds & after.holds : Ask::nothing;
+        add_events(before, without(before.holds, common), EventKind::ends);
+        if (common != Ask::nothing && plan->pairs()[after.pair].lists_stays) {
+            add_events(after, common, EventKind::stays);
+        }
+        add_events(after, without(after.holds, common), EventKind::begins);
+    });
+}
+
+void Scene::State::list_results() noexcept {
+    hit_count = distance_count = overlap_count = contact_count = 0;
+    for (std::uint32_t i = 0; i < last.count; ++i) {
+        const Record& record = last.record[i];
+        if (contains(record.asked, Ask::contacts) && !record.is_apart &&
+            (record.contacts.count > 0 || !last.verdict[i].searched)) {
+            contacts[contact_count++] = {
+                record.a,
+                record.b,
+                record.pair,
+                {last.contacts + record.contacts.place, record.contacts.count},
+                last.verdict[i]};
+        }
+        if (record.holds == Ask::nothing && record.collision.hit == Answer::no) continue;
+        hits[hit_count++] = {record.a, record.b, record.pair, record.holds, record.collision};
+        if (contains(record.holds, Ask::distance)) {
+            distances[distance_count++] = {record.a, record.b, record.pair, last.distance[i]};
+        }
+        if (contains(record.holds, Ask::overlap)) {
+            overlaps[overlap_count++] = {
+                record.a,
+                record.b,
+                record.pair,
+                {last.triangle_pairs + record.triangle_pairs.place, record.triangle_pairs.count}};
+        }
+    }
+}
+
+// A step ------------------------------------------------------------------------------------------
+
+/// Computes a step from the candidates in `next`.
+SceneStep Scene::State::compute(std::span<Workspace> workspaces,
+                                ParallelFor parallel_for) noexcept {
+    keep_known();
+    ask_all(workspaces, parallel_for);
+    const SceneStep step = place_lists();
+    if (!step.complete) return step;
+    fill_lists(std::min<std::size_t>(workspaces.size(), plan->limits().threads), parallel_for);
+    count_calls();
+    list_events();
+    std::swap(last, next);
+    list_results();
+    for (std::uint32_t i = 0; i < changed_count; ++i) {
+        ObjectSlot& object = objects[changed[i]];
+        object.is_changed = false;
+        object.last_layer = object.layer;
+    }
+    changed_count = 0;
+    last_paused = paused;
+    return step;
+}
+
+SceneStep Scene::State::step(std::span<Workspace> workspaces, ParallelFor parallel_for) noexcept {
+    place_changed();
+    const std::size_t size = plan->limits().objects;
+    const BroadPhaseUpdate candidates =
+        broad_phase_is_late ? broad_phase->update({boxes, size}, {filters, size}, parallel_for)
+                            : broad_phase->update_moved({boxes, size}, {filters, size},
+                                                        {changed, changed_count}, parallel_for);
+    assert(!candidates.refused);  // boxes of valid poses are numbers
+    broad_phase_is_late = false;
+    if (!candidates.complete) return {.complete = false, .needed_pairs = candidates.needed};
+    next.count = 0;
+    for (const BoxPair slots : candidates.pairs) add_candidate(slots);
+    return compute(workspaces, parallel_for);
+}
+
+SceneStep Scene::State::step_with(std::span<const BoxPair> candidates,
+                                  std::span<Workspace> workspaces,
+                                  ParallelFor parallel_for) noexcept {
+    place_changed();
+    const std::uint64_t count = list_given(candidates);
+    if (count > plan->limits().pairs) return {.complete = false, .needed_pairs = count};
+    const SceneStep step = compute(workspaces, parallel_for);
+    broad_phase_is_late = true;
+    return step;
+}
+
+}  // namespace cdprep

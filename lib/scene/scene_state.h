@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "cdprep/broad_phase.h"
+#include "cdprep/scene.h"
+#include "scene/ask_pair.h"
+#include "scene/carver.h"
+#include "scene/list_pages.h"
+#include "scene/object_box.h"
+#include "scene/scene_records.h"
+
+namespace cdprep {
+
+struct ObjectSlot {
+    const Model* model = nullptr;  ///< null: the slot is free
+    Pose pose;
+    std::uint32_t layer = 0;
+    std::uint32_t generation = 0;
+    std::uint32_t last_layer = 0;  ///< in the last step that was complete, or when it was added
+    bool is_changed = false;       ///< since that step
+};
+
+inline std::size_t effect_count(Ask effects) noexcept {
+    return static_cast<std::size_t>(std::popcount(static_cast<std::uint32_t>(effects)));
+}
+
+/// The most contacts of two objects.
+inline std::size_t most_contacts_of(const Plan& plan) noexcept {
+    std::uint32_t most = 0;
+    for (const LayerPair& pair : plan.pairs()) {
+        if (contains(pair.effects, Ask::contacts)) most = std::max(most, pair.contacts.most);
+    }
+    return most;
+}
+
+struct Scene::State {
+    State(Carver& carver, const Plan& of) noexcept
+        : plan(&of),
+          planned(of.effects()),
+          objects(carver.take<ObjectSlot>(of.limits().objects)),
+          roots(carver.take<RootBox>(of.limits().objects)),
+          boxes(carver.take<WorldBox>(of.limits().objects)),
+          filters(carver.take<BoxFilter>(of.limits().objects)),
+          changed(carver.take<std::uint32_t>(of.limits().objects)),
+          asked(carver.take<std::uint32_t>(of.limits().pairs)),
+          hits(carver.take<SceneHit>(of.limits().pairs)),
+          events(carver.take<SceneEvent>(2 * effect_count(planned) * of.limits().pairs)),
+          last(carver, of),
+          next(carver, of) {
+        const SceneLimits& limits = of.limits();
+        if (is_planned(Ask::distance)) distances = carver.take<SceneDistance>(limits.pairs);
+        if (is_planned(Ask::overlap)) {
+            overlaps = carver.take<SceneOverlaps>(limits.pairs);
+            triangle_pairs.emplace(carver, limits.triangle_pairs, limits.threads);
+        }
+        if (is_planned(Ask::contacts)) {
+            contacts = carver.take<SceneContacts>(limits.pairs);
+            contact_pages.emplace(carver, limits.contacts, limits.threads);
+            most_contacts = most_contacts_of(of);
+            contact_room = carver.take<Contact>(std::size_t{limits.threads} * most_contacts);
+        }
+    }
+
+    [[nodiscard]] bool is_planned(Ask effect) const noexcept {
+        return contains(planned, effect);
+    }
+    /// The effects of a pair of layers that are not paused.
+    [[nodiscard]] Ask effects_of(const Record& record) const noexcept {
+        return without(plan->pairs()[record.pair].effects, paused);
+    }
+    [[nodiscard]] ObjectSlot* find(ObjectId id) noexcept;
+    void change(std::uint32_t slot) noexcept;
+    void place(std::uint32_t slot) noexcept;
+    void place_changed() noexcept;
+
+    [[nodiscard]] bool is_changed(const Record& record) const noexcept;
+    void add_candidate(BoxPair slots) noexcept;
+    [[nodiscard]] bool is_candidate(BoxPair slots) const noexcept;
+    [[nodiscard]] std::uint64_t list_given(std::span<const BoxPair> candidates) noexcept;
+    void keep(std::uint32_t old, std::uint32_t now) noexcept;
+    void keep_known() noexcept;
+    [[nodiscard]] ListWriters start_lists(std::size_t worker) noexcept;
+    void ask(std::uint32_t number, Workspace& workspace, const ListWriters& lists) noexcept;
+    void ask_all(std::span<Workspace> workspaces, ParallelFor parallel_for) noexcept;
+    [[nodiscard]] SceneStep place_lists() noexcept;
+    void fill_lists(std::size_t threads, ParallelFor parallel_for) noexcept;
+    void count_calls() noexcept;
+    [[nodiscard]] EventReason reason_of(const Record& record, Ask effect,
+                                        EventKind kind) const noexcept;
+    void add_events(const Record& record, Ask effects, EventKind kind) noexcept;
+    void list_events() noexcept;
+    void list_results() noexcept;
+    [[nodiscard]] SceneStep compute(std::span<Workspace> workspaces,
+                                    ParallelFor parallel_for) noexcept;
+    SceneStep step(std::span<Workspace> workspaces, ParallelFor parallel_for) noexcept;
+    SceneStep step_with(std::span<const BoxPair> candidates, std::span<Workspace> workspaces,
+                        ParallelFor parallel_for) noexcept;
+
+    const Plan* plan;
+    Ask planned;  ///< effects
+    Ask paused = Ask::nothing;
+    Ask last_paused = Ask::nothing;  ///< in the last step that was complete
+    std::optional<BroadPhase> broad_phase;
+    bool broad_phase_is_late = false;  ///< it has not seen the boxes of the last step
+    ObjectSlot* objects;               ///< by slot, as the next three
+    RootBox* roots;
+    WorldBox* boxes;
+    BoxFilter* filters;
+    std::uint32_t* changed;  ///< slots
+    std::uint32_t* asked;    ///< numbers of records in `next`
+    SceneHit* hits;
+    SceneEvent* events;
+    SceneDistance* distances = nullptr;
+    SceneOverlaps* overlaps = nullptr;
+    SceneContacts* contacts = nullptr;
+    Records last;
+    Records next;
+    std::optional<ListPages<TrianglePair>> triangle_pairs;  ///< of `asked`
+    std::optional<ListPages<Contact>> contact_pages;        ///< of `asked`
+    Contact* contact_room = nullptr;                        ///< of two objects, by worker
+    std::size_t most_contacts = 0;                          ///< of two objects
+
+    std::uint32_t changed_count = 0;
+    std::uint32_t asked_count = 0;
+    std::uint32_t first_free = 0;  ///< no slot below is free
+    std::uint32_t object_count = 0;
+    std::size_t hit_count = 0, event_count = 0, distance_count = 0;
+    std::size_t overlap_count = 0, contact_count = 0;  ///< pairs of objects
+    SceneCounts counts;
+};
+
+}  // namespace cdprep
