@@ -27,16 +27,11 @@ public:
         std::memcpy(start_, file.data(), file.size());
         ::mprotect(start_, size_, PROT_READ);
         bytes_ = {start_, file.size()};
-        const format::FileHeader header = format::read_header(file);
-        for (std::uint32_t i = 0; i < header.section_count; ++i) {
-            format::SectionEntry entry;
-            std::memcpy(&entry, file.data() + format::kSectionTableOffset + i * sizeof entry,
-                        sizeof entry);
-            if (wanted.contains(entry.id) || entry.count == 0) continue;
+        for_each_section([&](const format::SectionEntry& entry) {
+            if (wanted.contains(entry.id) || entry.count == 0) return;
             EXPECT_EQ(entry.offset % page, 0u);
-            ::mprotect(start_ + entry.offset, entry.count * entry.element_size, PROT_NONE);
-            ++guarded_;
-        }
+            close(entry);
+        });
     }
     ~GuardedPages() {
         ::munmap(start_, size_);
@@ -49,8 +44,29 @@ public:
     [[nodiscard]] int guarded() const {
         return guarded_;
     }
+    /// Closes a section that was wanted.
+    void close(format::SectionId id) {
+        for_each_section([&](const format::SectionEntry& entry) {
+            if (entry.id == id) close(entry);
+        });
+    }
 
 private:
+    template <class Visit>
+    void for_each_section(const Visit& visit) {
+        const format::FileHeader header = format::read_header(bytes_);
+        for (std::uint32_t i = 0; i < header.section_count; ++i) {
+            format::SectionEntry entry;
+            std::memcpy(&entry, start_ + format::kSectionTableOffset + i * sizeof entry,
+                        sizeof entry);
+            visit(entry);
+        }
+    }
+    void close(const format::SectionEntry& entry) {
+        ::mprotect(start_ + entry.offset, entry.count * entry.element_size, PROT_NONE);
+        ++guarded_;
+    }
+
     std::byte* start_ = nullptr;
     std::size_t size_ = 0;
     std::span<const std::byte> bytes_;
