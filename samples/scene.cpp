@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
         if (!scene.add({&bracket.value(), kBrackets, at(200.0 * i, 0, 0)})) return 1;
     }
     std::vector<cdprep::ObjectId> bolts;
+    bolts.reserve(kRow);
     for (int i = 0; i < kRow; ++i) {
         bolts.push_back(*scene.add({&bolt.value(), kBolts, at(200.0 * i - 60, 15, -19.5)}));
     }

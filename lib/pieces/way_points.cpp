@@ -61,11 +61,11 @@ private:
     /// Corners beyond these are left out: the hull of the rest is a part of the face.
     static constexpr std::size_t kMost = 4 * format::kHullLanes;
 
+    std::array<format::HullBlock, kMost / format::kHullLanes> block_;
     std::size_t count_ = 0;
     Double3 last_{};
-    std::array<Double3, kMost> at_;
-    std::array<format::HullBlock, kMost / format::kHullLanes> block_;
     ConvexPoints points_;
+    std::array<Double3, kMost> at_;
 };
 
 }  // namespace

@@ -29,7 +29,7 @@ Check number_above(double limit, bool may_be_equal, const std::string& wanted) {
 
 }  // namespace
 
-Check one_of(std::vector<std::string> words) {
+Check one_of(const std::vector<std::string>& words) {
     const std::string all = listed(words, "or");
     return {[words, all](std::string& word) -> std::string {
                 if (std::find(words.begin(), words.end(), word) != words.end()) return "";

@@ -32,7 +32,7 @@ struct Check {
 };
 
 /// Accepts one of the given words. The error for another word suggests the nearest.
-[[nodiscard]] Check one_of(std::vector<std::string> words);
+[[nodiscard]] Check one_of(const std::vector<std::string>& words);
 
 /// Accepts a whole number from `least` to `most`.
 [[nodiscard]] Check whole_from(std::uint64_t least,

@@ -177,12 +177,14 @@ std::string fish_completion(const std::vector<CommandPage>& pages) {
         const std::string start =
             "complete -c cdprep" + (when.empty() ? "" : " -n " + shell_quoted(when));
         for (const auto& [name, summary] : page.commands) {
-            text += start + " -f -a " + name + " -d " + shell_quoted(summary) + "\n";
+            text.append(start).append(" -f -a ").append(name);
+            text.append(" -d ").append(shell_quoted(summary)).append("\n");
         }
         for (const OptionEntry* option : options_of(page)) {
             text += start;
             for (const std::string& name : option->names) {
-                text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+                text += name.starts_with("--") ? " -l " : " -s ";
+                text += name.substr(name.starts_with("--") ? 2 : 1);
             }
             if (!option->value.empty()) text += is_path(option->value) ? " -r -F" : " -x";
             if (!option->words.empty()) text += " -a " + shell_quoted(joined(option->words));

@@ -32,12 +32,12 @@ bool JsonValue::is_true() const noexcept {
     return exists() && *value_ == true;
 }
 
-const std::string& JsonValue::text() const noexcept {
+const std::string& JsonValue::text() const {
     static const std::string kNone;
     return exists() && value_->is_string() ? value_->get_ref<const std::string&>() : kNone;
 }
 
-double JsonValue::number(double otherwise) const noexcept {
+double JsonValue::number(double otherwise) const {
     return exists() && value_->is_number() ? value_->get<double>() : otherwise;
 }
 

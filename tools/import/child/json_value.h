@@ -28,8 +28,8 @@ public:
     }
     [[nodiscard]] bool is_true() const noexcept;
     /// Returns the text of a string; empty for other values.
-    [[nodiscard]] const std::string& text() const noexcept;
-    [[nodiscard]] double number(double otherwise) const noexcept;
+    [[nodiscard]] const std::string& text() const;
+    [[nodiscard]] double number(double otherwise) const;
     /// Returns a whole number from 0 to 2^53, or `otherwise` if the value does not exist. Throws
     /// std::runtime_error with `name` in its text for any other value.
     [[nodiscard]] std::uint64_t count(std::string_view name, std::uint64_t otherwise) const;
