@@ -447,6 +447,10 @@ const SceneCounts& Scene::counts() const noexcept {
 std::uint32_t Scene::object_count() const noexcept {
     return state_->object_count;
 }
+const Model* Scene::model_of(ObjectId object) const noexcept {
+    const Object* const found = state_->find(object);
+    return found == nullptr ? nullptr : found->model;
+}
 
 std::uint64_t Scene::state_hash() const noexcept {
     Hash hash;
