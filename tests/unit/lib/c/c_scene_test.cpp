@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+// Plans, scenes and the broad phase through the C API, beside those of C++.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "c_api.h"
+#include "cdprep/scene.h"
+#include "support/c_models.h"
+#include "support/float_modes.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
+#include "support/run_threads.h"
+
+namespace cdprep::test {
+namespace {
+
+AlignedBytes baked(const TestMesh& mesh) {
+    return bake_tiny(mesh.positions, mesh.triangles);
+}
+
+// By hand: cubes of side 1, and boxes.
+TEST(CScene, AProgramInC99GetsTheResults) {
+    const AlignedBytes file = baked(unit_cube());
+    const CModel cube(file);
+    const CWorkspace workspace;
+    AlignedBytes memory(100'000);
+    void* const start = memory.span().data();
+    const char* wrong = ask_scene(cube.get(), workspace.get(), start, memory.size());
+    EXPECT_EQ(wrong, nullptr) << wrong;
+    wrong = ask_broad_phase(workspace.get(), start, memory.size());
+    EXPECT_EQ(wrong, nullptr) << wrong;
+}
+
+/// A thread for every task; keeps the most tasks of one call.
+struct Threads {
+    std::size_t most = 0;
+
+    static void run(void* threads, std::size_t count, cdprep_task task, const void* work) {
+        auto* const self = static_cast<Threads*>(threads);
+        self->most = std::max(self->most, count);
+        run_threads(count, [&](std::size_t i) { task(work, i); });
+    }
+};
+
+/// A workspace of several lanes.
+class Lanes {
+public:
+    explicit Lanes(std::uint32_t lanes) {
+        cdprep_workspace_options options;
+        cdprep_workspace_options_init(&options, sizeof options);
+        options.lanes = lanes;
+        options.run = Threads::run;
+        options.context = &threads;
+        EXPECT_EQ(cdprep_workspace_make(&options, nullptr, 0, &workspace_, nullptr), CDPREP_OK);
+    }
+    Lanes(const Lanes&) = delete;
+    Lanes& operator=(const Lanes&) = delete;
+    ~Lanes() {
+        cdprep_workspace_end(workspace_);
+    }
+    [[nodiscard]] cdprep_workspace* get() const {
+        return workspace_;
+    }
+    Threads threads;
+
+private:
+    cdprep_workspace* workspace_ = nullptr;
+};
+
+// Layers 0 and 1 collide, 1 and 2 as solids, 2 and 2 have a tolerance and a distance. The first
+// pair is dropped, so numbers in C are one higher than in C++.
+const std::vector<LayerPair> kPairs = {
+    {.a = 5, .b = 6},
+    {.a = 0, .b = 1, .effects = Ask::collide, .overlap = Overlap::proper},
+    {.a = 2, .b = 1, .effects = Ask::collide, .body = Body::solid},
+    {.a = 2, .b = 2, .effects = Ask::within | Ask::distance, .tolerance = 0.1, .max_distance = 1}};
+
+cdprep_layer_pair in_c(const LayerPair& pair) {
+    cdprep_layer_pair to;
+    cdprep_layer_pair_init(&to, sizeof to);
+    to.a = pair.a;
+    to.b = pair.b;
+    to.effects = static_cast<std::uint32_t>(pair.effects);
+    to.body = pair.body == Body::solid ? CDPREP_SOLID : CDPREP_SURFACE;
+    to.overlap = pair.overlap == Overlap::proper ? CDPREP_PROPER : CDPREP_CLOSED;
+    to.tolerance = pair.tolerance;
+    to.max_distance = pair.max_distance;
+    return to;
+}
+
+cdprep_pose in_c(const Pose& pose) {
+    cdprep_pose to{};
+    std::copy(pose.rotation().begin(), pose.rotation().end(), std::begin(to.rows));
+    to.rows[9] = pose.translation().x;
+    to.rows[10] = pose.translation().y;
+    to.rows[11] = pose.translation().z;
+    return to;
+}
+
+ObjectId in_cpp(const cdprep_object& id) {
+    return {id.slot, id.generation};
+}
+
+/// The same objects in a scene of C and in one of C++.
+class Twins {
+public:
+    Twins(std::uint32_t seed, std::uint32_t lanes, std::uint32_t plan_lanes,
+          std::uint32_t max_pairs)
+        : random_(seed),
+          files_{baked(icosphere(2)), baked(torus(0.7, 0.2, 12, 8)),
+                 baked(moved_by(unit_cube(), 0.5, {0, 0, 0}))},
+          lanes_(lanes),
+          plan_(*Plan::compile({.pairs = kPairs, .limits = {.objects = 24, .pairs = max_pairs}})
+                     .plan),
+          scene_(plan_) {
+        for (const AlignedBytes& file : files_) {
+            c_models_.push_back(std::make_unique<CModel>(file));
+            models_.push_back(Model::open(file.span()).value());
+        }
+        std::vector<cdprep_layer_pair> pairs;
+        for (const LayerPair& pair : kPairs) pairs.push_back(in_c(pair));
+        cdprep_plan_options options;
+        cdprep_plan_options_init(&options, sizeof options);
+        options.layer_pairs = pairs.data();
+        options.layer_pair_count = static_cast<std::uint32_t>(pairs.size());
+        options.max_objects = 24;
+        options.max_pairs = max_pairs;
+        options.lanes = plan_lanes;
+        cdprep_plan* plan = nullptr;
+        EXPECT_EQ(cdprep_plan_compile(&options, nullptr, nullptr, &plan, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_scene_make(plan, nullptr, 0, &c_scene_, nullptr), CDPREP_OK);
+        cdprep_plan_end(plan);  // the scene keeps it
+    }
+    Twins(const Twins&) = delete;
+    Twins& operator=(const Twins&) = delete;
+    ~Twins() {
+        cdprep_scene_end(c_scene_);
+    }
+
+    void add() {
+        const std::uint32_t model = any(3), layer = any(4);
+        const Pose pose = random_pose(random_, kReach_);
+        cdprep_object_options options;
+        cdprep_object_options_init(&options, sizeof options);
+        options.model = c_models_[model]->get();
+        options.layer = layer;
+        options.world_from_model = in_c(pose);
+        cdprep_object id{};
+        const int code = cdprep_scene_add(c_scene_, &options, 1, &id, nullptr);
+        const auto added = scene_.add({&models_[model], layer, pose});
+        ASSERT_EQ(code == CDPREP_OK, added.has_value());
+        if (!added) return;
+        EXPECT_EQ(in_cpp(id), *added);
+        ids_.push_back(id);
+    }
+    void change_one() {
+        if (ids_.empty()) return;
+        const std::size_t at = any(static_cast<std::uint32_t>(ids_.size()));
+        const cdprep_object id = ids_[at];
+        const std::uint32_t kind = any(8);
+        if (kind == 0) {
+            EXPECT_EQ(cdprep_scene_remove(c_scene_, &id, 1, nullptr), CDPREP_OK);
+            EXPECT_TRUE(scene_.remove(in_cpp(id)));
+            ids_.erase(ids_.begin() + static_cast<std::ptrdiff_t>(at));
+        } else if (kind == 1) {
+            const std::uint32_t layer = any(4);
+            EXPECT_EQ(cdprep_scene_set_layer(c_scene_, id, layer, nullptr), CDPREP_OK);
+            EXPECT_TRUE(scene_.set_layer(in_cpp(id), layer));
+        } else {
+            const Pose pose = random_pose(random_, kReach_);
+            const cdprep_pose to = in_c(pose);
+            EXPECT_EQ(cdprep_scene_set_poses(c_scene_, &id, &to, 1, nullptr), CDPREP_OK);
+            EXPECT_TRUE(scene_.set_pose(in_cpp(id), pose));
+        }
+    }
+    /// Steps both, and expects equal results.
+    void step() {
+        cdprep_step step;
+        ASSERT_EQ(cdprep_scene_step(c_scene_, lanes_.get(), &step, nullptr), CDPREP_OK);
+        const SceneStep expected = scene_.step(workspaces_);
+        EXPECT_EQ(step.complete == CDPREP_YES, expected.complete);
+        EXPECT_EQ(step.needed_pairs, expected.needed_pairs);
+        incomplete += expected.complete ? 0 : 1;
+        expect_equal_hits();
+        expect_equal_distances();
+        expect_equal_events();
+        expect_equal_numbers();
+    }
+    std::uint32_t any(std::uint32_t below) {
+        return static_cast<std::uint32_t>(random_() % below);
+    }
+    [[nodiscard]] std::size_t most_tasks() const {
+        return lanes_.threads.most;
+    }
+
+    /// Of all steps.
+    std::size_t hits = 0, distances = 0, events = 0, incomplete = 0;
+
+private:
+    void expect_equal_hits() {
+        const cdprep_scene_hit* found = nullptr;
+        std::size_t count = 0;
+        ASSERT_EQ(cdprep_scene_hits(c_scene_, &found, &count, nullptr), CDPREP_OK);
+        ASSERT_EQ(count, scene_.hits().size());
+        hits += count;
+        for (std::size_t i = 0; i < count; ++i) {
+            const SceneHit& hit = scene_.hits()[i];
+            EXPECT_EQ(in_cpp(found[i].a), hit.a);
+            EXPECT_EQ(in_cpp(found[i].b), hit.b);
+            EXPECT_EQ(found[i].layer_pair, hit.pair + 1);
+            EXPECT_EQ(found[i].holds, static_cast<std::uint32_t>(hit.holds));
+            EXPECT_EQ(found[i].collision.hit, static_cast<std::uint32_t>(hit.collision.hit));
+            EXPECT_EQ(found[i].collision.containment,
+                      static_cast<std::uint32_t>(hit.collision.containment.answer));
+            EXPECT_EQ(found[i].collision.winding, hit.collision.containment.winding);
+        }
+    }
+    void expect_equal_distances() {
+        const cdprep_scene_distance* found = nullptr;
+        std::size_t count = 0;
+        ASSERT_EQ(cdprep_scene_distances(c_scene_, &found, &count, nullptr), CDPREP_OK);
+        ASSERT_EQ(count, scene_.distances().size());
+        distances += count;
+        for (std::size_t i = 0; i < count; ++i) {
+            const SceneDistance& distance = scene_.distances()[i];
+            EXPECT_EQ(in_cpp(found[i].a), distance.a);
+            EXPECT_EQ(in_cpp(found[i].b), distance.b);
+            EXPECT_EQ(found[i].layer_pair, distance.pair + 1);
+            EXPECT_EQ(found[i].nearest.lower, distance.distance.lower);
+            EXPECT_EQ(found[i].nearest.upper, distance.distance.upper);
+            EXPECT_EQ(found[i].nearest.triangle_a, distance.distance.triangle_a);
+            EXPECT_EQ(found[i].nearest.on_b[2], distance.distance.witness_b.z);
+        }
+    }
+    void expect_equal_events() {
+        const cdprep_event* found = nullptr;
+        std::size_t count = 0;
+        ASSERT_EQ(cdprep_scene_events(c_scene_, &found, &count, nullptr), CDPREP_OK);
+        ASSERT_EQ(count, scene_.events().size());
+        events += count;
+        for (std::size_t i = 0; i < count; ++i) {
+            const SceneEvent& event = scene_.events()[i];
+            EXPECT_EQ(in_cpp(found[i].a), event.a);
+            EXPECT_EQ(in_cpp(found[i].b), event.b);
+            EXPECT_EQ(found[i].layer_pair, event.pair + 1);
+            EXPECT_EQ(found[i].effect, static_cast<std::uint32_t>(event.effect));
+            EXPECT_EQ(found[i].kind == CDPREP_EVENT_BEGIN, event.begins);
+            EXPECT_EQ(found[i].reason, static_cast<std::uint32_t>(event.reason));
+        }
+    }
+    void expect_equal_numbers() {
+        std::uint64_t hash = 0;
+        ASSERT_EQ(cdprep_scene_hash(c_scene_, &hash, nullptr), CDPREP_OK);
+        EXPECT_EQ(hash, scene_.state_hash());
+        cdprep_counts counts;
+        ASSERT_EQ(cdprep_scene_counts(c_scene_, &counts, nullptr), CDPREP_OK);
+        const SceneCounts& all = scene_.counts();
+        const std::array<std::uint64_t, 9> expected = {
+            scene_.object_count(), all.moved,  all.candidates, all.kept, all.apart,
+            all.collide,           all.within, all.distance,   0};
+        for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(counts.n[i], expected[i]) << i;
+    }
+
+    static constexpr double kReach_ = 2;
+    std::mt19937 random_;
+    std::array<AlignedBytes, 3> files_;
+    std::vector<std::unique_ptr<CModel>> c_models_;
+    std::vector<Model> models_;
+    Lanes lanes_;
+    Plan plan_;
+    Scene scene_;
+    cdprep_scene* c_scene_ = nullptr;
+    std::vector<Workspace> workspaces_{1};
+    std::vector<cdprep_object> ids_;
+};
+
+/// Lanes of the workspace and of the plan, and the limit of pairs.
+struct Setting {
+    std::uint32_t lanes, plan_lanes, max_pairs;
+};
+
+// The law of this layer: the results of C are those of C++, step by step, on any lanes.
+TEST(CScene, TheResultsAreThoseOfCpp) {
+    std::size_t incomplete = 0, steps = 0;
+    for (const Setting& setting :
+         std::vector<Setting>{{1, 1, 200}, {3, 3, 200}, {2, 7, 200}, {5, 2, 200}, {2, 2, 40}}) {
+        Twins twins(20261126 + setting.lanes, setting.lanes, setting.plan_lanes, setting.max_pairs);
+        for (int step = 0; step < 150; ++step, ++steps) {
+            if (twins.any(3) == 0 || step < 20) twins.add();
+            for (std::uint32_t change = twins.any(5); change > 0; --change) twins.change_one();
+            twins.step();
+            if (HasFatalFailure()) return;
+        }
+        incomplete += twins.incomplete;
+        EXPECT_GT(twins.hits, 500u);
+        EXPECT_GT(twins.distances, 200u);
+        EXPECT_GT(twins.events, 200u);
+        EXPECT_LE(twins.most_tasks(), setting.lanes);
+        EXPECT_EQ(twins.most_tasks() > 1, setting.lanes > 1);
+    }
+    EXPECT_GT(incomplete, steps / 50);
+    EXPECT_LT(incomplete, steps / 5);
+}
+
+}  // namespace
+}  // namespace cdprep::test
