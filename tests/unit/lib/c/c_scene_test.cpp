@@ -12,11 +12,10 @@
 
 #include "c_api.h"
 #include "cdprep/scene.h"
+#include "support/c_lanes.h"
 #include "support/c_models.h"
-#include "support/float_modes.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
-#include "support/run_threads.h"
 
 namespace cdprep::test {
 namespace {
@@ -37,42 +36,6 @@ TEST(CScene, AProgramInC99GetsTheResults) {
     wrong = ask_broad_phase(workspace.get(), start, memory.size());
     EXPECT_EQ(wrong, nullptr) << wrong;
 }
-
-/// A thread for every task; keeps the most tasks of one call.
-struct Threads {
-    std::size_t most = 0;
-
-    static void run(void* threads, std::size_t count, cdprep_task task, const void* work) {
-        auto* const self = static_cast<Threads*>(threads);
-        self->most = std::max(self->most, count);
-        run_threads(count, [&](std::size_t i) { task(work, i); });
-    }
-};
-
-/// A workspace of several lanes.
-class Lanes {
-public:
-    explicit Lanes(std::uint32_t lanes) {
-        cdprep_workspace_options options;
-        cdprep_workspace_options_init(&options, sizeof options);
-        options.lanes = lanes;
-        options.run = Threads::run;
-        options.context = &threads;
-        EXPECT_EQ(cdprep_workspace_make(&options, nullptr, 0, &workspace_, nullptr), CDPREP_OK);
-    }
-    Lanes(const Lanes&) = delete;
-    Lanes& operator=(const Lanes&) = delete;
-    ~Lanes() {
-        cdprep_workspace_end(workspace_);
-    }
-    [[nodiscard]] cdprep_workspace* get() const {
-        return workspace_;
-    }
-    Threads threads;
-
-private:
-    cdprep_workspace* workspace_ = nullptr;
-};
 
 // Layers 0 and 1 collide, 1 and 2 as solids, 2 and 2 have a tolerance and a distance. The first
 // pair is dropped, so numbers in C are one higher than in C++.
@@ -273,7 +236,7 @@ private:
     std::array<AlignedBytes, 3> files_;
     std::vector<std::unique_ptr<CModel>> c_models_;
     std::vector<Model> models_;
-    Lanes lanes_;
+    CLanes lanes_;
     Plan plan_;
     Scene scene_;
     cdprep_scene* c_scene_ = nullptr;
