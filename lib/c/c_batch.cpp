@@ -8,17 +8,6 @@
 namespace cdprep::c {
 namespace {
 
-/// Refuses a pair of another size than the first, because its position would be unknown.
-int check_stride(Call& call, const Name& name, const cdprep_pair* first,
-                 const cdprep_pair* given) noexcept {
-    cdprep_head head, expected;
-    std::memcpy(&head, static_cast<const void*>(given), sizeof head);
-    std::memcpy(&expected, static_cast<const void*>(first), sizeof expected);
-    if (head.size == expected.size) return CDPREP_OK;
-    return call.refuse(CDPREP_WHY_NOT_INITIALISED, name,
-                       "has size %u, but the first of the array has %u.", head.size, expected.size);
-}
-
 /// A batch of queries about two models.
 template <class Answer>
 struct Batch {

@@ -45,10 +45,6 @@ constexpr Name kOptions = {"options"};
 constexpr Ask kBuildable = Ask::collide | Ask::overlap | Ask::distance | Ask::within | Ask::inside |
                            Ask::ray | Ask::closest | Ask::touch | Ask::corners | Ask::solid;
 
-constexpr std::size_t aligned(std::size_t size) noexcept {
-    return (size + CDPREP_ALIGNMENT - 1) / CDPREP_ALIGNMENT * CDPREP_ALIGNMENT;
-}
-
 static_assert(alignof(cdprep_model) <= CDPREP_ALIGNMENT);
 static_assert(CDPREP_ALIGNMENT % format::kSectionAlignment == 0);
 static_assert(sizeof(Double3) == 3 * sizeof(double) && alignof(Double3) == alignof(double));

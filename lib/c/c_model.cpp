@@ -199,10 +199,10 @@ int check_asks(Call& call, const Name& name, std::uint32_t ask) noexcept {
                        "is 0x%x; this version knows only the bits 0x%x.", ask, known);
 }
 
-int check_serves(Call& call, const Name& name, const cdprep_model& model, Ask asks) {
-    if (model.model.serves(asks)) [[likely]]
+int check_serves(Call& call, const Name& name, const Model& model, Ask asks) {
+    if (model.serves(asks)) [[likely]]
         return CDPREP_OK;
-    const std::optional<Refusal> refused = model.model.refusal(asks);
+    const std::optional<Refusal> refused = model.refusal(asks);
     if (!refused) return CDPREP_OK;
     const bool is_opened = refused->reason == Refusal::Reason::not_opened;
     return call.refuse_with(is_opened ? CDPREP_WHY_NOT_OPENED : CDPREP_WHY_NOT_BAKED, name,

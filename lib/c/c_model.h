@@ -36,7 +36,10 @@ inline constexpr std::uint32_t kSectionNumbers = 64;
 int check_asks(Call& call, const Name& name, std::uint32_t ask) noexcept;
 
 /// Refuses queries that a model does not serve.
-int check_serves(Call& call, const Name& name, const cdprep_model& model, Ask asks);
+int check_serves(Call& call, const Name& name, const Model& model, Ask asks);
+inline int check_serves(Call& call, const Name& name, const cdprep_model& model, Ask asks) {
+    return check_serves(call, name, model.model, asks);
+}
 
 /// Returns the bytes for the two index arrays, and fills them. `room` has index_size() bytes, or is
 /// null where that is 0.

@@ -11,8 +11,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/share_out.h"
+
 namespace cdprep::c {
 namespace {
+
+constexpr char kInUse[] = "is in use by another call.";
 
 constexpr std::array kFields = {
     Field{"lanes", offsetof(cdprep_workspace_options, lanes), Holds::choice, kMostLanes},
@@ -25,10 +29,6 @@ struct Asked {
     cdprep_allocator allocator{};
     std::size_t size = 0;  ///< of the block
 };
-
-constexpr std::size_t aligned(std::size_t size) noexcept {
-    return (size + CDPREP_ALIGNMENT - 1) / CDPREP_ALIGNMENT * CDPREP_ALIGNMENT;
-}
 
 static_assert(alignof(cdprep_workspace) <= CDPREP_ALIGNMENT && alignof(QueryCounts) <= 8);
 static_assert(sizeof(QueryCounts) <= sizeof(cdprep_counts));
@@ -127,13 +127,22 @@ cdprep_workspace_options Input<cdprep_workspace_options>::defaults() noexcept {
     return options;
 }
 
-int InUse::begin(Call& call, cdprep_workspace& workspace) noexcept {
-    assert(workspace_ == nullptr);
-    if (workspace.in_use.exchange(true, std::memory_order_acquire)) {
-        return call.refuse(CDPREP_WHY_BUSY, {"workspace"}, "is in use by another call.");
+int check_free(Call& call, const Name& name, const std::atomic<bool>& in_use) noexcept {
+    if (!in_use.load(std::memory_order_acquire)) return CDPREP_OK;
+    return call.refuse(CDPREP_WHY_BUSY, name, kInUse);
+}
+
+int InUse::begin(Call& call, const Name& name, std::atomic<bool>& in_use) noexcept {
+    assert(in_use_ == nullptr);
+    if (in_use.exchange(true, std::memory_order_acquire)) {
+        return call.refuse(CDPREP_WHY_BUSY, name, kInUse);
     }
-    workspace_ = &workspace;
+    in_use_ = &in_use;
     return CDPREP_OK;
+}
+
+int InUse::begin(Call& call, cdprep_workspace& workspace) noexcept {
+    return begin(call, {"workspace"}, workspace.in_use);
 }
 
 int check_cells(Call& call, const cdprep_workspace& workspace, Ask needs) noexcept {
@@ -143,6 +152,12 @@ int check_cells(Call& call, const cdprep_workspace& workspace, Ask needs) noexce
     return call.refuse(CDPREP_WHY_NO_MEANING, {"workspace"},
                        "cannot search octrees and tetra-trees: set cells in its options to "
                        "cdprep_cells().");
+}
+
+void LanesThreads::operator()(std::size_t count, Task task) const {
+    const CallersThreads threads(workspace_);
+    share_jobs(count, workspace_.lanes.size(), threads,
+               [&](std::size_t number, std::size_t /*lane*/) { task(number); });
 }
 
 void CallersThreads::operator()(std::size_t count, Task task) const {

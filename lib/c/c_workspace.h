@@ -35,25 +35,41 @@ struct Input<cdprep_workspace_options> {
     static cdprep_workspace_options defaults() noexcept;
 };
 
-/// The use of a workspace by one call. No other call may begin until it ends.
+/// Refuses an object that a call is using.
+int check_free(Call& call, const Name& name, const std::atomic<bool>& in_use) noexcept;
+
+/// The use of a workspace, or of another object that serves one call at a time. No other call may
+/// begin until it ends.
 class InUse {
 public:
     InUse() noexcept = default;
     InUse(const InUse&) = delete;
     InUse& operator=(const InUse&) = delete;
     ~InUse() {
-        if (workspace_ != nullptr) workspace_->in_use.store(false, std::memory_order_release);
+        if (in_use_ != nullptr) in_use_->store(false, std::memory_order_release);
     }
-    /// Refuses a workspace that is in use.
+    /// Refuses an object that is in use.
+    int begin(Call& call, const Name& name, std::atomic<bool>& in_use) noexcept;
     int begin(Call& call, cdprep_workspace& workspace) noexcept;
 
 private:
-    cdprep_workspace* workspace_ = nullptr;
+    std::atomic<bool>* in_use_ = nullptr;
 };
 
 /// Refuses a workspace without searches through octrees and tetra-trees if `needs` has such a
 /// structure.
 int check_cells(Call& call, const cdprep_workspace& workspace, Ask needs) noexcept;
+
+/// The caller's threads for any number of tasks, which must not throw. The caller's `run` gets at
+/// most one task for each lane.
+class LanesThreads {
+public:
+    explicit LanesThreads(const cdprep_workspace& workspace) noexcept : workspace_(workspace) {}
+    void operator()(std::size_t count, Task task) const;
+
+private:
+    const cdprep_workspace& workspace_;
+};
 
 /// The caller's threads, as queries use them. Each task runs once, whatever `run` does.
 class CallersThreads {

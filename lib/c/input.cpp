@@ -103,6 +103,15 @@ int check_head(Call& call, const Name& name, const InputType& type, const void* 
     return CDPREP_OK;
 }
 
+int check_stride(Call& call, const Name& name, const void* first, const void* given) noexcept {
+    cdprep_head head, expected;
+    std::memcpy(&head, given, sizeof head);
+    std::memcpy(&expected, first, sizeof expected);
+    if (head.size == expected.size) return CDPREP_OK;
+    return call.refuse(CDPREP_WHY_NOT_INITIALISED, name,
+                       "has size %u, but the first of the array has %u.", head.size, expected.size);
+}
+
 int check_fields(Call& call, const Name& name, const InputType& type, const void* given) noexcept {
     for (const Field& field : type.fields) {
         if (const int code = check_field(call, name, field, given)) return code;

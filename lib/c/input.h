@@ -45,6 +45,9 @@ inline constexpr std::uint32_t kGreatestSize = 4096;
 /// Checks size and tag, and that bytes unknown to this library are 0. Refuses null.
 int check_head(Call& call, const Name& name, const InputType& type, const void* from) noexcept;
 
+/// Refuses an element of another size than the first, because its position would be unknown.
+int check_stride(Call& call, const Name& name, const void* first, const void* given) noexcept;
+
 /// Checks every field of a struct that was read.
 int check_fields(Call& call, const Name& name, const InputType& type, const void* given) noexcept;
 

@@ -88,4 +88,14 @@ int check_memory(Call& call, const Given& given, std::size_t needed,
                        "is set, but the memory is given.");
 }
 
+int take_memory(Call& call, const Given& given, std::size_t needed,
+                const cdprep_allocator& allocator, OwnedMemory& own, std::byte*& start) noexcept {
+    if (const int code = check_memory(call, given, needed, nullptr)) return code;
+    if (given.start == nullptr) {
+        if (const int code = own.allocate(call, allocator, needed)) return code;
+    }
+    start = static_cast<std::byte*>(given.start != nullptr ? given.start : own.get().start);
+    return CDPREP_OK;
+}
+
 }  // namespace cdprep::c

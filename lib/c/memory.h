@@ -15,6 +15,11 @@ struct Memory {
     std::size_t size = 0;
 };
 
+/// Returns a size rounded up to a multiple of CDPREP_ALIGNMENT.
+constexpr std::size_t aligned(std::size_t size) noexcept {
+    return (size + CDPREP_ALIGNMENT - 1) / CDPREP_ALIGNMENT * CDPREP_ALIGNMENT;
+}
+
 /// Reads an allocator; null gives the default one.
 int read_allocator(Call& call, const Name& name, const cdprep_allocator* given,
                    cdprep_allocator& allocator) noexcept;
@@ -56,5 +61,10 @@ public:
 private:
     Memory memory_;
 };
+
+/// Stores the start of the caller's memory. If none is given, `own` gets one block of `needed`
+/// bytes. Refuses as check_memory() does.
+int take_memory(Call& call, const Given& given, std::size_t needed,
+                const cdprep_allocator& allocator, OwnedMemory& own, std::byte*& start) noexcept;
 
 }  // namespace cdprep::c

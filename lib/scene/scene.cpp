@@ -202,6 +202,10 @@ const SceneCounts& Scene::counts() const noexcept {
 std::uint32_t Scene::object_count() const noexcept {
     return state_->object_count;
 }
+const Model* Scene::model_of(ObjectId object) const noexcept {
+    const ObjectSlot* const found = state_->find(object);
+    return found == nullptr ? nullptr : found->model;
+}
 
 std::uint64_t SceneCounts::calls_of(Ask effect) const noexcept {
     const auto at = std::find(kSceneEffects.begin(), kSceneEffects.end(), effect);

@@ -19,5 +19,6 @@
 #include "cdprep/c/model.h"
 #include "cdprep/c/pairs.h"
 #include "cdprep/c/points.h"
+#include "cdprep/c/scene.h"
 
 #endif /* CDPREP_CDPREP_H */

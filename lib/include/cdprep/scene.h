@@ -191,6 +191,8 @@ public:
     [[nodiscard]] std::span<const SceneEvent> events() const noexcept;
     [[nodiscard]] const SceneCounts& counts() const noexcept;
     [[nodiscard]] std::uint32_t object_count() const noexcept;
+    /// Returns the model of an object, or null if there is none with this id.
+    [[nodiscard]] const Model* model_of(ObjectId object) const noexcept;
     /// Returns a hash of all hits, overlaps, distances, contacts and events. It is equal for any
     /// number of threads and any instruction set.
     [[nodiscard]] std::uint64_t state_hash() const noexcept;

@@ -16,7 +16,8 @@
  *   _init() function makes it valid: that function writes size, tag and defaults. A struct that
  *   its _init() did not make, even one of zeros, is refused with CDPREP_WHY_NOT_INITIALISED. The
  *   comment of a field starts with its default. For a parameter named `options`, null gives the
- *   defaults. The options of a build are an exception, because they hold the mesh.
+ *   defaults. The options of a build and of a plan are exceptions, because they hold the mesh and
+ *   the layers.
  * - Arguments are checked before anything is computed. The fields of a struct are checked in this
  *   order: size and tag; enumerators; numbers; poses; fields without meaning for the query. The
  *   next checks are whether the model serves the query, and whether the workspace is in use. If
@@ -32,8 +33,9 @@
  *   the imported file, or as in the arrays that a model was built from.
  * - A list stores at most `room` answers; `count` is the number of all answers. Too little room is
  *   no error: as many as fit are stored. A list without room only counts.
- * - No query allocates. Opening or building a model and making a workspace do.
- * - Models are read-only and serve any number of threads. A workspace serves one call at a time.
+ * - No query allocates. Opening or building a model, compiling a plan, and _make() do.
+ * - Models are read-only and serve any number of threads. A workspace serves one call at a time,
+ *   and so does a broad phase. A scene serves one call that changes it, or any number that read it.
  *   Nothing else is shared: there is no global state.
  * - Callbacks must return: they must not throw or call longjmp(). A visitor may run queries with
  * another workspace. A visitor runs in the caller's floating-point environment. No floating-point
@@ -93,8 +95,8 @@ enum {
     CDPREP_WHY_NOT_BAKED = 8,       /* the model lacks what the query needs */
     CDPREP_WHY_NOT_OPENED = 9,      /* the file has it, but it was not opened */
     CDPREP_WHY_TOO_SMALL = 10,      /* memory, or an array of cdprep_marks */
-    CDPREP_WHY_STALE = 11,          /* an object that no longer exists; not used yet */
-    CDPREP_WHY_BUSY = 12            /* a workspace in use by another call */
+    CDPREP_WHY_STALE = 11,          /* an object of a scene that does not exist, or no longer */
+    CDPREP_WHY_BUSY = 12            /* a workspace, scene or broad phase in use by another call */
 };
 
 typedef struct cdprep_error {
@@ -124,7 +126,7 @@ CDPREP_API const char* cdprep_code_name(int code);
 
 /* The caller's memory functions. `allocate` returns null if there is no memory. `size` is not 0,
  * and `alignment` is a power of two of at most CDPREP_ALIGNMENT. `release` receives the same size.
- * They are called only while a model or workspace is made or ended, by the calling thread. They
+ * They are called only while an object of the library is made or ended, by the calling thread. They
  * must not throw. */
 typedef struct cdprep_allocator {
     void* (*allocate)(void* context, size_t size, size_t alignment);

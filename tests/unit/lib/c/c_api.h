@@ -33,6 +33,13 @@ const char* ask_contacts(const cdprep_model* cube, cdprep_workspace* workspace);
 /* Describes a unit cube and reads all of its geometry. */
 const char* read_geometry(const cdprep_model* cube);
 
+/* Everything about plans and scenes, of a unit cube; in `memory` as well. */
+const char* ask_scene(const cdprep_model* cube, cdprep_workspace* workspace, void* memory,
+                      size_t size);
+
+/* Everything about the broad phase; in `memory` as well. */
+const char* ask_broad_phase(cdprep_workspace* workspace, void* memory, size_t size);
+
 #ifdef __cplusplus
 }
 #endif

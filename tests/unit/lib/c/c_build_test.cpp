@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "cdprep/cdprep.h"
+#include "support/c_lanes.h"
 #include "support/c_models.h"
 #include "support/c_questions.h"
 #include "support/float_modes.h"
 #include "support/meshes.h"
-#include "support/run_threads.h"
 #include "support/tiny_baker.h"
 
 namespace cdprep::test {
@@ -23,45 +23,6 @@ constexpr std::uint32_t kBuildable = CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP | C
                                      CDPREP_ASK_WITHIN | CDPREP_ASK_INSIDE | CDPREP_ASK_RAY |
                                      CDPREP_ASK_CLOSEST | CDPREP_ASK_TOUCH | CDPREP_ASK_CORNERS |
                                      CDPREP_ASK_SOLID;
-
-/// A thread for every task; counts the tasks, and keeps the most of one call.
-struct Threads {
-    std::size_t calls = 0;
-    std::size_t most = 0;
-
-    static void run(void* threads, std::size_t count, cdprep_task task, const void* work) {
-        auto* const self = static_cast<Threads*>(threads);
-        ++self->calls;
-        self->most = std::max(self->most, count);
-        run_threads(count, [&](std::size_t i) { task(work, i); });
-    }
-};
-
-/// A workspace of several lanes.
-class Lanes {
-public:
-    explicit Lanes(std::uint32_t lanes,
-                   void (*run)(void*, std::size_t, cdprep_task, const void*) = Threads::run) {
-        cdprep_workspace_options options;
-        cdprep_workspace_options_init(&options, sizeof options);
-        options.lanes = lanes;
-        options.run = run;
-        options.context = &threads;
-        EXPECT_EQ(cdprep_workspace_make(&options, nullptr, 0, &workspace_, nullptr), CDPREP_OK);
-    }
-    Lanes(const Lanes&) = delete;
-    Lanes& operator=(const Lanes&) = delete;
-    ~Lanes() {
-        cdprep_workspace_end(workspace_);
-    }
-    [[nodiscard]] cdprep_workspace* get() const {
-        return workspace_;
-    }
-    Threads threads;
-
-private:
-    cdprep_workspace* workspace_ = nullptr;
-};
 
 /// All that a model holds: equal models have equal bytes.
 std::string contents(const cdprep_model* model) {
@@ -152,7 +113,7 @@ TEST(CBuild, LanesAndMemoryChangeNoByte) {
     const TestMesh ball = icosphere(5);
     const cdprep_build_options options = build_options_of(ball);
     const CWorkspace one;
-    Lanes four(4), many(256);
+    CLanes four(4), many(256);
     const std::string expected = contents(CBuilt(options, one.get()).get());
     EXPECT_GT(expected.size(), 20480u * 60u);
     EXPECT_TRUE(contents(CBuilt(options, four.get()).get()) == expected);
@@ -183,7 +144,7 @@ void run_badly(void* /*context*/, std::size_t count, cdprep_task task, const voi
 // The same law, whatever the caller's threads do.
 TEST(CBuild, TasksThatAreLeftOutOrRepeatedChangeNothing) {
     const TestMesh ball = icosphere(4);
-    const Lanes lanes(3, run_badly);
+    const CLanes lanes(3, run_badly);
     const CWorkspace one;
     const cdprep_build_options options = build_options_of(ball);
     EXPECT_TRUE(contents(CBuilt(options, lanes.get()).get()) ==
@@ -194,7 +155,7 @@ TEST(CBuild, TasksThatAreLeftOutOrRepeatedChangeNothing) {
 TEST(CBuild, NoFloatingPointEnvironmentChangesAByte) {
     TestMesh ball = turned(icosphere(3), 0.7);
     const CWorkspace workspace;
-    const Lanes lanes(2);
+    const CLanes lanes(2);
     for (const std::uint32_t precision : {CDPREP_AS_GIVEN, CDPREP_SINGLE}) {
         cdprep_build_options options = build_options_of(ball);
         options.precision = precision;

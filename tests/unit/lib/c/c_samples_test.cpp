@@ -74,6 +74,19 @@ TEST(CSample, BuildsACubeFromArraysAndAsksIt) {
               "x = 1.5: 0.5 apart\n");
 }
 
+// By hand: crate i starts i - 0.75 above the floor and 1 high, and falls by 0.125 a frame.
+TEST(CSample, CratesFallThroughTheFloor) {
+    EXPECT_EQ(output_of(SAMPLE_FALL),
+              "frame 1: crate 1 hits the floor\n"
+              "frame 9: crate 2 hits the floor\n"
+              "frame 10: crate 1 has passed the floor\n"
+              "frame 17: crate 3 hits the floor\n"
+              "frame 18: crate 2 has passed the floor\n"
+              "frame 25: crate 4 hits the floor\n"
+              "frame 26: crate 3 has passed the floor\n"
+              "frame 34: crate 4 has passed the floor\n");
+}
+
 TEST_F(CSamples, AFileThatIsNotThereIsNamed) {
     const std::string output = output_of(std::string(SAMPLE_COLLIDE) + " nothing.cdp.h5 " + path_);
     EXPECT_NE(output.find("CDPREP_UNREADABLE: nothing.cdp.h5"), std::string::npos) << output;

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+#include "c/c_plan.h"
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+#include <new>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "c/c_model.h"
+#include "c/c_workspace.h"
+#include "cdprep/format/float_environment.h"
+
+namespace cdprep::c {
+
+template <>
+struct Input<cdprep_layer_pair> {
+    static const InputType type;
+    static cdprep_layer_pair defaults() noexcept {
+        return {};
+    }
+};
+
+template <>
+struct Input<cdprep_model_use> {
+    static const InputType type;
+    static cdprep_model_use defaults() noexcept {
+        return {};
+    }
+};
+
+template <>
+struct Input<cdprep_plan_options> {
+    static const InputType type;
+    static cdprep_plan_options defaults() noexcept {
+        cdprep_plan_options options{};
+        options.lanes = 1;
+        return options;
+    }
+};
+
+namespace {
+
+constexpr std::array kPairFields = {
+    Field{"a", offsetof(cdprep_layer_pair, a), Holds::choice, kLayers - 1},
+    Field{"b", offsetof(cdprep_layer_pair, b), Holds::choice, kLayers - 1},
+    Field{"body", offsetof(cdprep_layer_pair, body), Holds::choice, CDPREP_SOLID},
+    Field{"overlap", offsetof(cdprep_layer_pair, overlap), Holds::choice, CDPREP_PROPER},
+    Field{"lists_stays", offsetof(cdprep_layer_pair, lists_stays), Holds::choice, CDPREP_YES},
+    Field{"tolerance", offsetof(cdprep_layer_pair, tolerance), Holds::length},
+    Field{"max_distance", offsetof(cdprep_layer_pair, max_distance), Holds::length},
+};
+
+constexpr std::array kOptionsFields = {
+    Field{"layer_pair_count", offsetof(cdprep_plan_options, layer_pair_count), Holds::choice,
+          kMostLayerPairs},
+    Field{"max_objects", offsetof(cdprep_plan_options, max_objects), Holds::choice,
+          kMostWorldBoxes},
+    Field{"lanes", offsetof(cdprep_plan_options, lanes), Holds::choice, kMostLanes},
+};
+
+constexpr Name kOptions = {"options"};
+
+static_assert(CDPREP_LAYERS == kLayers && kMostLayerPairs <= UINT16_MAX);
+static_assert(alignof(cdprep_plan) <= CDPREP_ALIGNMENT);
+
+/// Tells the caller every reason why there is no plan. The error of the call states the first.
+class Refusals {
+public:
+    Refusals(Call& call, cdprep_text_visitor visit, void* context) noexcept
+        : call_(call), visit_(visit), context_(context) {}
+
+    /// Runs `check(call)` with a call of its own. Returns whether it accepts.
+    template <class Check>
+    bool accept(Check&& check) {
+        cdprep_error error;
+        Call one(&error);
+        if (check(one) == CDPREP_OK) return true;
+        if (code_ == CDPREP_OK) {
+            code_ = call_.refuse_with(error.why, {error.argument}, error.message);
+        }
+        if (visit_ != nullptr && visit_(context_, error.message) == 0) visit_ = nullptr;
+        return false;
+    }
+    [[nodiscard]] int code() const noexcept {
+        return code_;
+    }
+
+private:
+    Call& call_;
+    cdprep_text_visitor visit_;
+    void* context_;
+    int code_ = CDPREP_OK;
+};
+
+/// Checks an array of input structs: calls `check(call, name, element)` for each. An invalid first
+/// element ends the checks, because the size in its head is the stride.
+template <class T, class Check>
+void check_array(Refusals& refusals, const char* argument, const T* first, std::size_t count,
+                 Check&& check) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const T* const given = element(first, i);
+        const bool has_head = refusals.accept([&](Call& call) -> int {
+            const Name name = {argument, i};
+            if (const int code = check_head(call, name, Input<T>::type, given)) return code;
+            return check_stride(call, name, first, given);
+        });
+        if (!has_head && i == 0) return;
+        if (!has_head) continue;
+        refusals.accept([&](Call& call) { return check(call, {argument, i}, given); });
+    }
+}
+
+/// The options of a plan, as C++ types.
+struct Asked {
+    cdprep_plan_options options{};
+    cdprep_allocator allocator{};
+    std::vector<LayerPair> pairs;
+    std::vector<std::uint16_t> given_as;  ///< of each pair
+    /// [a][b]: 1 more than the index of the pair that was given for two layers.
+    std::array<std::uint16_t, kLayers * kLayers> given{};
+
+    [[nodiscard]] std::uint16_t& given_for(std::uint32_t a, std::uint32_t b) noexcept {
+        return given[std::min(a, b) * kLayers + std::max(a, b)];
+    }
+};
+
+/// The effects of scenes in C: all of kSceneEffects but contacts.
+constexpr std::uint32_t kEffects =
+    CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP | CDPREP_ASK_WITHIN | CDPREP_ASK_DISTANCE;
+
+int refuse_unused(Call& call, const Name& name, const char* effects) noexcept {
+    return call.refuse(CDPREP_WHY_NO_MEANING, name,
+                       "is set, but only %s uses it; leave it at its default.", effects);
+}
+
+/// Refuses fields that no effect of the pair uses.
+int check_meaning(Call& call, const Name& name, const cdprep_layer_pair& pair) noexcept {
+    const auto has = [&](std::uint32_t asks) { return (pair.effects & asks) != 0; };
+    if (pair.body != CDPREP_SURFACE && !has(CDPREP_ASK_COLLIDE | CDPREP_ASK_DISTANCE)) {
+        return refuse_unused(call, name.of("body"), "CDPREP_ASK_COLLIDE or _DISTANCE");
+    }
+    if (pair.overlap != CDPREP_CLOSED && !has(CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP)) {
+        return refuse_unused(call, name.of("overlap"), "CDPREP_ASK_COLLIDE or _OVERLAP");
+    }
+    if (pair.tolerance > 0 && !has(CDPREP_ASK_WITHIN)) {
+        return refuse_unused(call, name.of("tolerance"), "CDPREP_ASK_WITHIN");
+    }
+    if (pair.max_distance > 0 && !has(CDPREP_ASK_DISTANCE)) {
+        return refuse_unused(call, name.of("max_distance"), "CDPREP_ASK_DISTANCE");
+    }
+    return CDPREP_OK;
+}
+
+LayerPair in_cpp(const cdprep_layer_pair& pair) noexcept {
+    return {.a = pair.a,
+            .b = pair.b,
+            .effects = static_cast<Ask>(pair.effects),
+            .tolerance = pair.tolerance,
+            .max_distance = pair.max_distance,
+            .body = pair.body == CDPREP_SOLID ? Body::solid : Body::surface,
+            .overlap = pair.overlap == CDPREP_PROPER ? Overlap::proper : Overlap::closed,
+            .contacts = LayerPair().contacts,
+            .lists_stays = pair.lists_stays == CDPREP_YES};
+}
+
+int read_layer_pair(Call& call, const Name& name, const cdprep_layer_pair* from, Asked& asked) {
+    const format::FloatEnvironment environment;
+    cdprep_layer_pair pair;
+    if (const int code = read_input(call, name, from, pair)) return code;
+    if ((pair.effects & ~kEffects) != 0) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("effects"),
+                           "is 0x%x; a scene computes only the bits 0x%x.", pair.effects, kEffects);
+    }
+    if (const int code = check_meaning(call, name, pair)) return code;
+    std::uint16_t& given = asked.given_for(pair.a, pair.b);
+    if (given != 0) {
+        return call.refuse(CDPREP_WHY_NO_MEANING, name,
+                           "is of layers %u and %u, and so is options.layer_pairs[%u].", pair.a,
+                           pair.b, given - 1U);
+    }
+    given = static_cast<std::uint16_t>(name.index + 1);
+    if (pair.effects == 0) return CDPREP_OK;
+    asked.pairs.push_back(in_cpp(pair));
+    asked.given_as.push_back(static_cast<std::uint16_t>(name.index));
+    return CDPREP_OK;
+}
+
+int read_model_use(Call& call, const Name& name, const cdprep_model_use* from,
+                   cdprep_model_use& use) noexcept {
+    if (const int code = read_input(call, name, from, use)) return code;
+    if (const int code = check_asks(call, name.of("serves"), use.serves)) return code;
+    if (use.model == nullptr) return CDPREP_OK;
+    if (use.serves != 0) {
+        return call.refuse(CDPREP_WHY_NO_MEANING, name.of("serves"),
+                           "is 0x%x, but the model is given; leave it at 0.", use.serves);
+    }
+    if (use.name == nullptr) return CDPREP_OK;
+    return call.refuse(CDPREP_WHY_NO_MEANING, name.of("name"),
+                       "is set, but the model has a name; leave it at null.");
+}
+
+/// Refuses a model that does not serve what its layers ask for.
+int check_model_use(Call& call, const Name& name, const cdprep_model_use* from, const Plan& plan) {
+    cdprep_model_use use;
+    if (const int code = read_model_use(call, name, from, use)) return code;
+    Ask asks = Ask::nothing;
+    for (std::uint32_t layers = use.layers; layers != 0; layers &= layers - 1) {
+        asks = asks | plan.asks_of(static_cast<std::uint32_t>(std::countr_zero(layers)));
+    }
+    if (use.model != nullptr) return check_serves(call, name.of("model"), *use.model, asks);
+    const Ask lacking = without(asks, static_cast<Ask>(use.serves));
+    for (const Needs& row : needs()) {
+        if (!contains(lacking, row.ask)) continue;
+        return call.refuse(CDPREP_WHY_NOT_BAKED, name.of("serves"),
+                           "is 0x%x, but its layers ask for %s. Bake %s with %s.", use.serves,
+                           row.name, use.name != nullptr ? use.name : "the model", row.bake_option);
+    }
+    return CDPREP_OK;
+}
+
+int read(Call& call, const cdprep_plan_options* given, Asked& asked) noexcept {
+    if (const int code = read_input(call, kOptions, given, asked.options)) return code;
+    const cdprep_plan_options& options = asked.options;
+    if (options.lanes == 0) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, kOptions.of("lanes"),
+                           "is 0; it must be 1 to %u.", kMostLanes);
+    }
+    if (options.layer_pair_count > 0) {
+        if (const int code = call.need(options.layer_pairs, kOptions.of("layer_pairs")))
+            return code;
+    }
+    if (options.model_count > 0) {
+        if (const int code = call.need(options.models, kOptions.of("models"))) return code;
+    }
+    return read_allocator(call, kOptions.of("allocator"), options.allocator, asked.allocator);
+}
+
+/// Compiles the pairs of layers. What the checks above do not know is refused with the sentence of
+/// the plan.
+std::optional<Plan> compiled(Refusals& refusals, const Asked& asked) {
+    const cdprep_plan_options& options = asked.options;
+    Plan::Compiled compiled =
+        Plan::compile({.pairs = asked.pairs,
+                       .models = {},
+                       .limits = {.objects = options.max_objects,
+                                  .pairs = options.max_pairs,
+                                  .threads = options.lanes,
+                                  .triangle_pairs = options.max_triangle_pairs}});
+    for (const std::string& refusal : compiled.refusals) {
+        refusals.accept([&](Call& call) {
+            return call.refuse_with(CDPREP_WHY_OUT_OF_RANGE, kOptions, refusal);
+        });
+    }
+    return std::move(compiled.plan);
+}
+
+int make_plan(Call& call, const Asked& asked, Plan&& plan, cdprep_plan** to) {
+    OwnedMemory own;
+    if (const int code = own.allocate(call, asked.allocator, sizeof(cdprep_plan))) return code;
+    void* const start = own.get().start;
+    *to = new (start) cdprep_plan{std::move(plan), {}, asked.allocator, own.take()};
+    std::copy(asked.given_as.begin(), asked.given_as.end(), (*to)->given_as.begin());
+    return CDPREP_OK;
+}
+
+int compile(Call& call, Refusals& refusals, const cdprep_plan_options* options, cdprep_plan** to) {
+    Asked asked;
+    if (const int code = read(call, options, asked)) return code;
+    check_array(refusals, "options.layer_pairs", asked.options.layer_pairs,
+                asked.options.layer_pair_count,
+                [&](Call& one, const Name& name, const cdprep_layer_pair* given) {
+                    return read_layer_pair(one, name, given, asked);
+                });
+    std::optional<Plan> plan = compiled(refusals, asked);
+    if (!plan) return refusals.code();
+    check_array(refusals, "options.models", asked.options.models, asked.options.model_count,
+                [&](Call& one, const Name& name, const cdprep_model_use* given) {
+                    return check_model_use(one, name, given, *plan);
+                });
+    if (refusals.code() != CDPREP_OK) return refusals.code();
+    return make_plan(call, asked, std::move(*plan), to);
+}
+
+}  // namespace
+
+const InputType Input<cdprep_layer_pair>::type = {"cdprep_layer_pair", 0xcd50000bU,
+                                                  sizeof(cdprep_layer_pair),
+                                                  sizeof(cdprep_layer_pair), kPairFields};
+
+const InputType Input<cdprep_model_use>::type = {
+    "cdprep_model_use", 0xcd50000cU, sizeof(cdprep_model_use), sizeof(cdprep_model_use), {}};
+
+const InputType Input<cdprep_plan_options>::type = {"cdprep_plan_options", 0xcd50000dU,
+                                                    sizeof(cdprep_plan_options),
+                                                    sizeof(cdprep_plan_options), kOptionsFields};
+
+}  // namespace cdprep::c
+
+using cdprep::c::Call;
+using cdprep::c::guarded;
+
+void cdprep_layer_pair_init(cdprep_layer_pair* pair, size_t size) {
+    cdprep::c::initialise(pair, size);
+}
+
+void cdprep_model_use_init(cdprep_model_use* use, size_t size) {
+    cdprep::c::initialise(use, size);
+}
+
+void cdprep_plan_options_init(cdprep_plan_options* options, size_t size) {
+    cdprep::c::initialise(options, size);
+}
+
+int cdprep_plan_compile(const cdprep_plan_options* options, cdprep_text_visitor refusals,
+                        void* context, cdprep_plan** plan, cdprep_error* error) {
+    if (plan != nullptr) *plan = nullptr;
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(options, {"options"})) return code;
+        if (const int code = call.need(plan, {"plan"})) return code;
+        cdprep::c::Refusals all(call, refusals, context);
+        return cdprep::c::compile(call, all, options, plan);
+    });
+}
+
+int cdprep_plan_text(const cdprep_plan* plan, char* text, size_t room, size_t* length,
+                     cdprep_error* error) {
+    if (length != nullptr) *length = 0;
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(plan, {"plan"})) return code;
+        if (room > 0) {
+            if (const int code = call.need(text, {"text"})) return code;
+        }
+        if (const int code = call.need(length, {"length"})) return code;
+        const cdprep::format::FloatEnvironment environment;
+        const std::string all = plan->plan.describe();
+        *length = all.size();
+        if (room == 0) return CDPREP_OK;
+        text[all.copy(text, room - 1)] = 0;
+        return CDPREP_OK;
+    });
+}
+
+int cdprep_plan_ask(const cdprep_plan* plan, uint32_t layer, uint32_t* ask, cdprep_error* error) {
+    Call call(error);
+    if (ask != nullptr) *ask = 0;
+    if (const int code = call.need(plan, {"plan"})) return code;
+    if (const int code = call.need(ask, {"ask"})) return code;
+    if (const int code = cdprep::c::check_layer(call, layer)) return code;
+    *ask = static_cast<std::uint32_t>(plan->plan.asks_of(layer));
+    return CDPREP_OK;
+}
+
+void cdprep_plan_end(cdprep_plan* plan) {
+    if (plan == nullptr || plan->users.fetch_sub(1, std::memory_order_acq_rel) > 1) return;
+    const cdprep::c::Memory memory = plan->memory;
+    std::destroy_at(plan);
+    release(memory);
+}

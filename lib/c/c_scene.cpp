@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: MIT
+#include "c/c_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <memory>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "c/c_model.h"
+#include "c/c_workspace.h"
+#include "c/pose_input.h"
+
+namespace cdprep::c {
+
+template <>
+struct Input<cdprep_object_options> {
+    static const InputType type;
+    static cdprep_object_options defaults() noexcept {
+        cdprep_object_options options{};
+        options.world_from_model = kIdentity;
+        return options;
+    }
+};
+
+namespace {
+
+constexpr std::array kFields = {
+    Field{"model", offsetof(cdprep_object_options, model), Holds::pointer},
+    Field{"layer", offsetof(cdprep_object_options, layer), Holds::choice, kLayers - 1},
+    Field{"reserved", offsetof(cdprep_object_options, reserved), Holds::reserved},
+    Field{"world_from_model", offsetof(cdprep_object_options, world_from_model), Holds::number, 0,
+          12},
+};
+
+static_assert(alignof(cdprep_scene) <= CDPREP_ALIGNMENT);
+
+/// The offset of each part of a scene's block.
+struct Layout {
+    explicit Layout(const Plan& plan) noexcept
+        : hits(aligned(sizeof(cdprep_scene))),
+          overlaps(hits + aligned(plan.limits().pairs * sizeof(cdprep_scene_hit))),
+          distances(overlaps +
+                    aligned(results_of(plan, Ask::overlap) * sizeof(cdprep_scene_overlap))),
+          events(distances +
+                 aligned(results_of(plan, Ask::distance) * sizeof(cdprep_scene_distance))),
+          scene(events + aligned(events_of(plan) * sizeof(cdprep_event))),
+          scene_size(aligned(Scene::size(plan))),
+          size(scene + scene_size) {}
+
+    static std::size_t results_of(const Plan& plan, Ask effect) noexcept {
+        return contains(plan.effects(), effect) ? plan.limits().pairs : 0;
+    }
+    /// All effects of the last step end, and as many begin.
+    static std::size_t events_of(const Plan& plan) noexcept {
+        const auto effects = static_cast<std::uint32_t>(plan.effects());
+        return 2 * static_cast<std::size_t>(std::popcount(effects)) * plan.limits().pairs;
+    }
+
+    std::size_t hits;
+    std::size_t overlaps;
+    std::size_t distances;
+    std::size_t events;
+    std::size_t scene;
+    std::size_t scene_size;
+    std::size_t size;
+};
+
+/// Makes an array in the block. Elements are written before they are read.
+template <class T>
+T* array_at(std::byte* block, std::size_t offset) noexcept {
+    static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= CDPREP_ALIGNMENT);
+    return reinterpret_cast<T*>(block + offset);
+}
+
+int make(Call& call, cdprep_plan& plan, const Given& given, cdprep_scene** to) noexcept {
+    const Layout layout(plan.plan);
+    OwnedMemory own;
+    std::byte* block = nullptr;
+    if (const int code = take_memory(call, given, layout.size, plan.allocator, own, block))
+        return code;
+    assert(Scene::alignment() <= CDPREP_ALIGNMENT);
+    std::optional<Scene> scene =
+        Scene::in_memory({block + layout.scene, layout.scene_size}, plan.plan);
+    if (!scene) return call.fail(CDPREP_INTERNAL, "The scene does not fit into its own memory.");
+    const SceneResults results = {array_at<cdprep_scene_hit>(block, layout.hits),
+                                  array_at<cdprep_scene_overlap>(block, layout.overlaps),
+                                  array_at<cdprep_scene_distance>(block, layout.distances),
+                                  array_at<cdprep_event>(block, layout.events)};
+    *to = new (block) cdprep_scene{std::move(*scene), &plan, results, own.take()};
+    plan.users.fetch_add(1, std::memory_order_relaxed);
+    return CDPREP_OK;
+}
+
+ObjectId in_cpp(const cdprep_object& id) noexcept {
+    return {id.slot, id.generation};
+}
+
+int check_object(Call& call, const Name& name, const cdprep_scene& scene,
+                 const cdprep_object& id) noexcept {
+    if (scene.scene.model_of(in_cpp(id)) != nullptr) return CDPREP_OK;
+    return call.refuse(CDPREP_WHY_STALE, name,
+                       "is slot %u of generation %u; the scene has no such object.", id.slot,
+                       id.generation);
+}
+
+int read_object(Call& call, const Name& name, const cdprep_object_options* from, const Plan& plan,
+                SceneObject& object) {
+    cdprep_object_options given;
+    if (const int code = read_input(call, name, from, given)) return code;
+    if (const int code = read_rigid(call, name.of("world_from_model"), given.world_from_model,
+                                    object.world_from_model)) {
+        return code;
+    }
+    object.model = &given.model->model;
+    object.layer = given.layer;
+    return check_serves(call, name.of("model"), *given.model, plan.asks_of(given.layer));
+}
+
+/// Refuses arrays that are null but have elements, and more elements than memory holds.
+template <class X, class Y>
+int check_arrays(Call& call, std::size_t count, const char* x_name, const X* x, const char* y_name,
+                 const Y* y) noexcept {
+    if (count == 0) return CDPREP_OK;
+    if (const int code = call.need(x, {x_name})) return code;
+    if (const int code = call.need(y, {y_name})) return code;
+    if (count <= PTRDIFF_MAX / std::max(sizeof(X), sizeof(Y))) return CDPREP_OK;
+    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"count"}, "is more than memory holds.");
+}
+
+int check_objects(Call& call, const cdprep_scene& scene, const cdprep_object* ids,
+                  std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        if (const int code = check_object(call, {"ids", i}, scene, ids[i])) return code;
+    }
+    return CDPREP_OK;
+}
+
+int check_room(Call& call, const cdprep_scene& scene, std::size_t count) noexcept {
+    const std::uint32_t most = scene.plan->plan.limits().objects;
+    const std::uint32_t room = most - scene.scene.object_count();
+    if (count <= room) return CDPREP_OK;
+    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"count"},
+                       "is %zu; the scene has room for %u more of its %u objects.", count, room,
+                       most);
+}
+
+int check_new(Call& call, const cdprep_scene& scene, const cdprep_object_options* objects,
+              std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const Name name = {"objects", i};
+        const cdprep_object_options* const given = element(objects, i);
+        SceneObject object;
+        if (i > 0) {
+            if (const int code = check_stride(call, name, objects, given)) return code;
+        }
+        if (const int code = read_object(call, name, given, scene.plan->plan, object)) return code;
+    }
+    return CDPREP_OK;
+}
+
+/// Adds objects that were checked. Arrays that change meanwhile end it.
+void add_all(cdprep_scene& scene, const cdprep_object_options* objects, std::size_t count,
+             cdprep_object* ids) {
+    Call again(nullptr);
+    for (std::size_t i = 0; i < count; ++i) {
+        SceneObject object;
+        if (read_object(again, {"objects", i}, element(objects, i), scene.plan->plan, object) !=
+            CDPREP_OK) {
+            return;
+        }
+        const std::optional<ObjectId> id = scene.scene.add(object);
+        if (!id) return;
+        ids[i] = {id->slot, id->generation};
+    }
+}
+
+int check_poses(Call& call, const cdprep_pose* poses, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        Pose pose;
+        if (const int code = read_pose(call, {"poses", i}, poses + i, pose)) return code;
+    }
+    return CDPREP_OK;
+}
+
+/// Runs `change(call)`, which changes a scene that no other call uses.
+template <class Change>
+int change_scene(cdprep_scene* scene, cdprep_error* error, Change&& change) noexcept {
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(scene, {"scene"})) return code;
+        InUse use;
+        if (const int code = use.begin(call, {"scene"}, scene->in_use)) return code;
+        return change(call);
+    });
+}
+
+}  // namespace
+
+const InputType Input<cdprep_object_options>::type = {"cdprep_object_options", 0xcd50000eU,
+                                                      sizeof(cdprep_object_options),
+                                                      sizeof(cdprep_object_options), kFields};
+
+}  // namespace cdprep::c
+
+using cdprep::c::Call;
+using cdprep::c::guarded;
+
+int cdprep_scene_size(const cdprep_plan* plan, size_t* size, cdprep_error* error) {
+    Call call(error);
+    if (size != nullptr) *size = 0;
+    if (const int code = call.need(plan, {"plan"})) return code;
+    if (const int code = call.need(size, {"size"})) return code;
+    *size = cdprep::c::Layout(plan->plan).size;
+    return CDPREP_OK;
+}
+
+int cdprep_scene_make(cdprep_plan* plan, void* memory, size_t size, cdprep_scene** scene,
+                      cdprep_error* error) {
+    if (scene != nullptr) *scene = nullptr;
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(plan, {"plan"})) return code;
+        if (const int code = call.need(scene, {"scene"})) return code;
+        return cdprep::c::make(call, *plan, {memory, size}, scene);
+    });
+}
+
+void cdprep_scene_end(cdprep_scene* scene) {
+    if (scene == nullptr || scene->in_use.exchange(true)) return;
+    const cdprep::c::Memory memory = scene->memory;
+    cdprep_plan* const plan = scene->plan;
+    std::destroy_at(scene);
+    release(memory);
+    cdprep_plan_end(plan);
+}
+
+void cdprep_object_options_init(cdprep_object_options* options, size_t size) {
+    cdprep::c::initialise(options, size);
+}
+
+int cdprep_scene_add(cdprep_scene* scene, const cdprep_object_options* objects, size_t count,
+                     cdprep_object* ids, cdprep_error* error) {
+    if (ids != nullptr && count <= PTRDIFF_MAX / sizeof *ids) {
+        std::fill_n(ids, count, cdprep_object{});
+    }
+    return cdprep::c::change_scene(scene, error, [&](Call& call) -> int {
+        if (const int code = cdprep::c::check_arrays(call, count, "objects", objects, "ids", ids)) {
+            return code;
+        }
+        if (const int code = cdprep::c::check_room(call, *scene, count)) return code;
+        if (const int code = cdprep::c::check_new(call, *scene, objects, count)) return code;
+        cdprep::c::add_all(*scene, objects, count, ids);
+        return CDPREP_OK;
+    });
+}
+
+int cdprep_scene_remove(cdprep_scene* scene, const cdprep_object* ids, size_t count,
+                        cdprep_error* error) {
+    return cdprep::c::change_scene(scene, error, [&](Call& call) -> int {
+        if (const int code = cdprep::c::check_arrays(call, count, "ids", ids, "ids", ids)) {
+            return code;
+        }
+        if (const int code = cdprep::c::check_objects(call, *scene, ids, count)) return code;
+        for (size_t i = 0; i < count; ++i) {
+            static_cast<void>(scene->scene.remove(cdprep::c::in_cpp(ids[i])));
+        }
+        return CDPREP_OK;
+    });
+}
+
+int cdprep_scene_set_layer(cdprep_scene* scene, cdprep_object id, uint32_t layer,
+                           cdprep_error* error) {
+    return cdprep::c::change_scene(scene, error, [&](Call& call) -> int {
+        if (const int code = cdprep::c::check_object(call, {"id"}, *scene, id)) return code;
+        if (const int code = cdprep::c::check_layer(call, layer)) return code;
+        const cdprep::ObjectId found = cdprep::c::in_cpp(id);
+        const cdprep::Model& model = *scene->scene.model_of(found);
+        const cdprep::Ask asks = scene->plan->plan.asks_of(layer);
+        if (const int code = cdprep::c::check_serves(call, {"id"}, model, asks)) return code;
+        static_cast<void>(scene->scene.set_layer(found, layer));
+        return CDPREP_OK;
+    });
+}
+
+int cdprep_scene_set_poses(cdprep_scene* scene, const cdprep_object* ids, const cdprep_pose* poses,
+                           size_t count, cdprep_error* error) {
+    return cdprep::c::change_scene(scene, error, [&](Call& call) -> int {
+        if (const int code = cdprep::c::check_arrays(call, count, "ids", ids, "poses", poses)) {
+            return code;
+        }
+        if (const int code = cdprep::c::check_objects(call, *scene, ids, count)) return code;
+        if (const int code = cdprep::c::check_poses(call, poses, count)) return code;
+        Call again(nullptr);
+        for (size_t i = 0; i < count; ++i) {
+            cdprep::Pose pose;
+            if (read_pose(again, {"poses", i}, poses + i, pose) != CDPREP_OK) return CDPREP_OK;
+            static_cast<void>(scene->scene.set_pose(cdprep::c::in_cpp(ids[i]), pose));
+        }
+        return CDPREP_OK;
+    });
+}
+
+int cdprep_scene_set_paused(cdprep_scene* scene, uint32_t effects, cdprep_error* error) {
+    return cdprep::c::change_scene(scene, error, [&](Call& call) -> int {
+        const auto planned = static_cast<uint32_t>(scene->plan->plan.effects());
+        if ((effects & ~planned) != 0) {
+            return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"effects"},
+                               "is 0x%x; the plan computes only the bits 0x%x.", effects, planned);
+        }
+        scene->scene.set_paused(static_cast<cdprep::Ask>(effects));
+        return CDPREP_OK;
+    });
+}
+
+int cdprep_scene_step(cdprep_scene* scene, cdprep_workspace* workspace, cdprep_step* step,
+                      cdprep_error* error) {
+    if (step != nullptr) *step = {};
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(scene, {"scene"})) return code;
+        if (const int code = call.need(workspace, {"workspace"})) return code;
+        if (const int code = call.need(step, {"step"})) return code;
+        cdprep::c::InUse scene_use, workspace_use;
+        if (const int code = scene_use.begin(call, {"scene"}, scene->in_use)) return code;
+        if (const int code = workspace_use.begin(call, *workspace)) return code;
+        const cdprep::c::LanesThreads threads(*workspace);
+        const cdprep::SceneStep made = scene->scene.step(workspace->lanes, threads);
+        step->complete = made.complete ? CDPREP_YES : CDPREP_NO;
+        step->needed_pairs = made.needed_pairs;
+        step->needed_triangle_pairs = made.needed_triangle_pairs;
+        if (made.complete) cdprep::c::store_results(*scene);
+        return CDPREP_OK;
+    });
+}

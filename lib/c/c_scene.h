@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+
+#include "c/c_plan.h"
+#include "c/memory.h"
+#include "cdprep/c/scene.h"
+#include "cdprep/scene.h"
+
+namespace cdprep::c {
+
+/// The results of the last complete step, as C structs. The room is that of the scene.
+struct SceneResults {
+    cdprep_scene_hit* hits = nullptr;
+    cdprep_scene_overlap* overlaps = nullptr;    ///< null if the plan asks for none
+    cdprep_scene_distance* distances = nullptr;  ///< null if the plan asks for none
+    cdprep_event* events = nullptr;
+    std::size_t hit_count = 0, overlap_count = 0, distance_count = 0, event_count = 0;
+};
+
+/// Copies the results of a step.
+void store_results(cdprep_scene& scene) noexcept;
+
+}  // namespace cdprep::c
+
+/// A scene. The object, the results and the memory of the C++ scene lie one after another in one
+/// block.
+struct cdprep_scene {
+    cdprep::Scene scene;
+    cdprep_plan* plan;
+    cdprep::c::SceneResults results;
+    cdprep::c::Memory memory;  ///< none if it is the caller's
+    std::atomic<bool> in_use = false;
+};

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "c/c_scene.h"
+#include "c/c_workspace.h"
+#include "c/pair_answers.h"
+
+namespace cdprep::c {
+namespace {
+
+static_assert(CDPREP_REASON_MOVED == static_cast<int>(EventReason::moved) &&
+              CDPREP_REASON_REMOVED == static_cast<int>(EventReason::removed) &&
+              CDPREP_REASON_RELAYERED == static_cast<int>(EventReason::relayered) &&
+              CDPREP_REASON_PAUSED == static_cast<int>(EventReason::paused) &&
+              CDPREP_REASON_UNCHANGED == static_cast<int>(EventReason::unchanged));
+
+cdprep_object as_c(const ObjectId& id) noexcept {
+    return {id.slot, id.generation};
+}
+
+cdprep_scene_hit as_c(const SceneHit& hit, std::uint32_t layer_pair) noexcept {
+    return {as_c(hit.a), as_c(hit.b), layer_pair, static_cast<std::uint32_t>(hit.holds),
+            in_c(hit.collision.hit == Answer::yes, hit.collision.containment)};
+}
+
+cdprep_scene_distance as_c(const SceneDistance& found, std::uint32_t layer_pair) noexcept {
+    return {as_c(found.a), as_c(found.b), layer_pair, 0, in_c(std::optional(found.distance))};
+}
+
+std::uint32_t as_c(EventKind kind) noexcept {
+    if (kind == EventKind::begins) return CDPREP_EVENT_BEGIN;
+    return kind == EventKind::stays ? CDPREP_EVENT_STAY : CDPREP_EVENT_END;
+}
+
+cdprep_scene_overlap as_c(const SceneOverlaps& found, std::uint32_t layer_pair) noexcept {
+    // The two types have the same members.
+    static_assert(sizeof(TrianglePair) == sizeof(cdprep_overlap) &&
+                  offsetof(TrianglePair, a) == offsetof(cdprep_overlap, a) &&
+                  offsetof(TrianglePair, b) == offsetof(cdprep_overlap, b));
+    return {as_c(found.a),
+            as_c(found.b),
+            layer_pair,
+            0,
+            reinterpret_cast<const cdprep_overlap*>(found.triangles.data()),
+            found.triangles.size()};
+}
+
+cdprep_event as_c(const SceneEvent& event, std::uint32_t layer_pair) noexcept {
+    return {as_c(event.a),    as_c(event.b),
+            layer_pair,       static_cast<std::uint32_t>(event.effect),
+            as_c(event.kind), static_cast<std::uint32_t>(event.reason)};
+}
+
+/// Copies a stream. Returns the number of its elements.
+template <class From, class To>
+std::size_t store(const cdprep_plan& plan, std::span<const From> from, To* to) noexcept {
+    for (const From& one : from) *to++ = as_c(one, plan.given_as[one.pair]);
+    return from.size();
+}
+
+/// Stores the address of an array of results in `*items`.
+template <class T>
+int read_stream(const cdprep_scene* scene, const char* name, const T** items, std::size_t* count,
+                cdprep_error* error, T* SceneResults::*array,
+                std::size_t SceneResults::*array_count) noexcept {
+    Call call(error);
+    if (items != nullptr) *items = nullptr;
+    if (count != nullptr) *count = 0;
+    if (const int code = call.need(scene, {"scene"})) return code;
+    if (const int code = call.need(items, {name})) return code;
+    if (const int code = call.need(count, {"count"})) return code;
+    if (const int code = check_free(call, {"scene"}, scene->in_use)) return code;
+    *items = scene->results.*array;
+    *count = scene->results.*array_count;
+    return CDPREP_OK;
+}
+
+}  // namespace
+
+void store_results(cdprep_scene& scene) noexcept {
+    SceneResults& results = scene.results;
+    results.hit_count = store(*scene.plan, scene.scene.hits(), results.hits);
+    results.overlap_count = store(*scene.plan, scene.scene.overlaps(), results.overlaps);
+    results.distance_count = store(*scene.plan, scene.scene.distances(), results.distances);
+    results.event_count = store(*scene.plan, scene.scene.events(), results.events);
+}
+
+}  // namespace cdprep::c
+
+using cdprep::c::Call;
+using cdprep::c::read_stream;
+using cdprep::c::SceneResults;
+
+int cdprep_scene_hits(const cdprep_scene* scene, const cdprep_scene_hit** hits, size_t* count,
+                      cdprep_error* error) {
+    return read_stream(scene, "hits", hits, count, error, &SceneResults::hits,
+                       &SceneResults::hit_count);
+}
+
+int cdprep_scene_overlaps(const cdprep_scene* scene, const cdprep_scene_overlap** overlaps,
+                          size_t* count, cdprep_error* error) {
+    return read_stream(scene, "overlaps", overlaps, count, error, &SceneResults::overlaps,
+                       &SceneResults::overlap_count);
+}
+
+int cdprep_scene_distances(const cdprep_scene* scene, const cdprep_scene_distance** distances,
+                           size_t* count, cdprep_error* error) {
+    return read_stream(scene, "distances", distances, count, error, &SceneResults::distances,
+                       &SceneResults::distance_count);
+}
+
+int cdprep_scene_events(const cdprep_scene* scene, const cdprep_event** events, size_t* count,
+                        cdprep_error* error) {
+    return read_stream(scene, "events", events, count, error, &SceneResults::events,
+                       &SceneResults::event_count);
+}
+
+int cdprep_scene_hash(const cdprep_scene* scene, uint64_t* hash, cdprep_error* error) {
+    Call call(error);
+    if (hash != nullptr) *hash = 0;
+    if (const int code = call.need(scene, {"scene"})) return code;
+    if (const int code = call.need(hash, {"hash"})) return code;
+    if (const int code = check_free(call, {"scene"}, scene->in_use)) return code;
+    *hash = scene->scene.state_hash();
+    return CDPREP_OK;
+}
+
+int cdprep_scene_counts(const cdprep_scene* scene, cdprep_counts* counts, cdprep_error* error) {
+    Call call(error);
+    if (counts != nullptr) *counts = {};
+    if (const int code = call.need(scene, {"scene"})) return code;
+    if (const int code = call.need(counts, {"counts"})) return code;
+    if (const int code = check_free(call, {"scene"}, scene->in_use)) return code;
+    const cdprep::SceneCounts& all = scene->scene.counts();
+    counts->n[CDPREP_SCENE_OBJECTS] = scene->scene.object_count();
+    counts->n[CDPREP_SCENE_MOVED] = all.moved;
+    counts->n[CDPREP_SCENE_CANDIDATES] = all.candidates;
+    counts->n[CDPREP_SCENE_KEPT] = all.kept;
+    counts->n[CDPREP_SCENE_APART] = all.apart;
+    counts->n[CDPREP_SCENE_COLLIDE] = all.calls_of(cdprep::Ask::collide);
+    counts->n[CDPREP_SCENE_WITHIN] = all.calls_of(cdprep::Ask::within);
+    counts->n[CDPREP_SCENE_DISTANCE] = all.calls_of(cdprep::Ask::distance);
+    counts->n[CDPREP_SCENE_OVERLAP] = all.calls_of(cdprep::Ask::overlap);
+    counts->n[CDPREP_SCENE_TRIANGLE_PAIRS] = all.triangle_pairs;
+    return CDPREP_OK;
+}

@@ -1,0 +1,355 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef CDPREP_C_SCENE_H
+#define CDPREP_C_SCENE_H
+
+#include "cdprep/c/pairs.h"
+
+/* Many objects that move, and the broad phase.
+ *
+ * A plan states what a scene computes. A scene holds objects, and runs the queries of its plan at
+ * each step. The broad phase finds the pairs of boxes that meet. A scene has one of its own. */
+
+/* --- Plans ------------------------------------------------------------------------------------ */
+
+enum { CDPREP_LAYERS = 32 }; /* the number of layers of a scene; an object is in one of them */
+
+/* The effects of two layers: what their objects are asked about each other. Both may be the same
+ * layer. Two layers form at most one pair. */
+typedef struct cdprep_layer_pair {
+    cdprep_head head;
+    uint32_t a, b; /* 0: below CDPREP_LAYERS */
+    /* 0: nothing is computed. Bits: CDPREP_ASK_COLLIDE, _OVERLAP, _WITHIN, _DISTANCE */
+    uint32_t effects;
+    uint32_t body;        /* CDPREP_SURFACE; of collide and distance */
+    uint32_t overlap;     /* CDPREP_CLOSED; of collide and overlap */
+    uint32_t lists_stays; /* CDPREP_NO; CDPREP_YES: also an event in each step for what goes on */
+    double tolerance;     /* 0: of within, model units */
+    double max_distance;  /* 0: of distance, model units: larger distances are not found */
+} cdprep_layer_pair;
+
+CDPREP_API void cdprep_layer_pair_init(cdprep_layer_pair* pair, size_t size);
+
+/* A model that a scene will use. The plan checks that it serves what its layers ask for. */
+typedef struct cdprep_model_use {
+    cdprep_head head;
+    const cdprep_model* model; /* null: `serves` is used */
+    const char* name;          /* null: the name of a model that is not open, for messages; UTF-8 */
+    uint32_t serves;           /* 0: without a model, the CDPREP_ASK_ bits that it will serve */
+    uint32_t layers;           /* 0: the layers of its objects; bit i is layer i */
+} cdprep_model_use;
+
+CDPREP_API void cdprep_model_use_init(cdprep_model_use* model_use, size_t size);
+
+/* What a scene computes, and how large it is. The arrays are read only during the call. */
+typedef struct cdprep_plan_options {
+    cdprep_head head;
+    const cdprep_layer_pair* layer_pairs; /* null */
+    const cdprep_model_use* models;       /* null: scene_add() alone checks the models */
+    uint32_t layer_pair_count;            /* 0: at most 528 */
+    uint32_t model_count;                 /* 0 */
+    uint32_t max_objects;                 /* 0: objects of a scene, at most 2^29 */
+    /* 0: pairs of objects whose boxes meet at a time. Room for twice as many is faster. */
+    uint32_t max_pairs;
+    uint32_t lanes; /* 1: at most 256; a step uses at most as many lanes of its workspace */
+    uint32_t max_triangle_pairs;       /* 0: of overlap: in all lists of a step together */
+    const cdprep_allocator* allocator; /* null: the heap; copied; also of scenes with this plan */
+} cdprep_plan_options;
+
+CDPREP_API void cdprep_plan_options_init(cdprep_plan_options* options, size_t size);
+
+/* A compiled plan. It is read-only: any number of scenes and threads may use it. */
+typedef struct cdprep_plan cdprep_plan;
+
+/* Receives a sentence, which ends with a zero, and the caller's context. Returning 0 ends the
+ * visits. */
+typedef int (*cdprep_text_visitor)(void* context, const char* sentence);
+
+/* Compiles a plan. Invalid layer pairs and models do not end the checks. `refusals` receives a
+ * sentence for each invalid entry, and `error` describes the first. `refusals` may be null. On
+ * failure *plan is null. The plan takes some kilobytes. Takes O(layer pairs^2 + models) time.
+ * Errors, such as of `options.layer_pairs[3].tolerance`:
+ * - CDPREP_WHY_OUT_OF_RANGE: a layer, an effect, an enumerator, a number or a count.
+ * - CDPREP_WHY_NOT_FINITE: a tolerance or maximum distance is NaN or infinite.
+ * - CDPREP_WHY_NO_MEANING: Two layers form a second pair. Or a field is set that no effect of its
+ *   pair uses. Or `serves` or `name` is set in addition to a model.
+ * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: a model does not serve an effect of its layers.
+ * - CDPREP_OVER_BUDGET: there is not enough memory. */
+CDPREP_API int cdprep_plan_compile(const cdprep_plan_options* options, cdprep_text_visitor refusals,
+                                   void* context, cdprep_plan** plan, cdprep_error* error);
+
+/* Stores a text of some lines: the queries of each layer pair, then what is not computed. *length
+ * is that of the whole text, without the zero at its end. Stores as many characters as there is
+ * room for, and a zero. `text` may be null if `room` is 0. */
+CDPREP_API int cdprep_plan_text(const cdprep_plan* plan, char* text, size_t room, size_t* length,
+                                cdprep_error* error);
+
+/* Stores the CDPREP_ASK_ bits that the models of a layer must serve. Open them for these bits. */
+CDPREP_API int cdprep_plan_ask(const cdprep_plan* plan, uint32_t layer, uint32_t* ask,
+                               cdprep_error* error);
+
+/* Ends a plan. Null does nothing. Scenes keep what they need: the memory is released when the last
+ * of them ends. */
+CDPREP_API void cdprep_plan_end(cdprep_plan* plan);
+
+/* --- Scenes -----------------------------------------------------------------------------------
+ *
+ * A step runs the plan's queries for pairs of objects that are near each other, if one of the two
+ * has moved. Its results are those of single queries with CDPREP_MOVE_BOTH. They do not depend on
+ * the number of lanes, and are sorted by the slots of a and b. */
+
+/* Objects and their results. Functions that change a scene refuse a scene that another call changes
+ * (CDPREP_WHY_BUSY), and so do functions that read it. Otherwise, any number of threads may read a
+ * scene at the same time. Its models must stay open until it ends. */
+typedef struct cdprep_scene cdprep_scene;
+
+/* An object. A slot that is used again has another generation. All 0: no object. */
+typedef struct cdprep_object {
+    uint32_t slot; /* below cdprep_plan_options.max_objects */
+    uint32_t generation;
+} cdprep_object;
+
+/* Stores the number of bytes that cdprep_scene_make() needs for this plan. It depends only on the
+ * limits and on the effects: about 430 bytes for each object, and 390 to 990 for each pair. */
+CDPREP_API int cdprep_scene_size(const cdprep_plan* plan, size_t* size, cdprep_error* error);
+
+/* Makes an empty scene in the caller's memory. The memory must start at a multiple of
+ * CDPREP_ALIGNMENT, have at least cdprep_scene_size() bytes, and outlive the scene. If `memory` is
+ * null and `size` is 0, the scene takes its memory from the plan's allocator, in one allocation. On
+ * failure *scene is null. No other function of a scene allocates.
+ * Errors: CDPREP_WHY_TOO_SMALL; CDPREP_WHY_OUT_OF_RANGE for the alignment; CDPREP_OVER_BUDGET. */
+CDPREP_API int cdprep_scene_make(cdprep_plan* plan, void* memory, size_t size, cdprep_scene** scene,
+                                 cdprep_error* error);
+
+/* Ends a scene and releases the memory that cdprep_scene_make() allocated. Does nothing for null or
+ * a scene in use. */
+CDPREP_API void cdprep_scene_end(cdprep_scene* scene);
+
+/* An object to add. */
+typedef struct cdprep_object_options {
+    cdprep_head head;
+    const cdprep_model* model;    /* must serve cdprep_plan_ask() of the layer */
+    uint32_t layer;               /* 0: below CDPREP_LAYERS */
+    uint32_t reserved;            /* 0 */
+    cdprep_pose world_from_model; /* identity */
+} cdprep_object_options;
+
+CDPREP_API void cdprep_object_options_init(cdprep_object_options* options, size_t size);
+
+/* Adds `count` objects, each to the lowest free slot, and stores their ids. If one is invalid, none
+ * is added, and all ids are 0. The size in the head of the first is the stride of the array.
+ * Errors, such as of `objects[3].world_from_model`: CDPREP_WHY_NOT_BAKED or CDPREP_WHY_NOT_OPENED
+ * for a model that does not serve its layer; CDPREP_WHY_NOT_RIGID; CDPREP_WHY_OUT_OF_RANGE for a
+ * layer, or for `count` if the scene has too few free slots; CDPREP_WHY_BUSY. */
+CDPREP_API int cdprep_scene_add(cdprep_scene* scene, const cdprep_object_options* objects,
+                                size_t count, cdprep_object* ids, cdprep_error* error);
+
+/* Removes objects. The next step ends their events. An id may repeat.
+ * Errors: CDPREP_WHY_STALE for an object that does not exist; then none is removed. */
+CDPREP_API int cdprep_scene_remove(cdprep_scene* scene, const cdprep_object* ids, size_t count,
+                                   cdprep_error* error);
+
+/* Moves an object to another layer.
+ * Errors: CDPREP_WHY_STALE; CDPREP_WHY_OUT_OF_RANGE for the layer; CDPREP_WHY_NOT_BAKED or
+ * CDPREP_WHY_NOT_OPENED as in cdprep_scene_add(). */
+CDPREP_API int cdprep_scene_set_layer(cdprep_scene* scene, cdprep_object id, uint32_t layer,
+                                      cdprep_error* error);
+
+/* Sets the poses of objects, from model to world coordinates: poses[i] is that of ids[i]. If an
+ * id repeats, its last pose counts. An object counts as moved even if its pose is the same.
+ * Errors: CDPREP_WHY_STALE, CDPREP_WHY_NOT_FINITE, CDPREP_WHY_OUT_OF_RANGE, CDPREP_WHY_NOT_RIGID;
+ * then no pose is set. */
+CDPREP_API int cdprep_scene_set_poses(cdprep_scene* scene, const cdprep_object* ids,
+                                      const cdprep_pose* poses, size_t count, cdprep_error* error);
+
+/* Pauses these effects from the next step on, and resumes all others. Paused effects are not
+ * computed, and their events end.
+ * Errors: CDPREP_WHY_OUT_OF_RANGE for an effect that the plan does not ask for; CDPREP_WHY_BUSY. */
+CDPREP_API int cdprep_scene_set_paused(cdprep_scene* scene, uint32_t effects, cdprep_error* error);
+
+typedef struct cdprep_step {
+    uint64_t needed_pairs;          /* max_pairs for this step if it is too small; otherwise 0 */
+    uint64_t needed_triangle_pairs; /* max_triangle_pairs, likewise */
+    uint32_t complete;     /* CDPREP_NO: there is too little room; the step has changed nothing */
+    uint32_t reserved[11]; /* 0 */
+} cdprep_step;
+
+/* Computes the effects of all objects as they are now, on the lanes of the workspace. Too little
+ * room is no error: then `complete` is CDPREP_NO. Takes O(n + pairs) time if few objects move
+ * far, and the time of the queries.
+ * Errors: CDPREP_WHY_BUSY for the scene or the workspace. Then `complete` is CDPREP_NO. */
+CDPREP_API int cdprep_scene_step(cdprep_scene* scene, cdprep_workspace* workspace,
+                                 cdprep_step* step, cdprep_error* error);
+
+/* Two objects for which an effect holds: a.slot < b.slot. */
+typedef struct cdprep_scene_hit {
+    cdprep_object a, b;
+    uint32_t layer_pair; /* index into cdprep_plan_options.layer_pairs */
+    /* CDPREP_ASK_ bits of the effects that hold. It is 0 if `collision.hit` is CDPREP_UNKNOWN and
+     * no other effect holds. */
+    uint32_t holds;
+    cdprep_collision collision; /* of collide */
+} cdprep_scene_hit;
+
+/* All triangles of two objects that overlap: a.slot < b.slot. */
+typedef struct cdprep_scene_overlap {
+    cdprep_object a, b;
+    uint32_t layer_pair;
+    uint32_t reserved;           /* 0 */
+    const cdprep_overlap* items; /* belongs to the scene; in the order of (a, b) */
+    size_t count;
+} cdprep_scene_overlap;
+
+/* The distance of two objects that are at most max_distance apart: a.slot < b.slot. */
+typedef struct cdprep_scene_distance {
+    cdprep_object a, b;
+    uint32_t layer_pair;
+    uint32_t reserved;      /* 0 */
+    cdprep_nearest nearest; /* points are in the world */
+} cdprep_scene_distance;
+
+/* The kind of an event. Each begin is followed by one end before the next begin. */
+enum {
+    CDPREP_EVENT_BEGIN = 1,
+    CDPREP_EVENT_STAY = 2, /* only with lists_stays */
+    CDPREP_EVENT_END = 4
+};
+/* The reason of an event. */
+enum {
+    CDPREP_REASON_MOVED = 0,     /* an object moved, or was added */
+    CDPREP_REASON_REMOVED = 1,   /* an object was removed */
+    CDPREP_REASON_RELAYERED = 2, /* an object is in another layer than in the last step */
+    CDPREP_REASON_PAUSED = 3,    /* the effect was paused or resumed */
+    CDPREP_REASON_UNCHANGED = 4  /* of CDPREP_EVENT_STAY: neither object moved */
+};
+
+/* An effect that begins, goes on or ceases to hold for two objects: a.slot < b.slot. */
+typedef struct cdprep_event {
+    cdprep_object a, b;
+    uint32_t layer_pair; /* when the effect began */
+    uint32_t effect;     /* one bit: CDPREP_ASK_COLLIDE, _OVERLAP, _WITHIN or _DISTANCE */
+    uint32_t kind;       /* CDPREP_EVENT_BEGIN, _STAY, _END */
+    uint32_t reason;     /* CDPREP_REASON_ */
+} cdprep_event;
+
+/* Each function stores the address of an array, and the number of its elements. The array belongs
+ * to the scene. It is that of the last step that was complete, and stays until the next one or the
+ * end of the scene. Before the first step it is empty. Each stream has a function of its own: a
+ * result struct never changes, so later streams come as new functions. */
+CDPREP_API int cdprep_scene_hits(const cdprep_scene* scene, const cdprep_scene_hit** hits,
+                                 size_t* count, cdprep_error* error);
+CDPREP_API int cdprep_scene_overlaps(const cdprep_scene* scene,
+                                     const cdprep_scene_overlap** overlaps, size_t* count,
+                                     cdprep_error* error);
+CDPREP_API int cdprep_scene_distances(const cdprep_scene* scene,
+                                      const cdprep_scene_distance** distances, size_t* count,
+                                      cdprep_error* error);
+/* Events are in the order of hits. */
+CDPREP_API int cdprep_scene_events(const cdprep_scene* scene, const cdprep_event** events,
+                                   size_t* count, cdprep_error* error);
+
+/* Stores a hash of these arrays, without the nearest points. It is equal on every machine and
+ * for any number of lanes. Takes O(elements) time. */
+CDPREP_API int cdprep_scene_hash(const cdprep_scene* scene, uint64_t* hash, cdprep_error* error);
+
+/* Indices into cdprep_counts.n for cdprep_scene_counts(). All but the first are of the last step
+ * that was complete. */
+enum {
+    CDPREP_SCENE_OBJECTS = 0,    /* objects in the scene now */
+    CDPREP_SCENE_MOVED = 1,      /* objects that moved, were added, removed or relayered */
+    CDPREP_SCENE_CANDIDATES = 2, /* pairs of objects whose boxes meet */
+    CDPREP_SCENE_KEPT = 3,       /* of the candidates: neither object moved, so none is asked */
+    CDPREP_SCENE_APART = 4,      /* of the candidates: turned boxes are apart, so none is asked */
+    CDPREP_SCENE_COLLIDE = 5,    /* collide queries */
+    CDPREP_SCENE_WITHIN = 6,     /* within queries */
+    CDPREP_SCENE_DISTANCE = 7,   /* distance queries */
+    CDPREP_SCENE_OVERLAP = 8,    /* overlap queries */
+    CDPREP_SCENE_TRIANGLE_PAIRS = 9 /* in all lists of overlaps */
+};
+
+/* Stores the work of the last step, for tuning. The rest of counts->n is 0. */
+CDPREP_API int cdprep_scene_counts(const cdprep_scene* scene, cdprep_counts* counts,
+                                   cdprep_error* error);
+
+/* --- The broad phase -------------------------------------------------------------------------- */
+
+/* Finds the pairs of boxes that meet, as boxes move. One call at a time may use it. */
+typedef struct cdprep_broad_phase cdprep_broad_phase;
+
+typedef struct cdprep_broad_phase_options {
+    cdprep_head head;
+    uint32_t max_boxes; /* 0: at most 2^29 */
+    uint32_t max_pairs; /* 0: pairs that meet at a time; twice as many is faster */
+    uint32_t lanes;     /* 1: at most 256; an update uses at most as many lanes of its workspace */
+    uint32_t reserved;  /* 0 */
+    const cdprep_allocator* allocator; /* null: the heap; copied */
+} cdprep_broad_phase_options;
+
+CDPREP_API void cdprep_broad_phase_options_init(cdprep_broad_phase_options* options, size_t size);
+
+/* Stores the number of bytes that cdprep_broad_phase_make() needs for these options: about 150 for
+ * each box, 24 for each pair, and 4 for each box and further lane. `options` may be null. */
+CDPREP_API int cdprep_broad_phase_size(const cdprep_broad_phase_options* options, size_t* size,
+                                       cdprep_error* error);
+
+/* Makes a broad phase in the caller's memory, or in one allocation if `memory` is null and `size`
+ * is 0. Memory and errors are as in cdprep_workspace_make(). An update never allocates. */
+CDPREP_API int cdprep_broad_phase_make(const cdprep_broad_phase_options* options, void* memory,
+                                       size_t size, cdprep_broad_phase** broad_phase,
+                                       cdprep_error* error);
+
+/* Ends a broad phase, as cdprep_workspace_end() does. */
+CDPREP_API void cdprep_broad_phase_end(cdprep_broad_phase* broad_phase);
+
+/* A closed, axis-aligned box. It may be flat or a point. Infinite numbers count as the largest
+ * finite ones. If lower > upper along an axis, the box is absent: it forms no pair. */
+typedef struct cdprep_world_box {
+    float lower[3], upper[3];
+} cdprep_world_box;
+
+/* The boxes with which a box may form pairs. Two boxes form one only if each accepts a layer of the
+ * other. Layers are bits. */
+typedef struct cdprep_box_filter {
+    uint32_t layers, accepts;
+} cdprep_box_filter;
+
+/* Two boxes that meet: a < b. Touching counts. */
+typedef struct cdprep_box_pair {
+    uint32_t a, b;
+} cdprep_box_pair;
+
+/* All boxes as they are now. The arrays are read only during the call. */
+typedef struct cdprep_box_update {
+    cdprep_head head;
+    const cdprep_world_box* boxes;    /* null: with count 0 */
+    const cdprep_box_filter* filters; /* null: all boxes form pairs; otherwise one for each box */
+    /* Null: any box may have moved. Otherwise the numbers of the boxes that may have changed, or
+     * their filters, in any order; they may repeat. This is faster if few boxes move. Then `count`
+     * must be that of the last update. */
+    const uint32_t* moved;
+    uint32_t count;       /* 0: of boxes, at most max_boxes */
+    uint32_t moved_count; /* 0 */
+} cdprep_box_update;
+
+CDPREP_API void cdprep_box_update_init(cdprep_box_update* update, size_t size);
+
+typedef struct cdprep_box_pairs {
+    const cdprep_box_pair* items; /* sorted by a, then b; stays until the next update */
+    size_t count;                 /* 0 if not complete */
+    uint64_t needed;              /* if not complete: max_pairs for this update; otherwise 0 */
+    uint32_t complete;            /* CDPREP_NO: there are too many pairs */
+    uint32_t escaped;  /* boxes that left the larger box around them, or whose filter changed */
+    uint32_t kept;     /* CDPREP_YES: pairs of larger boxes are kept for the next update */
+    uint32_t reserved; /* 0 */
+} cdprep_box_pairs;
+
+/* Stores the pairs of boxes that meet, computed on the lanes of the workspace. They do not depend
+ * on the number of lanes. Too many pairs are no error: then `complete` is CDPREP_NO. Takes O(n +
+ * pairs) time if few boxes leave the larger boxes around them, otherwise O(n log n + pairs).
+ * Errors: CDPREP_WHY_NOT_FINITE for a box with NaN; CDPREP_WHY_OUT_OF_RANGE for counts and numbers
+ * of boxes; CDPREP_WHY_BUSY. After an error the next update starts as if this one had not been. */
+CDPREP_API int cdprep_broad_phase_update(cdprep_broad_phase* broad_phase,
+                                         const cdprep_box_update* update,
+                                         cdprep_workspace* workspace, cdprep_box_pairs* pairs,
+                                         cdprep_error* error);
+
+#endif /* CDPREP_C_SCENE_H */

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+// Plans, scenes and the broad phase through the C API, beside those of C++.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "c_api.h"
+#include "cdprep/scene.h"
+#include "support/c_lanes.h"
+#include "support/c_models.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
+
+namespace cdprep::test {
+namespace {
+
+AlignedBytes baked(const TestMesh& mesh) {
+    return bake_tiny(mesh.positions, mesh.triangles);
+}
+
+// By hand: cubes of side 1, and boxes.
+TEST(CScene, AProgramInC99GetsTheResults) {
+    const AlignedBytes file = baked(unit_cube());
+    const CModel cube(file);
+    const CWorkspace workspace;
+    AlignedBytes memory(100'000);
+    void* const start = memory.span().data();
+    const char* wrong = ask_scene(cube.get(), workspace.get(), start, memory.size());
+    EXPECT_EQ(wrong, nullptr) << wrong;
+    wrong = ask_broad_phase(workspace.get(), start, memory.size());
+    EXPECT_EQ(wrong, nullptr) << wrong;
+}
+
+// Layers 0 and 1 collide and list triangles, 1 and 2 collide as solids, 2 and 2 have a tolerance
+// and a distance. The first
+// pair is dropped, so numbers in C are one higher than in C++.
+const std::vector<LayerPair> kPairs = {
+    {.a = 5, .b = 6},
+    {.a = 0,
+     .b = 1,
+     .effects = Ask::collide | Ask::overlap,
+     .overlap = Overlap::proper,
+     .lists_stays = true},
+    {.a = 2, .b = 1, .effects = Ask::collide, .body = Body::solid},
+    {.a = 2, .b = 2, .effects = Ask::within | Ask::distance, .tolerance = 0.1, .max_distance = 1}};
+
+constexpr std::uint32_t kMostTrianglePairs = 500;  // sometimes too few
+
+cdprep_layer_pair in_c(const LayerPair& pair) {
+    cdprep_layer_pair to;
+    cdprep_layer_pair_init(&to, sizeof to);
+    to.a = pair.a;
+    to.b = pair.b;
+    to.effects = static_cast<std::uint32_t>(pair.effects);
+    to.body = pair.body == Body::solid ? CDPREP_SOLID : CDPREP_SURFACE;
+    to.overlap = pair.overlap == Overlap::proper ? CDPREP_PROPER : CDPREP_CLOSED;
+    to.tolerance = pair.tolerance;
+    to.max_distance = pair.max_distance;
+    to.lists_stays = pair.lists_stays ? CDPREP_YES : CDPREP_NO;
+    return to;
+}
+
+cdprep_pose in_c(const Pose& pose) {
+    cdprep_pose to{};
+    std::copy(pose.rotation().begin(), pose.rotation().end(), std::begin(to.rows));
+    to.rows[9] = pose.translation().x;
+    to.rows[10] = pose.translation().y;
+    to.rows[11] = pose.translation().z;
+    return to;
+}
+
+ObjectId in_cpp(const cdprep_object& id) {
+    return {id.slot, id.generation};
+}
+
+/// The same objects in a scene of C and in one of C++.
+class Twins {
+public:
+    Twins(std::uint32_t seed, std::uint32_t lanes, std::uint32_t plan_lanes,
+          std::uint32_t max_pairs)
+        : random_(seed),
+          files_{baked(icosphere(2)), baked(torus(0.7, 0.2, 12, 8)),
+                 baked(moved_by(unit_cube(), 0.5, {0, 0, 0}))},
+          lanes_(lanes),
+          plan_(*Plan::compile({.pairs = kPairs,
+                                .limits = {.objects = 24,
+                                           .pairs = max_pairs,
+                                           .triangle_pairs = kMostTrianglePairs}})
+                     .plan),
+          scene_(plan_) {
+        for (const AlignedBytes& file : files_) {
+            c_models_.push_back(std::make_unique<CModel>(file));
+            models_.push_back(Model::open(file.span()).value());
+        }
+        std::vector<cdprep_layer_pair> pairs;
+        for (const LayerPair& pair : kPairs) pairs.push_back(in_c(pair));
+        cdprep_plan_options options;
+        cdprep_plan_options_init(&options, sizeof options);
+        options.layer_pairs = pairs.data();
+        options.layer_pair_count = static_cast<std::uint32_t>(pairs.size());
+        options.max_objects = 24;
+        options.max_pairs = max_pairs;
+        options.max_triangle_pairs = kMostTrianglePairs;
+        options.lanes = plan_lanes;
+        cdprep_plan* plan = nullptr;
+        EXPECT_EQ(cdprep_plan_compile(&options, nullptr, nullptr, &plan, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_scene_make(plan, nullptr, 0, &c_scene_, nullptr), CDPREP_OK);
+        cdprep_plan_end(plan);  // the scene keeps it
+    }
+    Twins(const Twins&) = delete;
+    Twins& operator=(const Twins&) = delete;
+    ~Twins() {
+        cdprep_scene_end(c_scene_);
+    }
+
+    void add() {
+        const std::uint32_t model = any(3), layer = any(4);
+        const Pose pose = random_pose(random_, kReach_);
+        cdprep_object_options options;
+        cdprep_object_options_init(&options, sizeof options);
+        options.model = c_models_[model]->get();
+        options.layer = layer;
+        options.world_from_model = in_c(pose);
+        cdprep_object id{};
+        const int code = cdprep_scene_add(c_scene_, &options, 1, &id, nullptr);
+        const auto added = scene_.add({&models_[model], layer, pose});
+        ASSERT_EQ(code == CDPREP_OK, added.has_value());
+        if (!added) return;
+        EXPECT_EQ(in_cpp(id), *added);
+        ids_.push_back(id);
+    }
+    void change_one() {
+        if (ids_.empty()) return;
+        const std::size_t at = any(static_cast<std::uint32_t>(ids_.size()));
+        const cdprep_object id = ids_[at];
+        const std::uint32_t kind = any(8);
+        if (kind == 0) {
+            EXPECT_EQ(cdprep_scene_remove(c_scene_, &id, 1, nullptr), CDPREP_OK);
+            EXPECT_TRUE(scene_.remove(in_cpp(id)));
+            ids_.erase(ids_.begin() + static_cast<std::ptrdiff_t>(at));
+        } else if (kind == 1) {
+            const std::uint32_t layer = any(4);
+            EXPECT_EQ(cdprep_scene_set_layer(c_scene_, id, layer, nullptr), CDPREP_OK);
+            EXPECT_TRUE(scene_.set_layer(in_cpp(id), layer));
+        } else {
+            const Pose pose = random_pose(random_, kReach_);
+            const cdprep_pose to = in_c(pose);
+            EXPECT_EQ(cdprep_scene_set_poses(c_scene_, &id, &to, 1, nullptr), CDPREP_OK);
+            EXPECT_TRUE(scene_.set_pose(in_cpp(id), pose));
+        }
+    }
+    /// Pauses or resumes some effects.
+    void pause() {
+        const std::uint32_t effects = any(16) & static_cast<std::uint32_t>(plan_.effects());
+        EXPECT_EQ(cdprep_scene_set_paused(c_scene_, effects, nullptr), CDPREP_OK);
+        scene_.set_paused(static_cast<Ask>(effects));
+    }
+    /// Steps both, and expects equal results.
+    void step() {
+        cdprep_step step;
+        ASSERT_EQ(cdprep_scene_step(c_scene_, lanes_.get(), &step, nullptr), CDPREP_OK);
+        const SceneStep expected = scene_.step(workspaces_);
+        EXPECT_EQ(step.complete == CDPREP_YES, expected.complete);
+        EXPECT_EQ(step.needed_pairs, expected.needed_pairs);
+        EXPECT_EQ(step.needed_triangle_pairs, expected.needed_triangle_pairs);
+        without_room += expected.needed_triangle_pairs > 0 ? 1 : 0;
+        incomplete += expected.complete ? 0 : 1;
+        expect_equal_hits();
+        expect_equal_overlaps();
+        expect_equal_distances();
+        expect_equal_events();
+        expect_equal_numbers();
+    }
+    std::uint32_t any(std::uint32_t below) {
+        return static_cast<std::uint32_t>(random_() % below);
+    }
+    [[nodiscard]] std::size_t most_tasks() const {
+        return lanes_.threads.most;
+    }
+
+    /// Of all steps.
+    std::size_t hits = 0, overlaps = 0, distances = 0, events = 0, stays = 0;
+    std::size_t incomplete = 0, without_room = 0;
+
+private:
+    void expect_equal_hits() {
+        const cdprep_scene_hit* found = nullptr;
+        std::size_t count = 0;
+        ASSERT_EQ(cdprep_scene_hits(c_scene_, &found, &count, nullptr), CDPREP_OK);
+        ASSERT_EQ(count, scene_.hits().size());
+        hits += count;
+        for (std::size_t i = 0; i < count; ++i) {
+            const SceneHit& hit = scene_.hits()[i];
+            EXPECT_EQ(in_cpp(found[i].a), hit.a);
+            EXPECT_EQ(in_cpp(found[i].b), hit.b);
+            EXPECT_EQ(found[i].layer_pair, hit.pair + 1);
+            EXPECT_EQ(found[i].holds, static_cast<std::uint32_t>(hit.holds));
+            EXPECT_EQ(found[i].collision.hit, static_cast<std::uint32_t>(hit.collision.hit));
+            EXPECT_EQ(found[i].collision.containment,
+                      static_cast<std::uint32_t>(hit.collision.containment.answer));
+            EXPECT_EQ(found[i].collision.winding, hit.collision.containment.winding);
+        }
+    }
+    void expect_equal_overlaps() {
+        const cdprep_scene_overlap* found = nullptr;
+        std::size_t count = 0;
+        ASSERT_EQ(cdprep_scene_overlaps(c_scene_, &found, &count, nullptr), CDPREP_OK);
+        ASSERT_EQ(count, scene_.overlaps().size());
+        overlaps += count;
+        for (std::size_t i = 0; i < count; ++i) {
+            const SceneOverlaps& expected = scene_.overlaps()[i];
+            EXPECT_EQ(in_cpp(found[i].a), expected.a);
+            EXPECT_EQ(in_cpp(found[i].b), expected.b);
+            EXPECT_EQ(found[i].layer_pair, expected.pair + 1);
+            ASSERT_EQ(found[i].count, expected.triangles.size());
+            for (std::size_t k = 0; k < found[i].count; ++k) {
+                EXPECT_EQ(found[i].items[k].a, expected.triangles[k].a);
+                EXPECT_EQ(found[i].items[k].b, expected.triangles[k].b);
+            }
+        }
+    }
+    void expect_equal_distances() {
+        const cdprep_scene_distance* found = nullptr;
+        std::size_t count = 0;
+        ASSERT_EQ(cdprep_scene_distances(c_scene_, &found, &count, nullptr), CDPREP_OK);
+        ASSERT_EQ(count, scene_.distances().size());
+        distances += count;
+        for (std::size_t i = 0; i < count; ++i) {
+            const SceneDistance& distance = scene_.distances()[i];
+            EXPECT_EQ(in_cpp(found[i].a), distance.a);
+            EXPECT_EQ(in_cpp(found[i].b), distance.b);
+            EXPECT_EQ(found[i].layer_pair, distance.pair + 1);
+            EXPECT_EQ(found[i].nearest.lower, distance.distance.lower);
+            EXPECT_EQ(found[i].nearest.upper, distance.distance.upper);
+            EXPECT_EQ(found[i].nearest.triangle_a, distance.distance.triangle_a);
+            EXPECT_EQ(found[i].nearest.on_b[2], distance.distance.witness_b.z);
+        }
+    }
+    void expect_equal_events() {
+        const cdprep_event* found = nullptr;
+        std::size_t count = 0;
+        ASSERT_EQ(cdprep_scene_events(c_scene_, &found, &count, nullptr), CDPREP_OK);
+        ASSERT_EQ(count, scene_.events().size());
+        events += count;
+        for (std::size_t i = 0; i < count; ++i) {
+            const SceneEvent& event = scene_.events()[i];
+            EXPECT_EQ(in_cpp(found[i].a), event.a);
+            EXPECT_EQ(in_cpp(found[i].b), event.b);
+            EXPECT_EQ(found[i].layer_pair, event.pair + 1);
+            EXPECT_EQ(found[i].effect, static_cast<std::uint32_t>(event.effect));
+            EXPECT_EQ(found[i].kind == CDPREP_EVENT_BEGIN, event.kind == EventKind::begins);
+            EXPECT_EQ(found[i].kind == CDPREP_EVENT_STAY, event.kind == EventKind::stays);
+            stays += event.kind == EventKind::stays ? 1 : 0;
+            EXPECT_EQ(found[i].reason, static_cast<std::uint32_t>(event.reason));
+        }
+    }
+    void expect_equal_numbers() {
+        std::uint64_t hash = 0;
+        ASSERT_EQ(cdprep_scene_hash(c_scene_, &hash, nullptr), CDPREP_OK);
+        EXPECT_EQ(hash, scene_.state_hash());
+        cdprep_counts counts;
+        ASSERT_EQ(cdprep_scene_counts(c_scene_, &counts, nullptr), CDPREP_OK);
+        const SceneCounts& all = scene_.counts();
+        const std::array<std::uint64_t, 11> expected = {scene_.object_count(),
+                                                        all.moved,
+                                                        all.candidates,
+                                                        all.kept,
+                                                        all.apart,
+                                                        all.calls_of(Ask::collide),
+                                                        all.calls_of(Ask::within),
+                                                        all.calls_of(Ask::distance),
+                                                        all.calls_of(Ask::overlap),
+                                                        all.triangle_pairs,
+                                                        0};
+        for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(counts.n[i], expected[i]) << i;
+    }
+
+    static constexpr double kReach_ = 2;
+    std::mt19937 random_;
+    std::array<AlignedBytes, 3> files_;
+    std::vector<std::unique_ptr<CModel>> c_models_;
+    std::vector<Model> models_;
+    CLanes lanes_;
+    Plan plan_;
+    Scene scene_;
+    cdprep_scene* c_scene_ = nullptr;
+    std::vector<Workspace> workspaces_{1};
+    std::vector<cdprep_object> ids_;
+};
+
+/// Lanes of the workspace and of the plan, and the limit of pairs.
+struct Setting {
+    std::uint32_t lanes, plan_lanes, max_pairs;
+};
+
+// The law of this layer: the results of C are those of C++, step by step, on any lanes.
+TEST(CScene, TheResultsAreThoseOfCpp) {
+    std::size_t incomplete = 0, without_room = 0, steps = 0;
+    for (const Setting& setting :
+         std::vector<Setting>{{1, 1, 200}, {3, 3, 200}, {2, 7, 200}, {5, 2, 200}, {2, 2, 40}}) {
+        Twins twins(20261126 + setting.lanes, setting.lanes, setting.plan_lanes, setting.max_pairs);
+        for (int step = 0; step < 150; ++step, ++steps) {
+            if (twins.any(3) == 0 || step < 20) twins.add();
+            for (std::uint32_t change = twins.any(5); change > 0; --change) twins.change_one();
+            // The last steps are those of paused effects.
+            if (step >= 110 && step % 4 == 0) twins.pause();
+            twins.step();
+            if (HasFatalFailure()) return;
+        }
+        incomplete += twins.incomplete;
+        without_room += twins.without_room;
+        EXPECT_GT(twins.overlaps, 50u);
+        EXPECT_GT(twins.stays, 50u);
+        EXPECT_GT(twins.hits, 300u);
+        EXPECT_GT(twins.distances, 100u);
+        EXPECT_GT(twins.events, 200u);
+        EXPECT_LE(twins.most_tasks(), setting.lanes);
+        EXPECT_EQ(twins.most_tasks() > 1, setting.lanes > 1);
+    }
+    EXPECT_GT(incomplete, steps / 50);
+    EXPECT_GT(without_room, 0u);
+    EXPECT_LT(incomplete, steps / 5);
+}
+
+}  // namespace
+}  // namespace cdprep::test
