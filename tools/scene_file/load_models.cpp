@@ -48,7 +48,9 @@ public:
     Loader(const SceneFile& scene, const LoadOptions& options, const cli::Threads& threads)
         : scene_(scene), options_(options), threads_(threads) {}
 
-    Result<SceneModel> load(const fs::path& path, const ModelNeeds& needs) {
+    Result<SceneModel> load(std::size_t number, const ModelNeeds& needs) {
+        const fs::path& path = scene_.models[number];
+        done_ = number;
         SceneModel loaded;
         loaded.needs = needs;
         if (needs.asks == Ask::nothing) return loaded;
@@ -66,7 +68,7 @@ private:
         const Result<cli::BakeOptions> bake = bake_options_for(loaded.needs.asks, options_.import);
         if (!bake) return bake.error();
         const auto begins = [&](const char* stage) {
-            options_.begins(path.filename().string() + ": " + stage);
+            options_.begins(done_, path.filename().string() + ": " + stage);
         };
         if (options_.cache.empty()) {
             loaded.origin = ModelOrigin::in_memory;
@@ -111,6 +113,7 @@ private:
     const SceneFile& scene_;
     const LoadOptions& options_;
     const cli::Threads& threads_;
+    std::size_t done_ = 0;  ///< models before the current one
 };
 
 }  // namespace
@@ -122,7 +125,7 @@ Result<std::vector<SceneModel>> load_models(const SceneFile& scene, const Plan& 
     Loader loader(scene, options, threads);
     std::vector<SceneModel> models;
     for (std::size_t i = 0; i < scene.models.size(); ++i) {
-        Result<SceneModel> loaded = loader.load(scene.models[i], needs[i]);
+        Result<SceneModel> loaded = loader.load(i, needs[i]);
         if (!loaded) return loaded.error();
         models.push_back(std::move(loaded).value());
     }

@@ -34,8 +34,9 @@ struct SceneModel {
 struct LoadOptions {
     std::filesystem::path cache;  ///< the folder of baked meshes; empty: bake into memory
     import::ImportOptions import;
-    /// Called with a file and the stage that begins.
-    std::function<void(const std::string& what)> begins = [](const std::string& /*what*/) {};
+    /// Called as a stage of a bake begins, with the number of models before and "FILE: STAGE".
+    std::function<void(std::size_t done, const std::string& what)> begins =
+        [](std::size_t /*done*/, const std::string& /*what*/) {};
 };
 
 /// Opens the models that the plan asks for, with exactly the sections that it needs or uses, in the
