@@ -45,7 +45,9 @@ set(tools_rooms
     "compare/cells: mesh study"
     "compare: cli compare/cells decompose/surface hull import command_line mesh page query study\
  text"
-    "query: bake cli compare/cells command_line mesh text write")
+    "query: bake cli compare/cells command_line mesh text write"
+    "scene_file: bake cli import text"
+    "simulate: cli command_line scene_file text")
 
 # A library of others: the pattern of its headers, then the folders that may know it.
 set(libraries
@@ -59,7 +61,8 @@ set(libraries
     "Bullet[A-Z]|bt[A-Z]|LinearMath/:samples/engines"
     "tbb/|oneapi/:tools/cli/program_threads.cpp"
     "nlohmann/:tools/accuracy tools/bake tools/compare tools/decompose tools/hull\
- tools/import/child tools/info tools/repair tools/text tools/validate tools/write")
+ tools/import/child tools/info tools/repair tools/scene_file tools/text\
+ tools/simulate tools/validate tools/write")
 
 set(offences "")
 function(add_offence file hit)

@@ -139,16 +139,6 @@ Exit bake_all(const Arguments& arguments, const std::vector<fs::path>& outputs,
     return is_interrupted() ? Exit::interrupted : worst;
 }
 
-/// Returns the fastest bounds for the queries that a bake serves. Swept rectangles bound distances
-/// more tightly, which helps distance and contact queries; no other query uses them.
-build::BvhBounds bounds_for(const Effects& effects) {
-    const bool measures =
-        std::any_of(effects.names.begin(), effects.names.end(), [](const std::string& name) {
-            return name == "distance" || name == "within" || name == "contacts";
-        });
-    return measures ? build::BvhBounds::oriented_and_swept : build::BvhBounds::oriented;
-}
-
 /// Returns the bounds with this name in kBoundsNames, or the best for `effects` if it is "auto".
 /// The command line admits no other name.
 build::BvhBounds bounds_named(const std::string& name, const Effects& effects) {

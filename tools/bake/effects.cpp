@@ -77,4 +77,12 @@ Result<Effects> parse_effects(const std::string& list) {
     return effects;
 }
 
+build::BvhBounds bounds_for(const Effects& effects) {
+    const bool measures =
+        std::any_of(effects.names.begin(), effects.names.end(), [](const std::string& name) {
+            return name == "distance" || name == "within" || name == "contacts";
+        });
+    return measures ? build::BvhBounds::oriented_and_swept : build::BvhBounds::oriented;
+}
+
 }  // namespace cdprep::cli

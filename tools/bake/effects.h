@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cdprep/advanced/build_bvh.h"
 #include "cdprep/ask.h"
 #include "cdprep/result.h"
 
@@ -22,5 +23,9 @@ struct Effects {
 /// distance, within, ray, closest. Fails with bad_argument on an unknown name, and lists the known
 /// ones.
 [[nodiscard]] Result<Effects> parse_effects(const std::string& list);
+
+/// Returns the fastest bounds for the queries that a bake serves. Swept rectangles bound distances
+/// more tightly, which helps distance and contact queries; no other query uses them.
+[[nodiscard]] build::BvhBounds bounds_for(const Effects& effects);
 
 }  // namespace cdprep::cli

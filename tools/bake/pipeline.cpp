@@ -10,6 +10,7 @@
 #include "bake/build_structures.h"
 #include "bake/provenance.h"
 #include "bake/stages.h"
+#include "cdprep/advanced/build_image.h"
 #include "cli/load_mesh.h"
 #include "cli/signals.h"
 #include "mesh/degenerate.h"
@@ -54,19 +55,33 @@ public:
         : input_(input), output_(output), options_(options), threads_(threads), stages_(begins) {}
 
     Result<report::BakeReport> run() {
-        if (const auto error = prepare()) return *error;
-        stages_.run("build", [&] { return examine(), Done{}; });
-        if (is_interrupted()) return interrupted(input_);
-        if (is_refused()) return refusal();
-        stages_.run("arrange", [&] { return arrange(), Done{}; });
-        if (const auto error = add_structures()) return *error;
-        add_pieces();
-        if (is_interrupted()) return interrupted(input_);
+        if (const auto error = find_arrays()) return *error;
+        if (!arrays_) return refusal();
         if (const auto error = write()) return *error;
         return describe();
     }
 
+    Result<BakedImage> run_in_memory() {
+        if (const auto error = find_arrays()) return *error;
+        if (!arrays_) return Error{ErrorCode::unreadable, *refusal().error};
+        return stages_.run("image", [&] { return make_image(); });
+    }
+
 private:
+    /// Runs all stages before the output. With --strict, there are no arrays if the mesh is
+    /// refused.
+    std::optional<Error> find_arrays() {
+        if (const auto error = prepare()) return *error;
+        stages_.run("build", [&] { return examine(), Done{}; });
+        if (is_interrupted()) return interrupted(input_);
+        if (is_refused()) return std::nullopt;
+        stages_.run("arrange", [&] { return arrange(), Done{}; });
+        if (const auto error = add_structures()) return *error;
+        add_pieces();
+        if (is_interrupted()) return interrupted(input_);
+        return std::nullopt;
+    }
+
     // --- The mesh ------------------------------------------------------------------
 
     std::optional<Error> prepare() {
@@ -230,12 +245,25 @@ private:
 
     // --- The file ------------------------------------------------------------------
 
-    std::optional<Error> write() {
+    [[nodiscard]] build::SectionList sections() const {
         format::SectionSet wanted = options_.effects.sections;
         wanted.insert(options_.structures.sections);
-        const Result<Done> written = stages_.run("write", [&] {
-            return write::write_file(output_, facts(), arrays_->sections(wanted).sections());
-        });
+        return arrays_->sections(wanted);
+    }
+
+    [[nodiscard]] Result<BakedImage> make_image() const {
+        const build::SectionList list = sections();
+        const Result<std::size_t> size = build::image_size(list.sections());
+        if (!size) return size.error();
+        BakedImage image(*size);
+        const auto built = build::build_image(facts(), list.sections(), image.bytes());
+        if (!built) return built.error();
+        return image;
+    }
+
+    std::optional<Error> write() {
+        const Result<Done> written = stages_.run(
+            "write", [&] { return write::write_file(output_, facts(), sections().sections()); });
         if (!written) return written.error();
         return std::nullopt;
     }
@@ -313,6 +341,13 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
                                 const Threads& threads,
                                 const std::function<void(const char*)>& begins) {
     return Baking(input, output, options, threads, begins).run();
+}
+
+Result<BakedImage> bake_image(const std::filesystem::path& input, const BakeOptions& options,
+                              const Threads& threads,
+                              const std::function<void(const char*)>& begins) {
+    const std::filesystem::path none;
+    return Baking(input, none, options, threads, begins).run_in_memory();
 }
 
 }  // namespace cdprep::cli

@@ -48,6 +48,7 @@ void add_info(const Command& app, Exit& exit);
 void add_query(const Command& app, Exit& exit);
 void add_reindex(const Command& app, Exit& exit);
 void add_repair(const Command& app, Exit& exit);
+void add_simulate(const Command& app, Exit& exit);
 void add_validate(const Command& app, Exit& exit);
 
 }  // namespace cdprep::cli

@@ -27,6 +27,7 @@ Exit run(int argc, char** argv) {
     add_decompose(root, exit);
     add_accuracy(root, exit);
     add_compare(root, exit);
+    add_simulate(root, exit);
     add_reindex(root, exit);
     for (const Command& command : root.commands()) {
         if (command.name() != "query") add_quiet(command);

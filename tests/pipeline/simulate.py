@@ -1,0 +1,348 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""cdprep simulate: plans and events of the sample scenes are as their schema says and equal the
+answers of single queries; threads and the cache change nothing; mistakes have their exit codes.
+
+Usage: simulate.py CDPREP
+"""
+import json
+import math
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import jsonschema
+
+from shared_models import bake, must, run
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENES = ROOT / "samples/scenes"
+SCENE_SCHEMA = jsonschema.Draft202012Validator(
+    json.loads((ROOT / "tools/scene_file/scene.schema.json").read_text()))
+OUTPUT_SCHEMA = jsonschema.Draft202012Validator(
+    json.loads((ROOT / "tools/simulate/simulate.schema.json").read_text()))
+
+
+def check_schema(schema, value, what):
+    error = jsonschema.exceptions.best_match(schema.iter_errors(value))
+    must(error is None, f"{what}: {error and error.message}")
+
+
+def simulate(program, scene, *arguments):
+    """The events of a simulation and its summary, held to the schema."""
+    done = run(program, "simulate", scene, *arguments)
+    must(done.returncode == 0, f"{scene} {arguments} exited {done.returncode}: {done.stderr}")
+    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    for line in lines[:200] + lines[-1:]:
+        check_schema(OUTPUT_SCHEMA, line, scene)
+    must("summary" in lines[-1], f"{scene}: the last line is no summary")
+    return lines[:-1], lines[-1]["summary"]
+
+
+def without_times(summary):
+    return {key: value for key, value in summary.items() if key != "step_ms"}
+
+
+def plan_of(program, scene, *arguments):
+    done = run(program, "simulate", scene, "--plan", "--format", "json", *arguments)
+    must(done.returncode == 0, f"{scene}: --plan exited {done.returncode}: {done.stderr}")
+    plan = json.loads(done.stdout)
+    check_schema(OUTPUT_SCHEMA, plan, scene)
+    return plan
+
+
+def write_scene(path, **members):
+    path.write_text(json.dumps({"cdprep_scene": 1, **members}))
+    return path
+
+
+def the_plans(program):
+    """By hand: what the scenes ask for."""
+    plan = plan_of(program, SCENES / "crates.json")
+    must([layer["objects"] for layer in plan["layers"]] == [1, 2, 1, 60], f"{plan['layers']}")
+    must(plan["not_computed"] == ["distance"], f"{plan['not_computed']}")
+    must(plan["pairs"][0]["layers"] == ["crates", "triggers"], f"{plan['pairs']}")
+    serves = {pathlib.Path(model["path"]).name: model["serves"] for model in plan["models"]}
+    must(serves == {"ground.obj": ["within"], "gate.obj": ["collide", "solid"],
+                    "crate.obj": ["collide", "within", "solid"]}, f"{serves}")
+    for model in plan["models"]:
+        names = {section["name"] for section in model["read"]}
+        must("bvh_nodes" in names, f"{model}")
+        must(("swept_nodes" in names) == ("within" in model["serves"]), f"{model}")
+        must("findings" in {section["name"] for section in model["untouched"]}, f"{model}")
+        must(model["read_bytes"] == sum(s["bytes"] for s in model["read"]) > 1000, f"{model}")
+    text = run(program, "simulate", SCENES / "crates.json", "--plan").stdout
+    for words in ("layer 3: debris, 60 objects", "layers 1 and 2: collide of solids",
+                  "not computed, for no pair of layers asks: distance", "never touched: 4 sections"):
+        must(words in text, f"the plan does not say '{words}':\n{text}")
+
+
+def pose_text(angle, translation):
+    """A turn about z, then a translation, as --poses reads it."""
+    c, s = math.cos(angle), math.sin(angle)
+    return " ".join(map(repr, (c, -s, 0, s, c, 0, 0, 0, 1, *translation)))
+
+
+def asked(program, question, a, b, folder, poses, *arguments):
+    (folder / "poses").write_text("".join(pose + "\n" for pose in poses))
+    done = run(program, "query", question, a, b, "--poses", folder / "poses", "--format", "ndjson",
+               *arguments)
+    must(done.returncode == 0, done.stderr)
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def states(events, frames, effect, a, b):
+    """For each frame whether an effect holds, from its events."""
+    holds, state = [], False
+    mine = [e for e in events if (e["effect"], e["a"], e["b"]) == (effect, a, b)]
+    for frame in range(frames):
+        for event in mine:
+            if event["frame"] == frame:
+                must((event["event"] == "begins") != state, f"not bookended: {event}")
+                state = event["event"] == "begins"
+        holds.append(state)
+    return holds
+
+
+def the_crates(program, folder):
+    """Each frame equals a single query; the motions are repeated here by hand."""
+    events, summary = simulate(program, SCENES / "crates.json")
+    must(summary["frames"] == 32 and summary["objects"] == 4, f"{summary}")
+    for name in ("crate", "gate", "ground"):
+        bake(program, SCENES / f"{name}.obj", "--output-dir", folder)
+    crate, gate, ground = (folder / f"{name}.cdp.h5" for name in ("crate", "gate", "ground"))
+    times = [0.125 * frame for frame in range(32)]
+    slides = [(-6 + 3 * t, 0, 0.5) for t in times]
+    falls = [(4.25, 0, 6 - 5.5 * min(t, 2) / 2) for t in times]
+    turns = [math.pi / 4 * min(t, 2) for t in times]
+
+    def expect(effect, a, b, found):
+        answers = [answer["within" if effect == "within" else "hit"] for answer in found]
+        must(any(answers) and not all(answers), f"{effect} of {a} and {b} says nothing")
+        told = states(events, 32, effect, a, b)
+        must(told == answers, f"{effect} of {a} and {b}:\n{told}\n{answers}")
+
+    minus = lambda p, q: tuple(x - y for x, y in zip(p, q))
+    expect("collide", "gate", "sliding", asked(
+        program, "collide", gate, crate, folder,
+        [pose_text(0, minus(p, (0, 0, 1.5))) for p in slides], "--as", "solid"))
+    expect("collide", "sliding", "tumbling", asked(
+        program, "collide", crate, crate, folder,
+        [pose_text(turn, minus(q, p)) for turn, p, q in zip(turns, slides, falls)]))
+    # The scene reports where `within` begins. It never ends.
+    expect("within", "ground", "tumbling", asked(
+        program, "within", ground, crate, folder,
+        [pose_text(turn, minus(p, (0, 0, -0.5))) for turn, p in zip(turns, falls)],
+        "--tolerance", 0.25))
+    must(not any(event["a"] == "debris" for event in events), "debris was looked at")
+
+
+def the_assembly(program, folder):
+    """Distances are those of single queries."""
+    events, _ = simulate(program, SCENES / "assembly.json")
+    for name in ("bracket", "bolt"):
+        bake(program, ROOT / f"samples/meshes/{name}.obj", "--output-dir", folder)
+    begins = {event["effect"]: event for event in events}
+    must(set(begins) == {"distance", "within", "collide"}, f"{begins}")
+    pair = (folder / "bracket.cdp.h5", folder / "bolt.cdp.h5", folder)
+    must(begins["distance"]["frame"] == 0, f"{begins}")
+    distance = asked(program, "distance", *pair, [pose_text(0, (23, 15, 40))])[0]
+    must((distance["lower"], distance["upper"]) ==
+         (begins["distance"]["lower"], begins["distance"]["upper"]), f"{distance} {begins}")
+    # Between 1 s and 2 s: down by 28, and from a quarter of a turn to a half.
+    frame = begins["within"]["frame"]
+    poses = [pose_text(math.pi / 2 * (1 + u), (23, 15, 8 - 28 * u))
+             for u in ((f / 16 - 1) for f in (frame - 1, frame))]
+    found = [a["within"] for a in asked(program, "within", *pair, poses, "--tolerance", 1.5)]
+    must(frame > 16 and found == [False, True], f"within begins in frame {frame}: {found}")
+    must(begins["collide"]["frame"] == 32, f"the head touches the bracket at 2 s: {begins}")
+
+
+def the_thousand(program, folder):
+    """Neither threads nor the form of the output nor a cache change an event."""
+    scene = SCENES / "thousand.json"
+    one = simulate(program, scene, "-j", 1)
+    must(one[1]["objects"] == 1000 and one[1]["frames"] == 32, f"{one[1]}")
+    for effect in one[1]["effects"]:
+        must(effect["begins"] > 100 and effect["ends"] > 10, f"little happens: {effect}")
+    eight = simulate(program, scene, "-j", 8)
+    must(one[0] == eight[0], "events depend on threads")
+    must(without_times(one[1]) == without_times(eight[1]), f"{one[1]} {eight[1]}")
+
+    whole = run(program, "simulate", scene, "--format", "json", "-o", folder / "run.json")
+    must(whole.returncode == 0 and not whole.stdout, whole.stderr)
+    document = json.loads((folder / "run.json").read_text())
+    check_schema(OUTPUT_SCHEMA, {**document, "events": document["events"][:200]}, "--format json")
+    must(document["events"] == one[0], "json and ndjson differ")
+
+    for name in ("thousand.json", "crate.obj"):
+        shutil.copy(SCENES / name, folder / name)
+    cache = folder / "a cache/deep"
+    first = simulate(program, folder / "thousand.json", "--cache", cache)
+    baked, = cache.iterdir()
+    changed_at = baked.stat().st_mtime_ns
+    again = simulate(program, folder / "thousand.json", "--cache", cache)
+    must(first[0] == one[0] == again[0], "the cache changes events")
+    must(baked.stat().st_mtime_ns == changed_at, "the cache was not used")
+    origin = plan_of(program, folder / "thousand.json", "--cache", cache)["models"][0]["origin"]
+    must(origin == "cached", origin)
+    larger = (folder / "crate.obj").read_text().replace("0.5", "0.75")
+    (folder / "crate.obj").write_text(larger)
+    other = simulate(program, folder / "thousand.json", "--cache", cache)
+    must(other[0] != one[0] and len(list(cache.iterdir())) == 2, "another mesh has the old bake")
+    # A file that is no bake of the mesh does not deceive.
+    for file in cache.iterdir():
+        file.write_bytes(baked.read_bytes())
+    must(simulate(program, folder / "thousand.json", "--cache", cache)[0] == other[0],
+         "a false file in the cache is believed")
+
+    text = run(program, "simulate", scene, "--format", "text").stdout
+    must("not computed: distance" in text and f"state {one[1]['state_hash']}" in text, text)
+
+
+def many_pairs(program, folder):
+    """Two heaps meet: then 40,000 pairs, for which the scene makes room. Nothing is lost or told
+    twice, as a scene with room from the beginning shows."""
+    shutil.copy(SCENES / "crate.obj", folder / "crate.obj")
+    objects = [{"name": name, "model": "crate.obj", "layer": name, "pose": {"translation": [x, 0, 0]},
+                "motion": {"velocity": [speed, 0, 0]},
+                "instances": {"counts": [200, 1, 1], "spacing": [1 / 1024, 0, 0]}}
+               for name, x, speed in (("a", 0, 0), ("b", 5, -1))]
+    objects.append({"name": "early", "model": "crate.obj", "layer": "b",
+                    "pose": {"translation": [0.5, 0, 0]}})
+    members = {"layers": ["a", "b"], "pairs": [{"layers": ["a", "b"], "effects": ["collide"]}],
+               "step_s": 0.5, "duration_s": 6, "objects": objects}
+    grown = simulate(program, write_scene(folder / "grown.json", **members), "-j", 2)
+    large = simulate(program, write_scene(folder / "large.json", **members,
+                                          limits={"pairs": 200000}))
+    must(grown[1]["grown_steps"] > 0 and large[1]["grown_steps"] == 0, f"{grown[1]} {large[1]}")
+    must(len(grown[0]) == 40200 and grown[0] == large[0], f"{len(grown[0])} {len(large[0])}")
+    for key in ("state_hash", "candidates", "kept", "effects"):
+        must(grown[1][key] == large[1][key], f"{key}: {grown[1]} {large[1]}")
+    few = run(program, "simulate", write_scene(folder / "few.json", **members,
+                                               limits={"pairs": 10000}))
+    must(few.returncode == 5, few.stderr)
+    must("needs room for " in few.stderr and "limits.pairs is 10000" in few.stderr, few.stderr)
+
+
+def unused_models(program, folder):
+    """A model that no pair of layers asks for is not opened: this one could not be."""
+    (folder / "secret.obj").write_text("no mesh\n")
+    scene = write_scene(folder / "unused.json", layers=["a", "b"],
+                        pairs=[{"layers": ["a", "a"], "effects": ["collide"]},
+                               {"layers": ["a", "b"], "effects": []}],
+                        objects=[{"name": "x", "model": "crate.obj", "layer": "a"},
+                                 {"name": "y", "model": "crate.obj", "layer": "a"},
+                                 {"name": "z", "model": "secret.obj", "layer": "b"}])
+    origins = [model["origin"] for model in plan_of(program, scene)["models"]]
+    must(origins == ["in memory", "unused"], f"{origins}")
+    events, summary = simulate(program, scene, "--frames", 2)
+    must(len(events) == 1 and summary["objects"] == 2 and summary["kept"] == 1, f"{summary}")
+
+
+def refusals(program, folder):
+    """All reasons against a plan at once, and exit 2."""
+    bake(program, folder / "crate.obj", "-o", folder / "crate.cdp.h5", "--effects", "collide")
+    crate = {"name": "x", "model": "crate.cdp.h5", "layer": "a"}
+    scene = write_scene(folder / "unbuilt.json", layers=["a", "b"], objects=[crate],
+                        pairs=[{"layers": ["a", "b"], "effects": ["tear", "response"]},
+                               {"layers": ["b", "a"], "effects": ["collide"], "tolerance": 3}])
+    words = ["Pair 0 of layers: response is not built", "Pair 0 of layers: tear is not built",
+             "layers 1 and 0 are also those of pair 0",
+             "Pair 1 of layers: tolerance has no meaning without within"]
+    done = run(program, "simulate", scene, "--plan", "--format", "json")
+    must(done.returncode == 2, f"{done.returncode}: {done.stderr}")
+    refused = json.loads(done.stdout)
+    check_schema(OUTPUT_SCHEMA, refused, "refusals")
+    must(len(refused["refusals"]) == len(words) == len(done.stderr.splitlines()), done.stderr)
+    for sentence in words:
+        must(sentence in done.stderr, f"'{sentence}' is not in {done.stderr}")
+    # The same at --frames, and of a file that was not baked for it.
+    scene = write_scene(folder / "not_baked.json", layers=["a"], objects=[crate],
+                        pairs=[{"layers": ["a", "a"], "effects": ["within", "distance"]}])
+    done = run(program, "simulate", scene)
+    must(done.returncode == 2 and not done.stdout, done.stderr)
+    for effect in ("within", "distance"):
+        must(f"crate.cdp.h5: its layers ask for {effect}" in done.stderr and
+             f"--effects {effect}." in done.stderr, done.stderr)
+    must(plan_of(program, write_scene(
+        folder / "baked.json", layers=["a"], objects=[crate],
+        pairs=[{"layers": ["a", "a"], "effects": ["collide"]}]))["models"][0]["origin"] == "baked",
+         "a baked file is not told from a mesh")
+
+
+def mistakes(program, folder):
+    (folder / "bad.json").write_text('{"cdprep_scene": 1,\n"layers": ["a"], "pairs": [],\n'
+                                     '"objects": [{"name": "x", "model": "none.obj", '
+                                     '"layer": "b"}],\n"colour": 3}\n')
+    (folder / "no.json").write_text('{"cdprep_scene": 1,\n"layers" ["a"]}\n')
+    (folder / "broken.obj").write_text("v 1 2 3\nf 1 2 3\n")
+    pairs = [{"layers": ["a", "a"], "effects": ["collide"]}]
+    write_scene(folder / "broken.json", layers=["a"], pairs=pairs,
+                objects=[{"name": "x", "model": "broken.obj", "layer": "a"}])
+    bake(program, folder / "crate.obj", "-o", folder / "inches.cdp.h5", "--unit", "in")
+    write_scene(folder / "unit.json", layers=["a"], pairs=pairs, metres_per_unit=1,
+                objects=[{"name": "x", "model": "inches.cdp.h5", "layer": "a"}])
+    write_scene(folder / "far.json", layers=["a"], pairs=pairs, step_s=1,
+                objects=[{"name": "x", "model": "crate.obj", "layer": "a",
+                          "motion": {"velocity": [1e302, 0, 0]}}])
+    good = SCENES / "crates.json"
+    cases = [
+        ([], 2, ["scene is required"]),
+        ([folder / "missing.json"], 3, ["missing.json"]),
+        ([folder / "no.json"], 3, ["no.json: line 2: this is not JSON"]),
+        ([folder / "bad.json"], 3, ["bad.json: line 4: /colour: 'colour' is not a key here",
+                                    "line 3: /objects/0/model: there is no file",
+                                    "line 3: /objects/0/layer: 'b' is not a layer"]),
+        ([folder / "broken.json"], 3, ["broken.obj"]),
+        ([folder / "unit.json"], 2, ["inches.cdp.h5 is in in, but the unit of the scene is m"]),
+        ([folder / "far.json", "--frames", 2], 2, ["object 'x'"]),
+        ([good, "--frames", 0], 2, ["--frames"]),
+        ([good, "--frames", 3, "--plan"], 2, ["--frames", "--plan"]),
+        ([good, "--plan", "--format", "ndjson"], 2, ["--format ndjson"]),
+        ([good, "--format", "xml"], 2, ["text, json or ndjson"]),
+        ([good, "-o", folder / "no/such/folder/x"], 4, ["no/such/folder/x"]),
+        ([good, "--cache", folder / "bad.json"], 4, ["bad.json"]),
+    ]
+    for arguments, code, words in cases:
+        done = run(program, "simulate", *arguments)
+        must(done.returncode == code, f"{arguments} exited {done.returncode}: {done.stderr}")
+        must(all(line.startswith("cdprep simulate: ") for line in done.stderr.splitlines()),
+             done.stderr)
+        for word in words:
+            must(word in done.stderr, f"{arguments}: '{word}' is not in {done.stderr}")
+
+
+def an_interrupt(program):
+    running = subprocess.Popen([program, "simulate", SCENES / "thousand.json", "--frames",
+                                "100000000"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                               text=True)
+    time.sleep(1)
+    running.send_signal(signal.SIGINT)
+    _, told = running.communicate(timeout=20)
+    must(running.returncode == 130, f"interrupted, it exited {running.returncode}: {told}")
+    must("stopped" in told, told)
+
+
+def main():
+    program = sys.argv[1]
+    scenes = sorted(SCENES.glob("*.json"))
+    must(len(scenes) >= 3, f"only {len(scenes)} sample scenes")
+    for scene in scenes:
+        check_schema(SCENE_SCHEMA, json.loads(scene.read_text()), scene)
+    the_plans(program)
+    for check in (the_crates, the_assembly, the_thousand):
+        with tempfile.TemporaryDirectory() as scratch:
+            check(program, pathlib.Path(scratch))
+    with tempfile.TemporaryDirectory() as scratch:
+        for check in (many_pairs, unused_models, refusals, mistakes):
+            check(program, pathlib.Path(scratch))
+    an_interrupt(program)
+
+
+if __name__ == "__main__":
+    main()

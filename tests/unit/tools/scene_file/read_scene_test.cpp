@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "scene_file/read_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/scratch_folder.h"
+
+namespace cdprep::scenes {
+namespace {
+
+/// A folder with two files that scenes name. The reader does not open them.
+class Folder {
+public:
+    Folder() {
+        folder_.write("crate.obj", std::string_view());
+        folder_.write("gate.obj", std::string_view());
+    }
+    [[nodiscard]] SceneReading read(const std::string& text) const {
+        return parse_scene("s.json", text, folder_.path());
+    }
+    [[nodiscard]] SceneFile scene(const std::string& text) const {
+        SceneReading reading = read(text);
+        for (const std::string& error : reading.errors) ADD_FAILURE() << error;
+        return reading.scene.value_or(SceneFile{});
+    }
+
+private:
+    test::ScratchFolder folder_;
+};
+
+/// A scene with one object, whose members are given on line 4, and one pair, on line 3.
+std::string one_object(const std::string& object, const std::string& pair = R"("effects": [])") {
+    return "{\"cdprep_scene\": 1, \"layers\": [\"crates\", \"gates\"],\n\"pairs\": [\n"
+           "{\"layers\": [\"crates\", \"gates\"], " +
+           pair + "}], \"objects\": [\n{\"name\": \"c\", \"model\": \"crate.obj\", " +
+           "\"layer\": \"crates\"" + object + "}]}";
+}
+
+TEST(ReadScene, ReadsAWholeFile) {
+    const Folder folder;
+    const SceneFile scene = folder.scene(R"({
+        "$schema": "scene.schema.json",
+        "cdprep_scene": 1,
+        "metres_per_unit": 0.001,
+        "step_s": 0.25,
+        "duration_s": 2,
+        "limits": {"pairs": 100},
+        "layers": ["crates", "gates"],
+        "pairs": [
+            {"layers": ["gates", "crates"], "effects": ["collide", "within"], "tolerance": 2,
+             "body": "solid", "overlap": "proper", "events": ["begins"]},
+            {"layers": ["gates", "gates"], "effects": ["distance"], "max_distance": 3}
+        ],
+        "objects": [
+            {"name": "gate", "model": "gate.obj", "layer": "gates",
+             "pose": {"matrix": [[0, -1, 0, 5], [1, 0, 0, 6], [0, 0, 1, 7]]}},
+            {"name": "crate", "model": "crate.obj", "layer": "crates", "motion": "fixed",
+             "instances": {"counts": [2, 1, 2], "spacing": [10, 0, -5]}},
+            {"name": "last", "model": "./crate.obj", "layer": "crates",
+             "motion": {"path": [{"time_s": 0, "pose": {}},
+                                 {"time_s": 1, "pose": {"translation": [1, 2, 3],
+                                                        "quaternion": [0, 0, 0, 2]}}]}}
+        ]})");
+    EXPECT_EQ(scene.name, "s.json");
+    EXPECT_EQ(scene.metres_per_unit, 0.001);
+    EXPECT_EQ(scene.step_s, 0.25);
+    EXPECT_EQ(scene.duration_s, 2);
+    EXPECT_EQ(scene.most_pairs, 100u);
+    EXPECT_EQ(scene.layers, (std::vector<std::string>{"crates", "gates"}));
+
+    ASSERT_EQ(scene.pairs.size(), 2u);
+    const AskedPair& first = scene.pairs[0];
+    EXPECT_EQ(first.asked.a, 1u);
+    EXPECT_EQ(first.asked.b, 0u);
+    EXPECT_EQ(first.asked.effects, Ask::collide | Ask::within);
+    EXPECT_EQ(first.asked.tolerance, 2);
+    EXPECT_EQ(first.asked.body, Body::solid);
+    EXPECT_EQ(first.asked.overlap, Overlap::proper);
+    EXPECT_TRUE(first.tells_begins);
+    EXPECT_FALSE(first.tells_ends);
+    EXPECT_EQ(scene.pairs[1].asked.max_distance, 3);
+    EXPECT_TRUE(scene.pairs[1].tells_begins && scene.pairs[1].tells_ends);
+
+    EXPECT_EQ(scene.models.size(), 2u) << "two spellings of one file are one model";
+    std::vector<std::string> names;
+    for (const FileObject& object : scene.objects) names.push_back(object.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"gate", "crate[0,0,0]", "crate[1,0,0]",
+                                               "crate[0,0,1]", "crate[1,0,1]", "last"}));
+    EXPECT_EQ(pose_of(scene, scene.objects[0], 1)->translation(), (Double3{5, 6, 7}));
+    EXPECT_EQ(pose_of(scene, scene.objects[0], 1)->rotation()[1], -1);
+    EXPECT_EQ(pose_of(scene, scene.objects[4], 1)->translation(), (Double3{10, 0, -5}));
+    EXPECT_EQ(pose_of(scene, scene.objects[5], 2)->translation(), (Double3{1, 2, 3}));
+    EXPECT_EQ(pose_of(scene, scene.objects[5], 2)->rotation()[0], -1);
+    EXPECT_EQ(scene.objects[5].model, scene.objects[1].model);
+}
+
+// The plan refuses effects that are not built; the reader keeps what the file says.
+TEST(ReadScene, KeepsEffectsThatAreNotBuilt) {
+    const Folder folder;
+    const SceneFile scene =
+        folder.scene(one_object("", R"("effects": ["tear", "response", "haptic"])"));
+    EXPECT_EQ(scene.pairs[0].asked.effects, Ask::response);
+    EXPECT_EQ(scene.pairs[0].unbuilt, (std::vector<std::string>{"tear", "haptic"}));
+}
+
+TEST(ReadScene, HasDefaults) {
+    const Folder folder;
+    const SceneFile scene = folder.scene(one_object(""));
+    EXPECT_EQ(scene.metres_per_unit, 0);
+    EXPECT_EQ(scene.step_s, 1.0 / 60);
+    EXPECT_EQ(scene.duration_s, 0);
+    EXPECT_FALSE(scene.most_pairs);
+    EXPECT_FALSE(scene.motions[0].moves());
+    EXPECT_EQ(pose_of(scene, scene.objects[0], 0)->rotation(), Pose().rotation());
+}
+
+struct Mistake {
+    std::string text;
+    std::vector<std::string> errors;
+};
+
+// Each sentence can be checked by hand: line, place, what was found, what is allowed.
+TEST(ReadScene, NamesEachMistakeAndItsLine) {
+    const Folder folder;
+    const std::string words =
+        "collide, overlap, distance, within, contacts, response, continuous, deform, tear, "
+        "inside or haptic.";
+    const std::vector<Mistake> mistakes = {
+        {"[]", {"line 1: the key 'cdprep_scene' is missing."}},
+        {"{\"a\": 3}", {"line 1: the key 'cdprep_scene' is missing."}},
+        {"{\n\"cdprep_scene\": 2}",
+         {"line 2: /cdprep_scene: found version 2; this program reads version 1."}},
+        {"{\n\"cdprep_scene\": \"1\"}",
+         {"line 2: /cdprep_scene: found \"1\"; expected a whole number from 0 to 2147483648."}},
+        {"{\"cdprep_scene\": 1,\n\"layer\": [],\n\"step_s\": 0, \"duration_s\": -1}",
+         {"line 2: /layer: 'layer' is not a key here. Choose from $schema, cdprep_scene, "
+          "metres_per_unit, step_s, duration_s, limits, layers, pairs or objects. Did you mean "
+          "'layers'?",
+          "line 3: /step_s: found 0; expected a number above 0.",
+          "line 3: /duration_s: found -1; expected a number, 0 or more.",
+          "line 1: the key 'layers' is missing.", "line 1: the key 'pairs' is missing.",
+          "line 1: the key 'objects' is missing."}},
+        {"{\"cdprep_scene\": 1, \"pairs\": [], \"objects\": {}, \"limits\": {\"pairs\": 0.5},\n"
+         "\"layers\": [\"a\", \"a\", \"\"]}",
+         {"line 1: /limits/pairs: found 0.5; expected a whole number from 1 to 2147483648.",
+          "line 2: /layers/1: the layer 'a' stands twice.",
+          "line 2: /layers/2: found \"\"; expected a text that is not empty.",
+          "line 1: /objects: found an empty object; expected an array."}},
+        {one_object("", "\"effects\": [\"colide\", 3], \"body\": \"hull\", \"overlap\": 1"),
+         {"line 3: /pairs/0/effects/0: 'colide' is not an effect. Choose from " + words +
+              " Did you mean 'collide'?",
+          "line 3: /pairs/0/effects/1: found 3; expected an effect: " + words,
+          "line 3: /pairs/0/body: 'hull' is not a body. Choose from surface or solid.",
+          "line 3: /pairs/0/overlap: found 1; expected a meaning of overlap: closed or proper."}},
+        {one_object("", "\"tolerance\": -1, \"max_distance\": [], \"events\": [\"stays\"]"),
+         {"line 3: /pairs/0: the key 'effects' is missing.",
+          "line 3: /pairs/0/tolerance: found -1; expected a number, 0 or more.",
+          "line 3: /pairs/0/max_distance: found []; expected a number, 0 or more.",
+          "line 3: /pairs/0/events/0: 'stays' is not an event. Choose from begins or ends."}},
+        {one_object(", \"pose\": {\"translation\": [1, 2]}"),
+         {"line 4: /objects/0/pose/translation: found [1,2]; expected an array of 3 numbers."}},
+        {one_object(", \"pose\": {\"quaternion\": [0, 0, 0, 0]}"),
+         {"line 4: /objects/0/pose: The quaternion of the pose is zero; it must have a "
+          "direction."}},
+        {one_object(", \"pose\": {\"matrix\": [[1, 0, 0, 0]]}"),
+         {"line 4: /objects/0/pose/matrix: found [[1,0,0,0]]; expected an array of 3 rows of 4 "
+          "numbers."}},
+        {one_object(", \"motion\": \"body\""),
+         {"line 4: /objects/0/motion: 'body' is not a motion in one word. Choose from fixed."}},
+        {one_object(", \"motion\": {}"),
+         {"line 4: /objects/0/motion: a motion has a path, a velocity or a turn_rad_per_s."}},
+        {one_object(", \"motion\": {\"path\": [], \"velocity\": [0, 0, 1]}, \"pose\": {}"),
+         {"line 4: /objects/0/motion: a path excludes velocity and turn_rad_per_s.",
+          "line 4: /objects/0/motion: an object with a path has no pose of its own; its keys "
+          "have.",
+          "line 4: /objects/0/motion: the path has no key."}},
+        {one_object(", \"motion\": {\"path\": [{\"time_s\": 1, \"pose\": {}}, {\"time_s\": 1}]}"),
+         {"line 4: /objects/0/motion/path/1: the key 'pose' is missing.",
+          "line 4: /objects/0/motion/path/1/time_s: found 1; expected a time after that of the "
+          "key before it."}},
+        {one_object(", \"instances\": {\"counts\": [1, 0, 2], \"spacing\": 3}"),
+         {"line 4: /objects/0/instances/spacing: found 3; expected an array of 3 numbers.",
+          "line 4: /objects/0/instances/counts/1: found 0; expected a whole number from 1 to "
+          "2147483648."}},
+        {one_object(", \"instances\": {\"counts\": [2000, 2000, 1], \"spacing\": [1, 1, 1]}"),
+         {"line 4: /objects/0: a scene file has at most 1048576 objects; with these it would "
+          "have 4000000."}},
+        {one_object("},\n{\"name\": \"c\", \"layer\": \"crate\", \"model\": \"none.obj\""),
+         {"line 5: /objects/1/model: there is no file ",
+          "line 5: /objects/1/layer: 'crate' is "
+          "not a layer. Choose from crates or gates. Did you mean 'crates'?",
+          "line 5: /objects/1/name: another object has the name 'c'."}},
+        {one_object(", \"mass\": 3"),
+         {"line 4: /objects/0/mass: 'mass' is not a key here. Choose from name, model, layer, "
+          "pose, motion or instances."}},
+    };
+    for (const Mistake& mistake : mistakes) {
+        const SceneReading reading = folder.read(mistake.text);
+        EXPECT_FALSE(reading.scene) << mistake.text;
+        ASSERT_EQ(reading.errors.size(), mistake.errors.size())
+            << mistake.text << "\n"
+            << ::testing::PrintToString(reading.errors);
+        for (std::size_t i = 0; i < mistake.errors.size(); ++i) {
+            EXPECT_EQ(reading.errors[i].substr(0, 8 + mistake.errors[i].size()),
+                      "s.json: " + mistake.errors[i]);
+        }
+    }
+}
+
+TEST(ReadScene, NamesTheEntryOfAMatrixThatIsNoRotation) {
+    const Folder folder;
+    const SceneReading reading = folder.read(
+        one_object(", \"pose\": {\"matrix\": [[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}"));
+    ASSERT_EQ(reading.errors.size(), 1u);
+    EXPECT_NE(reading.errors[0].find("s.json: line 4: /objects/0/pose: "), std::string::npos);
+}
+
+TEST(ReadScene, RefusesAFileThatIsNotThere) {
+    const SceneReading reading = read_scene("no/such/scene.json");
+    EXPECT_FALSE(reading.scene);
+    ASSERT_EQ(reading.errors.size(), 1u);
+    EXPECT_NE(reading.errors[0].find("no/such/scene.json"), std::string::npos);
+}
+
+TEST(ReadScene, FindsModelsBesideTheFile) {
+    const test::ScratchFolder folder;
+    folder.write("crate.obj", std::string_view());
+    const SceneReading reading = read_scene(folder.write("s.json", one_object("")));
+    ASSERT_TRUE(reading.scene) << reading.errors[0];
+    EXPECT_EQ(reading.scene->models[0], folder.path() / "crate.obj");
+}
+
+}  // namespace
+}  // namespace cdprep::scenes

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_file/compile_scene.h"
+
+#include <string>
+
+#include "scene_file/effect_words.h"
+
+namespace cdprep::scenes {
+namespace {
+
+/// "collide, within and distance".
+std::string built_effects() {
+    std::string text;
+    for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
+        if (i > 0) text += i + 1 == kSceneEffects.size() ? " and " : ", ";
+        text += effect_name(kSceneEffects[i]);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan) {
+    std::vector<ModelNeeds> needs(scene.models.size());
+    for (const FileObject& object : scene.objects) {
+        ModelNeeds& model = needs[object.model];
+        model.asks = model.asks | plan.asks_of(object.layer);
+        model.layers |= 1U << object.layer;
+        ++model.objects;
+    }
+    return needs;
+}
+
+bool is_asked(const Plan& plan, const FileObject& object) noexcept {
+    return plan.asks_of(object.layer) != Ask::nothing;
+}
+
+Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
+                             std::span<const ModelUse> models) {
+    std::vector<LayerPair> pairs;
+    for (const AskedPair& pair : scene.pairs) pairs.push_back(pair.asked);
+    Plan::Compiled compiled = Plan::compile({.pairs = pairs, .models = models, .limits = limits});
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+        for (const std::string& effect : scene.pairs[i].unbuilt) {
+            compiled.refusals.push_back("Pair " + std::to_string(i) + " of layers: " + effect +
+                                        " is not built in a scene. Built are " + built_effects() +
+                                        ".");
+        }
+    }
+    if (!compiled.refusals.empty()) compiled.plan.reset();
+    for (std::string& refusal : compiled.refusals) refusal = scene.name + ": " + refusal;
+    return compiled;
+}
+
+}  // namespace cdprep::scenes

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene_file/scene_file.h"
+
+namespace cdprep::scenes {
+
+/// What the objects of a model are asked for.
+struct ModelNeeds {
+    Ask asks = Ask::nothing;    ///< nothing: no object of the model is looked at
+    std::uint32_t layers = 0;   ///< of its objects: bit i for layer i
+    std::uint32_t objects = 0;  ///< all, also in layers without a pair
+};
+
+/// Returns what each model of a scene must serve.
+[[nodiscard]] std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan);
+
+/// Returns whether a pair of layers asks for the object. Others are not added to a scene.
+[[nodiscard]] bool is_asked(const Plan& plan, const FileObject& object) noexcept;
+
+/// Compiles the plan of a scene file. Every refusal begins with the name of the file. Without
+/// `models`, their needs are not checked.
+[[nodiscard]] Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
+                                           std::span<const ModelUse> models = {});
+
+}  // namespace cdprep::scenes

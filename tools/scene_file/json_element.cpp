@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_file/json_element.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "text/json_layout.h"
+#include "text/nearest_word.h"
+
+namespace cdprep::scenes {
+namespace {
+
+/// Returns a value on one line, shortened for a message.
+std::string shown(const nlohmann::json& value) {
+    if (value.is_object()) return value.empty() ? "an empty object" : "an object";
+    constexpr std::size_t kLongest = 60;
+    std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+    return text;
+}
+
+std::string listed(std::span<const std::string> words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+        text += words[i];
+    }
+    return text;
+}
+
+}  // namespace
+
+JsonElement::JsonElement(const JsonFile& file, std::vector<std::string>& errors)
+    : file_(&file), errors_(&errors), value_(&file.root) {}
+
+JsonElement::JsonElement(const JsonElement& parent, const nlohmann::json& value,
+                         std::string pointer)
+    : file_(parent.file_), errors_(parent.errors_), value_(&value), pointer_(std::move(pointer)) {}
+
+void JsonElement::refuse(const std::string& what) const {
+    const std::string place = pointer_.empty() ? "" : pointer_ + ": ";
+    errors_->push_back(file_->name + ": line " + std::to_string(file_->lines.at(pointer_)) + ": " +
+                       place + what);
+}
+
+void JsonElement::refuse_value(const std::string& expected) const {
+    refuse("found " + shown(*value_) + "; expected " + expected + ".");
+}
+
+bool JsonElement::is_object_of(std::initializer_list<std::string_view> keys) const {
+    if (!value_->is_object()) {
+        refuse_value("an object");
+        return false;
+    }
+    const std::vector<std::string> known(keys.begin(), keys.end());
+    bool is_known = true;
+    for (const auto& [key, value] : value_->items()) {
+        if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+        JsonElement(*this, value, pointer_below(pointer_, key))
+            .refuse("'" + key + "' is not a key here. Choose from " + listed(known) + "." +
+                    report::suggestion(key, known));
+        is_known = false;
+    }
+    return is_known;
+}
+
+std::optional<JsonElement> JsonElement::find(std::string_view key) const {
+    const auto at = value_->find(std::string(key));
+    if (at == value_->end()) return std::nullopt;
+    return JsonElement(*this, *at, pointer_below(pointer_, key));
+}
+
+std::optional<JsonElement> JsonElement::require(std::string_view key) const {
+    std::optional<JsonElement> member = find(key);
+    if (!member) refuse("the key '" + std::string(key) + "' is missing.");
+    return member;
+}
+
+std::optional<std::vector<JsonElement>> JsonElement::items() const {
+    if (!value_->is_array()) {
+        refuse_value("an array");
+        return std::nullopt;
+    }
+    std::vector<JsonElement> elements;
+    elements.reserve(value_->size());
+    for (const nlohmann::json& value : *value_) {
+        elements.push_back(
+            JsonElement(*this, value, pointer_below(pointer_, std::to_string(elements.size()))));
+    }
+    return elements;
+}
+
+std::optional<std::string> JsonElement::text() const {
+    if (value_->is_string() && !value_->get_ref<const std::string&>().empty()) {
+        return value_->get<std::string>();
+    }
+    refuse_value("a text that is not empty");
+    return std::nullopt;
+}
+
+std::optional<double> JsonElement::number(Range range) const {
+    if (value_->is_number()) {
+        const auto found = value_->get<double>();
+        if (range == Range::any || found > 0 || (range == Range::zero_or_more && found == 0)) {
+            return found;
+        }
+    }
+    refuse_value(range == Range::any            ? "a number"
+                 : range == Range::zero_or_more ? "a number, 0 or more"
+                                                : "a number above 0");
+    return std::nullopt;
+}
+
+std::optional<std::uint32_t> JsonElement::whole(std::uint32_t least) const {
+    constexpr std::uint32_t kMost = 1U << 31;
+    if (value_->is_number_unsigned()) {
+        const auto found = value_->get<std::uint64_t>();
+        if (found >= least && found <= kMost) return static_cast<std::uint32_t>(found);
+    }
+    refuse_value("a whole number from " + std::to_string(least) + " to " + std::to_string(kMost));
+    return std::nullopt;
+}
+
+std::optional<std::vector<double>> JsonElement::numbers(std::size_t count) const {
+    std::vector<double> found;
+    if (value_->is_array() && value_->size() == count) {
+        for (const nlohmann::json& value : *value_) {
+            if (value.is_number()) found.push_back(value.get<double>());
+        }
+        if (found.size() == count) return found;
+    }
+    refuse_value("an array of " + std::to_string(count) + " numbers");
+    return std::nullopt;
+}
+
+std::optional<std::size_t> JsonElement::one_of(std::span<const std::string> words,
+                                               const char* kind) const {
+    if (!value_->is_string()) {
+        refuse_value(std::string(kind) + ": " + listed(words));
+        return std::nullopt;
+    }
+    const auto& word = value_->get_ref<const std::string&>();
+    const auto at = std::find(words.begin(), words.end(), word);
+    if (at != words.end()) return static_cast<std::size_t>(at - words.begin());
+    refuse("'" + word + "' is not " + kind + ". Choose from " + listed(words) + "." +
+           report::suggestion(word, words));
+    return std::nullopt;
+}
+
+}  // namespace cdprep::scenes

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_file/load_models.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "cdprep/format/file_header.h"
+#include "scene_file/bake_cache.h"
+#include "text/space_name.h"
+
+namespace cdprep::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Returns whether a file begins like a baked one.
+bool is_baked_file(const fs::path& path) {
+    std::array<char, format::kMagic.size()> magic{};
+    std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
+    return magic == format::kMagic;
+}
+
+/// Returns the options to bake a mesh for exactly these queries.
+Result<cli::BakeOptions> bake_options_for(Ask asks, const import::ImportOptions& import) {
+    constexpr std::string_view kOption = "--effects ";
+    std::string list;
+    for (const Needs& row : needs()) {
+        const std::string_view option = row.bake_option;
+        if ((asks & row.ask) == Ask::nothing || !option.starts_with(kOption)) continue;
+        if (!list.empty()) list += ",";
+        list += option.substr(kOption.size());
+    }
+    Result<cli::Effects> effects = cli::parse_effects(list);
+    if (!effects) return effects.error();
+    cli::BakeOptions options;
+    options.bounds = cli::bounds_for(*effects);
+    options.effects = std::move(effects).value();
+    options.import = import;
+    return options;
+}
+
+/// Loads the models of one scene.
+class Loader {
+public:
+    Loader(const SceneFile& scene, const LoadOptions& options, const cli::Threads& threads)
+        : scene_(scene), options_(options), threads_(threads) {}
+
+    Result<SceneModel> load(std::size_t number, const ModelNeeds& needs) {
+        const fs::path& path = scene_.models[number];
+        done_ = number;
+        SceneModel loaded;
+        loaded.needs = needs;
+        if (needs.asks == Ask::nothing) return loaded;
+        if (const auto error = open(path, loaded)) return *error;
+        if (const auto error = find_other_unit(path, *loaded.model)) return *error;
+        return loaded;
+    }
+
+private:
+    std::optional<Error> open(const fs::path& path, SceneModel& loaded) {
+        if (is_baked_file(path)) {
+            loaded.origin = ModelOrigin::baked;
+            return open_sections(path, loaded);
+        }
+        const Result<cli::BakeOptions> bake = bake_options_for(loaded.needs.asks, options_.import);
+        if (!bake) return bake.error();
+        const auto begins = [&](const char* stage) {
+            options_.begins(done_, path.filename().string() + ": " + stage);
+        };
+        if (options_.cache.empty()) {
+            loaded.origin = ModelOrigin::in_memory;
+            Result<cli::BakedImage> image = cli::bake_image(path, *bake, threads_, begins);
+            if (!image) return image.error();
+            loaded.image.emplace(std::move(image).value());
+            const std::string name = path.string();
+            return keep(Model::open(loaded.image->bytes(),
+                                    {.sections = sections_for(loaded.needs.asks), .name = name}),
+                        loaded);
+        }
+        loaded.origin = ModelOrigin::cached;
+        const Result<fs::path> cached = find_or_bake(path, options_.cache, *bake, threads_, begins);
+        if (!cached) return cached.error();
+        return open_sections(*cached, loaded);
+    }
+
+    static std::optional<Error> open_sections(const fs::path& path, SceneModel& loaded) {
+        return keep(Model::open(path, sections_for(loaded.needs.asks)), loaded);
+    }
+
+    static std::optional<Error> keep(Result<Model> opened, SceneModel& loaded) {
+        if (!opened) return opened.error();
+        loaded.model.emplace(std::move(opened).value());
+        return std::nullopt;
+    }
+
+    /// A scene moves models, but does not scale them.
+    [[nodiscard]] std::optional<Error> find_other_unit(const fs::path& path,
+                                                       const Model& model) const {
+        const double unit = model.header().metres_per_unit;
+        if (scene_.metres_per_unit == 0 || unit == 0 || unit == scene_.metres_per_unit) {
+            return std::nullopt;
+        }
+        return Error{ErrorCode::bad_argument, scene_.name + ": " + path.string() + " is in " +
+                                                  report::unit_name(unit) +
+                                                  ", but the unit of the scene is " +
+                                                  report::unit_name(scene_.metres_per_unit) +
+                                                  ". Convert the mesh, or change metres_per_unit."};
+    }
+
+    const SceneFile& scene_;
+    const LoadOptions& options_;
+    const cli::Threads& threads_;
+    std::size_t done_ = 0;  ///< models before the current one
+};
+
+}  // namespace
+
+Result<std::vector<SceneModel>> load_models(const SceneFile& scene, const Plan& plan,
+                                            const LoadOptions& options,
+                                            const cli::Threads& threads) {
+    const std::vector<ModelNeeds> needs = needs_of_models(scene, plan);
+    Loader loader(scene, options, threads);
+    std::vector<SceneModel> models;
+    for (std::size_t i = 0; i < scene.models.size(); ++i) {
+        Result<SceneModel> loaded = loader.load(i, needs[i]);
+        if (!loaded) return loaded.error();
+        models.push_back(std::move(loaded).value());
+    }
+    return models;
+}
+
+std::vector<ModelUse> uses_of(const SceneFile& scene, const std::vector<SceneModel>& models,
+                              std::vector<std::string>& names) {
+    names.clear();
+    for (const fs::path& path : scene.models) names.push_back(path.string());
+    std::vector<ModelUse> uses;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        if (!models[i].model) continue;
+        uses.push_back({names[i], models[i].model->asks(), models[i].needs.layers});
+    }
+    return uses;
+}
+
+}  // namespace cdprep::scenes

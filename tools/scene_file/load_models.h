@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bake/pipeline.h"
+#include "cdprep/model.h"
+#include "cli/program_threads.h"
+#include "import/import_file.h"
+#include "scene_file/compile_scene.h"
+
+namespace cdprep::scenes {
+
+enum class ModelOrigin : std::uint8_t {
+    unused,     ///< no pair of layers asks for its objects: nothing was read
+    baked,      ///< the scene names a baked file
+    in_memory,  ///< a mesh file, baked into memory
+    cached,     ///< a mesh file, whose bake is in the cache
+};
+
+/// A model of a scene. All objects that name its file share it.
+struct SceneModel {
+    ModelOrigin origin = ModelOrigin::unused;
+    std::optional<cli::BakedImage> image;  ///< the bytes of a model in memory
+    std::optional<Model> model;            ///< nothing if unused
+    ModelNeeds needs;
+};
+
+struct LoadOptions {
+    std::filesystem::path cache;  ///< the folder of baked meshes; empty: bake into memory
+    import::ImportOptions import;
+    /// Called as a stage of a bake begins, with the number of models before and "FILE: STAGE".
+    std::function<void(std::size_t done, const std::string& what)> begins =
+        [](std::size_t /*done*/, const std::string& /*what*/) {};
+};
+
+/// Opens the models that the plan asks for, with exactly the sections that it needs or uses, in the
+/// order of SceneFile::models. Mesh files are baked for these sections. A baked file may lack some:
+/// compile_scene() tells. Fails with the error of the first model that cannot be read, or whose
+/// unit is not that of the scene.
+[[nodiscard]] Result<std::vector<SceneModel>> load_models(const SceneFile& scene, const Plan& plan,
+                                                          const LoadOptions& options,
+                                                          const cli::Threads& threads);
+
+/// Returns the uses of the models that were opened, for compile_scene(). `names` gets the names
+/// that they refer to.
+[[nodiscard]] std::vector<ModelUse> uses_of(const SceneFile& scene,
+                                            const std::vector<SceneModel>& models,
+                                            std::vector<std::string>& names);
+
+}  // namespace cdprep::scenes

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cdprep/plan.h"
+#include "scene_file/motion.h"
+
+namespace cdprep::scenes {
+
+/// The most objects of a scene file, copies counted.
+inline constexpr std::uint32_t kMostObjects = 1U << 20;
+
+/// What the objects of two layers are asked about each other.
+struct AskedPair {
+    LayerPair asked;                   ///< its layers are numbers of SceneFile::layers
+    std::vector<std::string> unbuilt;  ///< effects in the file that the library does not know
+    bool tells_begins = true;          ///< events to report
+    bool tells_ends = true;
+};
+
+struct FileObject {
+    std::string name;          ///< unique; copies are "NAME[x,y,z]"
+    std::uint32_t model = 0;   ///< its number in SceneFile::models
+    std::uint32_t layer = 0;   ///< its number in SceneFile::layers
+    std::uint32_t motion = 0;  ///< its number in SceneFile::motions
+    Double3 offset{};          ///< of a copy, in the world
+};
+
+/// The content of a scene file. Lengths are in model units.
+struct SceneFile {
+    std::string name;            ///< the file, for messages
+    double metres_per_unit = 0;  ///< of every model; 0: not stated
+    double step_s = 1.0 / 60;
+    double duration_s = 0;
+    std::optional<std::uint32_t> most_pairs;  ///< SceneLimits::pairs
+    std::vector<std::string> layers;
+    std::vector<AskedPair> pairs;
+    std::vector<std::filesystem::path> models;  ///< mesh files or baked files, each once
+    std::vector<Motion> motions;
+    std::vector<FileObject> objects;
+};
+
+/// Returns the poses of an object at a time, from 0 on. Fails with bad_argument and names the
+/// object if it leaves the range of coordinates.
+[[nodiscard]] Result<Pose> pose_of(const SceneFile& scene, const FileObject& object, double time_s);
+
+}  // namespace cdprep::scenes

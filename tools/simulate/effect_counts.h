@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cdprep/scene.h"
+#include "scene_file/effect_words.h"
+
+namespace cdprep::report {
+
+/// Returns the names of the effects that a scene could compute, but no pair of layers asks for.
+[[nodiscard]] inline std::vector<std::string> not_computed(const Plan& plan) {
+    std::vector<std::string> names;
+    for (const Ask effect : kSceneEffects) {
+        if (!contains(plan.effects(), effect)) names.push_back(scenes::effect_name(effect));
+    }
+    return names;
+}
+
+}  // namespace cdprep::report

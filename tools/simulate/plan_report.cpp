@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/plan_report.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "cdprep/format/sections.h"
+#include "scene_file/effect_words.h"
+#include "simulate/effect_counts.h"
+#include "text/json_layout.h"
+#include "text/number_text.h"
+#include "text/printable.h"
+
+namespace cdprep::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using scenes::ModelOrigin;
+using scenes::SceneFile;
+using scenes::SceneModel;
+
+/// Sections of an open model, and their bytes.
+struct SectionBytes {
+    struct Row {
+        const char* name;
+        std::uint64_t bytes;
+    };
+    std::vector<Row> rows;
+    std::uint64_t bytes = 0;
+
+    void add(const format::SectionEntry& entry) {
+        rows.push_back({format::section_name(entry.id), entry.count * entry.element_size});
+        bytes += rows.back().bytes;
+    }
+};
+
+struct SectionUse {
+    SectionBytes read;
+    SectionBytes untouched;
+};
+
+SectionUse use_of(const Model& model) {
+    SectionUse use;
+    for (const format::SectionKind& kind : format::section_kinds()) {
+        const auto entry = format::find_section(model.bytes(), kind.id);
+        if (!entry) continue;
+        (model.sections().contains(kind.id) ? use.read : use.untouched).add(*entry);
+    }
+    return use;
+}
+
+const char* origin_name(ModelOrigin origin) {
+    switch (origin) {
+        case ModelOrigin::unused:
+            return "unused";
+        case ModelOrigin::baked:
+            return "baked";
+        case ModelOrigin::in_memory:
+            return "in memory";
+        default:
+            return "cached";
+    }
+}
+
+const char* origin_text(ModelOrigin origin) {
+    switch (origin) {
+        case ModelOrigin::unused:
+            return "not opened, for no pair of layers asks for its objects";
+        case ModelOrigin::baked:
+            return "a baked file";
+        case ModelOrigin::in_memory:
+            return "a mesh, baked into memory";
+        default:
+            return "a mesh, baked into the cache";
+    }
+}
+
+/// Returns the names of the rows of needs() that a model must serve.
+std::vector<std::string> names_of(Ask asks) {
+    std::vector<std::string> names;
+    for (const Needs& row : needs()) {
+        if ((asks & row.ask) != Ask::nothing) names.emplace_back(row.name);
+    }
+    return names;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+std::string sections_text(const char* title, const SectionBytes& sections) {
+    std::string text = std::string("  ") + title + ": " +
+                       counted(sections.rows.size(), "section", "sections") + ", " +
+                       counted(sections.bytes, "byte", "bytes");
+    for (std::size_t i = 0; i < sections.rows.size(); ++i) {
+        text += (i == 0 ? ": " : ", ") + std::string(sections.rows[i].name) + " " +
+                std::to_string(sections.rows[i].bytes);
+    }
+    return text + "\n";
+}
+
+std::string model_text(const std::string& path, const SceneModel& model) {
+    std::string text = "model " + printable(path) + ": " +
+                       counted(model.needs.objects, "object", "objects") + "; " +
+                       origin_text(model.origin) + "\n";
+    if (!model.model) return text;
+    const SectionUse use = use_of(*model.model);
+    text += "  must serve: " + joined(names_of(model.needs.asks)) + "\n";
+    text += sections_text("read", use.read);
+    text += sections_text("never touched", use.untouched);
+    return text;
+}
+
+std::vector<std::uint32_t> objects_by_layer(const SceneFile& scene) {
+    std::vector<std::uint32_t> objects(scene.layers.size());
+    for (const scenes::FileObject& object : scene.objects) ++objects[object.layer];
+    return objects;
+}
+
+Json sections_json(const SectionBytes& sections) {
+    Json json = Json::array();
+    for (const SectionBytes::Row& row : sections.rows) {
+        json.push_back({{"name", row.name}, {"bytes", row.bytes}});
+    }
+    return json;
+}
+
+Json model_json(const std::string& path, const SceneModel& model) {
+    Json json = {{"path", path},
+                 {"objects", model.needs.objects},
+                 {"origin", origin_name(model.origin)},
+                 {"serves", names_of(model.needs.asks)}};
+    const SectionUse use = model.model ? use_of(*model.model) : SectionUse{};
+    json["read"] = sections_json(use.read);
+    json["read_bytes"] = use.read.bytes;
+    json["untouched"] = sections_json(use.untouched);
+    json["untouched_bytes"] = use.untouched.bytes;
+    return json;
+}
+
+Json pair_json(const SceneFile& scene, const LayerPair& pair) {
+    return {{"layers", {scene.layers[pair.a], scene.layers[pair.b]}},
+            {"effects", names_of(pair.effects)},
+            {"tolerance", pair.tolerance},
+            {"max_distance", pair.max_distance},
+            {"body", pair.body == Body::solid ? "solid" : "surface"},
+            {"overlap", pair.overlap == Overlap::proper ? "proper" : "closed"}};
+}
+
+}  // namespace
+
+std::string plan_text(const SceneFile& scene, const Plan& plan,
+                      std::span<const SceneModel> models) {
+    std::string text = printable(scene.name) + ": " +
+                       counted(scene.objects.size(), "object", "objects") + ", " +
+                       counted(models.size(), "model", "models") + ", " +
+                       counted(scene.layers.size(), "layer", "layers") + "\n";
+    const std::vector<std::uint32_t> objects = objects_by_layer(scene);
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        text += "layer " + std::to_string(i) + ": " + printable(scene.layers[i]) + ", " +
+                counted(objects[i], "object", "objects") + "\n";
+    }
+    text += plan.describe();
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        text += model_text(scene.models[i].string(), models[i]);
+    }
+    return text;
+}
+
+std::string plan_json(const SceneFile& scene, const Plan& plan,
+                      std::span<const SceneModel> models) {
+    Json json = {{"scene", scene.name}, {"version", CDPREP_VERSION}, {"exit", 0}};
+    const std::vector<std::uint32_t> objects = objects_by_layer(scene);
+    json["layers"] = Json::array();
+    for (std::size_t i = 0; i < scene.layers.size(); ++i) {
+        json["layers"].push_back({{"name", scene.layers[i]}, {"objects", objects[i]}});
+    }
+    json["pairs"] = Json::array();
+    for (const LayerPair& pair : plan.pairs()) json["pairs"].push_back(pair_json(scene, pair));
+    json["not_computed"] = not_computed(plan);
+    json["models"] = Json::array();
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        json["models"].push_back(model_json(scene.models[i].string(), models[i]));
+    }
+    json["refusals"] = Json::array();
+    return laid_out(json, 0) + "\n";
+}
+
+std::string refused_json(const std::string& scene, int exit,
+                         const std::vector<std::string>& refusals) {
+    return laid_out(Json{{"scene", scene},
+                         {"version", CDPREP_VERSION},
+                         {"exit", exit},
+                         {"refusals", refusals}},
+                    0) +
+           "\n";
+}
+
+}  // namespace cdprep::report

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene_file/load_models.h"
+
+namespace cdprep::report {
+
+/// Returns a page of text: layers, the plan, and for each model what it must serve, the sections
+/// that are read and those that are never touched, with their bytes.
+[[nodiscard]] std::string plan_text(const scenes::SceneFile& scene, const Plan& plan,
+                                    std::span<const scenes::SceneModel> models);
+
+/// Returns the same as JSON (simulate.schema.json).
+[[nodiscard]] std::string plan_json(const scenes::SceneFile& scene, const Plan& plan,
+                                    std::span<const scenes::SceneModel> models);
+
+/// Returns the JSON of a scene for which there is no plan.
+[[nodiscard]] std::string refused_json(const std::string& scene, int exit,
+                                       const std::vector<std::string>& refusals);
+
+}  // namespace cdprep::report

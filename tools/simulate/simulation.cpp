@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/simulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+
+namespace cdprep::scenes {
+namespace {
+
+constexpr std::uint64_t kFirstPairs = 1024;   ///< room for pairs at the beginning
+constexpr std::uint64_t kPairsPerObject = 8;  ///< likewise
+/// Room for twice as many pairs as meet makes the broad phase faster; lists grow seldom.
+constexpr std::uint64_t kRoom = 2;
+constexpr std::uint64_t kMostRoom = (std::uint64_t{1} << 32) - 1;
+
+std::uint32_t room_for(std::uint64_t needed, std::uint32_t now) {
+    if (needed == 0) return now;
+    return static_cast<std::uint32_t>(std::min(kRoom * needed, kMostRoom));
+}
+
+bool are_equal(const Pose& p, const Pose& q) {
+    return p.rotation() == q.rotation() && p.translation() == q.translation();
+}
+
+}  // namespace
+
+Simulation::Simulation(const SceneFile& file, std::span<const SceneModel> models,
+                       std::uint32_t threads, ParallelFor parallel_for)
+    : file_(&file), models_(models), parallel_for_(parallel_for), workspaces_(threads) {
+    limits_.objects = static_cast<std::uint32_t>(file.objects.size());
+    limits_.threads = threads;
+    limits_.pairs = file.most_pairs.value_or(
+        static_cast<std::uint32_t>(std::max(kFirstPairs, kPairsPerObject * limits_.objects)));
+    limits_.triangle_pairs = limits_.contacts = limits_.pairs;
+}
+
+Result<Simulation> Simulation::make(const SceneFile& file, std::span<const SceneModel> models,
+                                    std::uint32_t threads, ParallelFor parallel_for) {
+    Simulation simulation(file, models, threads, parallel_for);
+    if (Result<Done> filled = simulation.fill(0); !filled) return filled.error();
+    return simulation;
+}
+
+/// Makes a scene, and adds the objects as they are at a time.
+Result<Done> Simulation::fill(double time_s) {
+    scene_.reset();
+    objects_.clear();
+    ids_.clear();
+    poses_.clear();
+    Plan::Compiled compiled = compile_scene(*file_, limits_);
+    if (!compiled.plan) return Error{ErrorCode::bad_argument, compiled.refusals.front()};
+    plan_ = std::make_unique<const Plan>(std::move(*compiled.plan));
+    scene_.emplace(*plan_);
+    for (std::uint32_t i = 0; i < file_->objects.size(); ++i) {
+        const FileObject& object = file_->objects[i];
+        if (!is_asked(*plan_, object)) continue;
+        const Result<Pose> pose = pose_of(*file_, object, time_s);
+        if (!pose) return pose.error();
+        const auto id = scene_->add({&*models_[object.model].model, object.layer, *pose});
+        if (!id) return Error{ErrorCode::internal, file_->name + ": the scene is full."};
+        ids_.push_back(*id);
+        poses_.push_back(*pose);
+        objects_.push_back(i);
+    }
+    return Done{};
+}
+
+Result<Done> Simulation::move(double time_s) {
+    for (std::size_t slot = 0; slot < ids_.size(); ++slot) {
+        const FileObject& object = file_->objects[objects_[slot]];
+        if (!file_->motions[object.motion].moves()) continue;
+        const Result<Pose> pose = pose_of(*file_, object, time_s);
+        if (!pose) return pose.error();
+        if (are_equal(*pose, poses_[slot])) continue;
+        poses_[slot] = *pose;
+        scene_->set_pose(ids_[slot], *pose);
+    }
+    return Done{};
+}
+
+/// Raises the limits that a step found too small.
+Result<Done> Simulation::make_room(const SceneStep& step, std::uint64_t frame) {
+    const auto refuse = [&](const char* what, std::uint64_t needed, std::uint64_t most) {
+        return Error{ErrorCode::over_budget, file_->name + ": frame " + std::to_string(frame) +
+                                                 " needs room for " + std::to_string(needed) + " " +
+                                                 what + " is " + std::to_string(most) + "."};
+    };
+    const std::uint64_t most_pairs = file_->most_pairs.value_or(kMostRoom);
+    if (step.needed_pairs > most_pairs) {
+        return refuse("pairs, but limits.pairs", step.needed_pairs, most_pairs);
+    }
+    if (const auto most = std::max(step.needed_triangle_pairs, step.needed_contacts);
+        most > kMostRoom) {
+        return refuse("items in lists, but the most", most, kMostRoom);
+    }
+    limits_.pairs = room_for(step.needed_pairs, limits_.pairs);
+    limits_.triangle_pairs = room_for(step.needed_triangle_pairs, limits_.triangle_pairs);
+    limits_.contacts = room_for(step.needed_contacts, limits_.contacts);
+    return Done{};
+}
+
+/// Makes more room. A new scene knows nothing of the last frame, so that is computed again; its
+/// events were reported before.
+Result<Done> Simulation::grow(SceneStep step, std::uint64_t frame) {
+    while (!step.complete) {
+        if (Result<Done> made = make_room(step, frame); !made) return made;
+        if (Result<Done> filled = fill(time_of(frame == 0 ? 0 : frame - 1)); !filled) return filled;
+        if (frame == 0) return Done{};
+        step = scene_->step(workspaces_, parallel_for_);
+    }
+    return move(time_of(frame));
+}
+
+Result<Done> Simulation::step(std::uint64_t frame) {
+    if (frame > 0) {
+        if (Result<Done> moved = move(time_of(frame)); !moved) return moved;
+    }
+    bool has_grown = false;
+    while (true) {
+        const auto begin = std::chrono::steady_clock::now();
+        const SceneStep step = scene_->step(workspaces_, parallel_for_);
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+        step_seconds_ = taken.count();
+        if (step.complete) break;
+        if (Result<Done> grown = grow(step, frame); !grown) return grown;
+        has_grown = true;
+    }
+    if (has_grown) ++grown_steps_;
+    return Done{};
+}
+
+}  // namespace cdprep::scenes

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cdprep/scene.h"
+#include "scene_file/load_models.h"
+
+namespace cdprep::scenes {
+
+/// The objects of a scene file, moved from frame to frame.
+class Simulation {
+public:
+    /// Adds the objects that pairs of layers ask for, as they are at time 0. All arguments must
+    /// outlive the object. The models must serve the plan of the file.
+    [[nodiscard]] static Result<Simulation> make(const SceneFile& file,
+                                                 std::span<const SceneModel> models,
+                                                 std::uint32_t threads, ParallelFor parallel_for);
+
+    /// Computes a frame; 0 is first. Objects whose pose has not changed count as not moved. If the
+    /// frame needs more room, makes it, unless the file limits the pairs: then fails with
+    /// over_budget. Fails with bad_argument if an object leaves the range of coordinates.
+    [[nodiscard]] Result<Done> step(std::uint64_t frame);
+
+    /// Results of the last frame.
+    [[nodiscard]] const Scene& scene() const noexcept {
+        return *scene_;
+    }
+    [[nodiscard]] const Plan& plan() const noexcept {
+        return *plan_;
+    }
+    [[nodiscard]] const FileObject& object(ObjectId id) const noexcept {
+        return file_->objects[objects_[id.slot]];
+    }
+    /// The wall time that the library took for the last frame, poses and room for pairs excluded.
+    [[nodiscard]] double step_seconds() const noexcept {
+        return step_seconds_;
+    }
+    [[nodiscard]] std::uint64_t grown_steps() const noexcept {
+        return grown_steps_;
+    }
+
+private:
+    Simulation(const SceneFile& file, std::span<const SceneModel> models, std::uint32_t threads,
+               ParallelFor parallel_for);
+
+    [[nodiscard]] Result<Done> fill(double time_s);
+    [[nodiscard]] Result<Done> move(double time_s);
+    [[nodiscard]] Result<Done> make_room(const SceneStep& step, std::uint64_t frame);
+    [[nodiscard]] Result<Done> grow(SceneStep step, std::uint64_t frame);
+    [[nodiscard]] double time_of(std::uint64_t frame) const noexcept {
+        return static_cast<double>(frame) * file_->step_s;
+    }
+
+    const SceneFile* file_;
+    std::span<const SceneModel> models_;
+    ParallelFor parallel_for_;
+    SceneLimits limits_;
+    std::vector<Workspace> workspaces_;   ///< one for each thread
+    std::vector<std::uint32_t> objects_;  ///< by slot
+    std::vector<ObjectId> ids_;           ///< by slot
+    std::vector<Pose> poses_;             ///< by slot
+    std::unique_ptr<const Plan> plan_;    ///< outlives the scene
+    std::optional<Scene> scene_;
+    double step_seconds_ = 0;
+    std::uint64_t grown_steps_ = 0;
+};
+
+}  // namespace cdprep::scenes

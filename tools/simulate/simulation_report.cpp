@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/simulation_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "text/json_layout.h"
+#include "text/number_text.h"
+#include "text/printable.h"
+
+namespace cdprep::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* reason_name(EventReason reason) {
+    switch (reason) {
+        case EventReason::moved:
+            return "moved";
+        case EventReason::removed:
+            return "removed";
+        case EventReason::relayered:
+            return "relayered";
+        case EventReason::paused:
+            return "paused";
+        case EventReason::unchanged:
+            break;
+    }
+    return "unchanged";
+}
+
+const char* kind_name(EventKind kind) {
+    if (kind == EventKind::stays) return "stays";
+    return kind == EventKind::begins ? "begins" : "ends";
+}
+
+/// Returns the result of the objects of an event, or null.
+template <class Result>
+const Result* find_result(std::span<const Result> all, const SceneEvent& event) {
+    const auto slots = [](const auto& found) { return std::tuple(found.a.slot, found.b.slot); };
+    const auto at =
+        std::lower_bound(all.begin(), all.end(), event,
+                         [&](const Result& x, const SceneEvent& y) { return slots(x) < slots(y); });
+    return at != all.end() && slots(*at) == slots(event) ? &*at : nullptr;
+}
+
+/// Adds what an effect that holds has found.
+void add_result(Json& json, const Scene& scene, const SceneEvent& event) {
+    if (event.effect == Ask::distance) {
+        if (const auto* found = find_result(scene.distances(), event)) {
+            json["lower"] = found->distance.lower;
+            json["upper"] = found->distance.upper;
+        }
+    } else if (event.effect == Ask::overlap) {
+        const auto* found = find_result(scene.overlaps(), event);
+        if (found) json["triangle_pairs"] = found->triangles.size();
+    } else if (event.effect == Ask::contacts) {
+        if (const auto* found = find_result(scene.contacts(), event)) {
+            json["contacts"] = found->contacts.size();
+            json["lower"] = found->contacts.front().lower;
+            json["upper"] = found->contacts.front().upper;
+        }
+    }
+}
+
+Json event_json(std::uint64_t frame, double time_s, const SceneEvent& event,
+                const scenes::Simulation& simulation) {
+    Json json = {{"frame", frame},
+                 {"time_s", time_s},
+                 {"event", kind_name(event.kind)},
+                 {"effect", scenes::effect_name(event.effect)},
+                 {"a", simulation.object(event.a).name},
+                 {"b", simulation.object(event.b).name},
+                 {"reason", reason_name(event.reason)}};
+    if (event.kind != EventKind::ends) add_result(json, simulation.scene(), event);
+    return json;
+}
+
+std::string hash_text(std::uint64_t hash) {
+    std::array<char, 17> text{};
+    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+    return text.data();
+}
+
+std::size_t number_of(Ask effect) {
+    const auto* at = std::find(kSceneEffects.begin(), kSceneEffects.end(), effect);
+    return static_cast<std::size_t>(at - kSceneEffects.begin());
+}
+
+}  // namespace
+
+SimulationReport::SimulationReport(const scenes::SceneFile& scene, const Plan& plan,
+                                   EventFormat format)
+    : scene_(scene), format_(format), not_computed_(not_computed(plan)) {
+    for (const scenes::AskedPair& pair : scene.pairs) {
+        if (pair.asked.effects != Ask::nothing) pairs_.push_back(&pair);
+    }
+}
+
+std::string SimulationReport::begin() const {
+    return format_ == EventFormat::json ? "{\"events\":[" : "";
+}
+
+bool SimulationReport::is_told(const SceneEvent& event) const {
+    const scenes::AskedPair& pair = *pairs_[event.pair];
+    if (event.kind == EventKind::stays) return true;  // listed only where they are told
+    return event.kind == EventKind::begins ? pair.tells_begins : pair.tells_ends;
+}
+
+void SimulationReport::count(const scenes::Simulation& simulation) {
+    ++frames_;
+    milliseconds_.push_back(std::round(1e6 * simulation.step_seconds()) / 1e3);
+    const SceneCounts& counts = simulation.scene().counts();
+    counts_.moved += counts.moved;
+    counts_.candidates += counts.candidates;
+    counts_.kept += counts.kept;
+    counts_.apart += counts.apart;
+    for (std::size_t i = 0; i < counts.calls.size(); ++i) counts_.calls[i] += counts.calls[i];
+    for (const SceneEvent& event : simulation.scene().events()) {
+        Changes& changes = changes_[number_of(event.effect)];
+        changes.begins += event.kind == EventKind::begins ? 1 : 0;
+        changes.ends += event.kind == EventKind::ends ? 1 : 0;
+    }
+}
+
+std::string SimulationReport::add_frame(std::uint64_t frame, const scenes::Simulation& simulation) {
+    count(simulation);
+    std::string text;
+    if (format_ == EventFormat::text) return text;
+    const double time_s = static_cast<double>(frame) * scene_.step_s;
+    for (const SceneEvent& event : simulation.scene().events()) {
+        if (!is_told(event)) continue;
+        const std::string line = compact(event_json(frame, time_s, event, simulation));
+        if (format_ == EventFormat::ndjson) {
+            text += line + "\n";
+        } else {
+            text += (has_event_ ? ",\n" : "\n") + line;
+        }
+        has_event_ = true;
+    }
+    return text;
+}
+
+std::string SimulationReport::finish(const scenes::Simulation& simulation) {
+    std::sort(milliseconds_.begin(), milliseconds_.end());
+    switch (format_) {
+        case EventFormat::text:
+            return summary_text(simulation);
+        case EventFormat::json:
+            return std::string(has_event_ ? "\n" : "") +
+                   "],\n\"summary\":" + summary_json(simulation) + "}\n";
+        default:
+            return "{\"summary\":" + summary_json(simulation) + "}\n";
+    }
+}
+
+double SimulationReport::milliseconds_at(double share) const {
+    if (milliseconds_.empty()) return 0;
+    const auto last = static_cast<double>(milliseconds_.size() - 1);
+    return milliseconds_[static_cast<std::size_t>(share * last)];
+}
+
+std::string SimulationReport::summary_json(const scenes::Simulation& simulation) const {
+    Json effects = Json::array();
+    for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
+        if (!contains(simulation.plan().effects(), kSceneEffects[i])) continue;
+        effects.push_back({{"name", scenes::effect_name(kSceneEffects[i])},
+                           {"calls", counts_.calls[i]},
+                           {"begins", changes_[i].begins},
+                           {"ends", changes_[i].ends}});
+    }
+    return compact({{"scene", scene_.name},
+                    {"version", CDPREP_VERSION},
+                    {"frames", frames_},
+                    {"objects", simulation.scene().object_count()},
+                    {"moved", counts_.moved},
+                    {"candidates", counts_.candidates},
+                    {"kept", counts_.kept},
+                    {"apart", counts_.apart},
+                    {"effects", effects},
+                    {"not_computed", not_computed_},
+                    {"grown_steps", simulation.grown_steps()},
+                    {"step_ms", {{"median", milliseconds_at(0.5)}, {"p95", milliseconds_at(0.95)}}},
+                    {"state_hash", hash_text(simulation.scene().state_hash())}});
+}
+
+std::string SimulationReport::summary_text(const scenes::Simulation& simulation) const {
+    const auto row = [](const auto&... cells) {
+        std::array<char, 128> line{};
+        std::snprintf(line.data(), line.size(), "%-12s %12s %12s %9s %9s\n", cells...);
+        return std::string(line.data());
+    };
+    std::string text = row("effect", "calls", "calls/frame", "begins", "ends");
+    const auto frames = static_cast<double>(std::max<std::uint64_t>(frames_, 1));
+    for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
+        if (!contains(simulation.plan().effects(), kSceneEffects[i])) continue;
+        const std::uint64_t calls = counts_.calls[i];
+        text += row(scenes::effect_name(kSceneEffects[i]).c_str(), std::to_string(calls).c_str(),
+                    fixed(static_cast<double>(calls) / frames, 1).c_str(),
+                    std::to_string(changes_[i].begins).c_str(),
+                    std::to_string(changes_[i].ends).c_str());
+    }
+    for (const std::string& name : not_computed_) {
+        text += "not computed: " + name + ", for no pair of layers asks\n";
+    }
+    text += "candidates " + std::to_string(counts_.candidates) + ": kept " +
+            std::to_string(counts_.kept) + ", apart by their boxes " +
+            std::to_string(counts_.apart) + "\n";
+    text += counted(frames_, "frame", "frames") + " of " +
+            counted(simulation.scene().object_count(), "object", "objects") + "; " +
+            counted(simulation.grown_steps(), "frame", "frames") + " needed more room\n";
+    return text + "a frame took " + fixed(milliseconds_at(0.5), 3) + " ms (median), 95 % below " +
+           fixed(milliseconds_at(0.95), 3) + " ms; state " +
+           hash_text(simulation.scene().state_hash()) + "\n";
+}
+
+}  // namespace cdprep::report

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "simulate/effect_counts.h"
+#include "simulate/simulation.h"
+
+namespace cdprep::report {
+
+enum class EventFormat : std::uint8_t { text, json, ndjson };
+
+/// Collects the frames of a simulation and words its report. An event in JSON has its frame and
+/// time, "begins" or "ends", the effect, the two objects and the reason. If it begins a distance,
+/// it has the bounds of the distance.
+class SimulationReport {
+public:
+    /// `scene` must outlive the object.
+    SimulationReport(const scenes::SceneFile& scene, const Plan& plan, EventFormat format);
+
+    /// Returns the text that begins the report.
+    [[nodiscard]] std::string begin() const;
+    /// Adds the last frame of a simulation. Returns the text of its events, which is empty in the
+    /// text format.
+    [[nodiscard]] std::string add_frame(std::uint64_t frame, const scenes::Simulation& simulation);
+    /// Returns the text that ends the report: the summary of all frames.
+    [[nodiscard]] std::string finish(const scenes::Simulation& simulation);
+
+private:
+    struct Changes {
+        std::uint64_t begins = 0;
+        std::uint64_t ends = 0;
+    };
+
+    [[nodiscard]] bool is_told(const SceneEvent& event) const;
+    void count(const scenes::Simulation& simulation);
+    [[nodiscard]] std::string summary_text(const scenes::Simulation& simulation) const;
+    [[nodiscard]] std::string summary_json(const scenes::Simulation& simulation) const;
+    [[nodiscard]] double milliseconds_at(double share) const;
+
+    const scenes::SceneFile& scene_;
+    EventFormat format_;
+    std::vector<std::string> not_computed_;
+    std::vector<const scenes::AskedPair*> pairs_;  ///< by their numbers in the plan
+    std::uint64_t frames_ = 0;
+    SceneCounts counts_;  ///< sums of all frames
+    std::array<Changes, kSceneEffects.size()> changes_{};
+    std::vector<double> milliseconds_;  ///< of each frame; sorted at the end
+    bool has_event_ = false;
+};
+
+}  // namespace cdprep::report
