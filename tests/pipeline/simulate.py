@@ -317,6 +317,16 @@ def mistakes(program, folder):
             must(word in done.stderr, f"{arguments}: '{word}' is not in {done.stderr}")
 
 
+def the_effects(program, folder):
+    """The schema of scene files names the effects that the program reads."""
+    words = json.loads((ROOT / "tools/scene_file/scene.schema.json").read_text())
+    words = words["$defs"]["pair"]["properties"]["effects"]["items"]["enum"]
+    scene = write_scene(folder / "effects.json", layers=["a"], objects=[],
+                        pairs=[{"layers": ["a", "a"], "effects": ["none"]}])
+    told = run(program, "simulate", scene).stderr
+    must(f"Choose from {', '.join(words[:-1])} or {words[-1]}." in told, told)
+
+
 def an_interrupt(program):
     running = subprocess.Popen([program, "simulate", SCENES / "thousand.json", "--frames",
                                 "100000000"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
@@ -339,7 +349,7 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))
     with tempfile.TemporaryDirectory() as scratch:
-        for check in (many_pairs, unused_models, refusals, mistakes):
+        for check in (many_pairs, unused_models, refusals, mistakes, the_effects):
             check(program, pathlib.Path(scratch))
     an_interrupt(program)
 

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "scene_file/compile_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "scene_file/effect_words.h"
+
+namespace cdprep::scenes {
+namespace {
+
+constexpr SceneLimits kLimits = {.objects = 8, .pairs = 8};
+
+/// Two models: the first in layers 0 and 1, the second in layer 2, which no pair names.
+SceneFile scene_of(std::vector<AskedPair> pairs) {
+    SceneFile scene;
+    scene.name = "s.json";
+    scene.layers = {"a", "b", "c"};
+    scene.pairs = std::move(pairs);
+    scene.models = {"m.obj", "n.obj"};
+    scene.motions = {Motion::fixed({})};
+    scene.objects = {{.name = "x", .model = 0, .layer = 0},
+                     {.name = "y", .model = 0, .layer = 1},
+                     {.name = "z", .model = 1, .layer = 2}};
+    return scene;
+}
+
+TEST(CompileScene, FindsWhatEachModelMustServe) {
+    const SceneFile scene =
+        scene_of({{.asked = {.a = 0, .b = 1, .effects = Ask::collide, .body = Body::solid}},
+                  {.asked = {.a = 1, .b = 1, .effects = Ask::within}}});
+    const Plan::Compiled compiled = compile_scene(scene, kLimits);
+    ASSERT_TRUE(compiled.plan);
+    const std::vector<ModelNeeds> needs = needs_of_models(scene, *compiled.plan);
+    ASSERT_EQ(needs.size(), 2u);
+    EXPECT_EQ(needs[0].asks, Ask::collide | Ask::solid | Ask::within);
+    EXPECT_EQ(needs[0].layers, 0b11u);
+    EXPECT_EQ(needs[0].objects, 2u);
+    EXPECT_EQ(needs[1].asks, Ask::nothing);
+    EXPECT_TRUE(is_asked(*compiled.plan, scene.objects[0]));
+    EXPECT_FALSE(is_asked(*compiled.plan, scene.objects[2]));
+}
+
+// The sentences name the file and the pair. An effect that the library does not know yet is
+// refused in the same words as one that it knows.
+TEST(CompileScene, ListsAllRefusals) {
+    const SceneFile scene = scene_of(
+        {{.asked = {.a = 0, .b = 1, .effects = Ask::response}, .unbuilt = {"tear", "haptic"}}});
+    const Plan::Compiled compiled = compile_scene(scene, kLimits);
+    EXPECT_FALSE(compiled.plan);
+    ASSERT_EQ(compiled.refusals.size(), 3u);
+    const std::string words = " is not built in a scene. Built are ";
+    const std::string built =
+        compiled.refusals[0].substr(compiled.refusals[0].find(words) + words.size());
+    const std::string place = "s.json: Pair 0 of layers: ";
+    EXPECT_EQ(compiled.refusals[0], place + "response" + words + built);
+    EXPECT_EQ(compiled.refusals[1], place + "tear" + words + built);
+    EXPECT_EQ(compiled.refusals[2], place + "haptic" + words + built);
+}
+
+TEST(CompileScene, RefusesModelsThatDoNotServe) {
+    const SceneFile scene =
+        scene_of({{.asked = {.a = 0, .b = 1, .effects = Ask::collide | Ask::within}}});
+    const std::vector<ModelUse> uses = {{"m.cdp.h5", Ask::collide, 0b11}};
+    const Plan::Compiled compiled = compile_scene(scene, kLimits, uses);
+    ASSERT_EQ(compiled.refusals.size(), 1u);
+    EXPECT_EQ(compiled.refusals[0],
+              "s.json: m.cdp.h5: its layers ask for within, which the model does not serve. Bake "
+              "it with --effects within.");
+}
+
+// A scene file may ask for every effect that scenes compute.
+TEST(EffectWords, NameAllEffectsOfScenes) {
+    for (const Ask effect : kSceneEffects) {
+        const std::string name = effect_name(effect);
+        EXPECT_EQ(std::count(kEffectWords.begin(), kEffectWords.end(), name), 1) << name;
+        EXPECT_EQ(effect_of(name), effect);
+    }
+}
+
+}  // namespace
+}  // namespace cdprep::scenes

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "scene_file/load_models.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "support/scratch_folder.h"
+
+namespace cdprep::scenes {
+namespace {
+
+constexpr const char* kTetrahedron =
+    "OFF 4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+
+/// One object of a model for each layer 0 and 1, which ask about each other.
+SceneFile scene_of(const std::filesystem::path& model, Ask effects) {
+    SceneFile scene;
+    scene.name = "s.json";
+    scene.layers = {"a", "b", "c"};
+    scene.pairs = {{.asked = {.a = 0, .b = 1, .effects = effects}}};
+    scene.models = {model, "no/such/file.obj"};
+    scene.motions = {Motion::fixed({})};
+    scene.objects = {{.name = "x", .model = 0, .layer = 0},
+                     {.name = "y", .model = 0, .layer = 1},
+                     {.name = "z", .model = 1, .layer = 2}};
+    return scene;
+}
+
+Result<std::vector<SceneModel>> load(const SceneFile& scene, const LoadOptions& options = {}) {
+    const cli::Threads threads(1);
+    const auto compiled = compile_scene(scene, {.objects = 3, .pairs = 3});
+    return load_models(scene, *compiled.plan, options, threads);
+}
+
+TEST(LoadModels, BakesAMeshForExactlyThePlan) {
+    const test::ScratchFolder folder;
+    const auto mesh = folder.write("m.off", std::string_view(kTetrahedron));
+    for (const Ask effects : {Ask::collide, Ask::within, Ask::collide | Ask::distance}) {
+        const auto models = load(scene_of(mesh, effects));
+        ASSERT_TRUE(models) << models.error().message;
+        ASSERT_EQ(models->size(), 2u);
+        const SceneModel& model = models->front();
+        EXPECT_EQ(model.origin, ModelOrigin::in_memory);
+        EXPECT_TRUE(model.model->serves(effects));
+        EXPECT_EQ(model.model->sections().contains(SectionId::swept_nodes),
+                  effects != Ask::collide);
+        EXPECT_TRUE(sections_for(effects).contains(model.model->sections()));
+        EXPECT_EQ(folder.names(), (std::set<std::string>{"m.off"}));
+    }
+}
+
+// Its file does not even exist.
+TEST(LoadModels, LeaveAModelAloneThatNobodyAsksFor) {
+    const test::ScratchFolder folder;
+    const auto models =
+        load(scene_of(folder.write("m.off", std::string_view(kTetrahedron)), Ask::collide));
+    ASSERT_TRUE(models);
+    EXPECT_EQ(models->back().origin, ModelOrigin::unused);
+    EXPECT_FALSE(models->back().model);
+}
+
+TEST(LoadModels, AnswersAreThoseOfTheFile) {
+    const test::ScratchFolder folder;
+    const auto mesh = folder.write("m.off", std::string_view(kTetrahedron));
+    const SceneFile scene = scene_of(mesh, Ask::collide | Ask::distance);
+    LoadOptions options;
+    options.cache = folder.path() / "cache";
+    const auto in_memory = load(scene), cached = load(scene, options);
+    ASSERT_TRUE(in_memory && cached);
+    EXPECT_EQ(cached->front().origin, ModelOrigin::cached);
+    const Model& a = *in_memory->front().model;
+    const Model& b = *cached->front().model;
+    EXPECT_EQ(a.header().content_hash, b.header().content_hash);
+    EXPECT_EQ(a.sections(), b.sections());
+}
+
+TEST(LoadModels, BakesAgainAfterAChangeAndOnlyThen) {
+    const test::ScratchFolder folder;
+    const auto mesh = folder.write("m.off", std::string_view(kTetrahedron));
+    LoadOptions options;
+    options.cache = folder.path() / "cache";
+    std::size_t stages = 0;
+    options.begins = [&](std::size_t /*done*/, const std::string& /*what*/) { ++stages; };
+    const auto bakes = [&](Ask effects) {
+        stages = 0;
+        EXPECT_TRUE(load(scene_of(mesh, effects), options));
+        return stages > 0;
+    };
+    EXPECT_TRUE(bakes(Ask::collide));
+    EXPECT_FALSE(bakes(Ask::collide));
+    EXPECT_TRUE(bakes(Ask::within)) << "other effects";
+    options.import.metres_per_unit = 0.001;
+    EXPECT_TRUE(bakes(Ask::within)) << "another unit";
+    folder.write("m.off", std::string(kTetrahedron) + "\n");
+    EXPECT_TRUE(bakes(Ask::within)) << "another file";
+    EXPECT_FALSE(bakes(Ask::within));
+}
+
+// The files that a mesh refers to decide its bake too.
+TEST(LoadModels, BakesAgainAfterAChangeOfAnotherFile) {
+    const test::ScratchFolder folder;
+    const std::string gltf =
+        R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                           "min": [0, 0, 0], "max": [1, 1, 0]}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"uri": "b.bin", "byteLength": 36}]})";
+    const auto mesh = folder.write("m.gltf", std::string_view(gltf));
+    LoadOptions options;
+    options.cache = folder.path() / "cache";
+    std::vector<std::uint64_t> hashes;
+    for (const float size : {1.0f, 1.0f, 0.5f}) {
+        const std::array<float, 9> corners = {0, 0, 0, size, 0, 0, 0, size, 0};
+        folder.write("b.bin", std::as_bytes(std::span(corners)));
+        const auto models = load(scene_of(mesh, Ask::collide), options);
+        ASSERT_TRUE(models) << models.error().message;
+        hashes.push_back(models->front().model->header().content_hash);
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+    EXPECT_NE(hashes[1], hashes[2]);
+}
+
+TEST(LoadModels, RefusesAnotherUnit) {
+    const test::ScratchFolder folder;
+    SceneFile scene = scene_of(folder.write("m.off", std::string_view(kTetrahedron)), Ask::collide);
+    scene.metres_per_unit = 1;
+    EXPECT_TRUE(load(scene)) << "a mesh without a unit has that of the scene";
+    LoadOptions options;
+    options.import.metres_per_unit = 0.001;
+    const auto models = load(scene, options);
+    ASSERT_FALSE(models);
+    EXPECT_EQ(models.error().code, ErrorCode::bad_argument);
+    EXPECT_NE(models.error().message.find("is in mm, but the unit of the scene is m"),
+              std::string::npos)
+        << models.error().message;
+}
+
+TEST(LoadModels, NamesAMeshThatCannotBeRead) {
+    const test::ScratchFolder folder;
+    const auto models =
+        load(scene_of(folder.write("m.off", std::string_view("OFF 1 1 0\n")), Ask::collide));
+    ASSERT_FALSE(models);
+    EXPECT_EQ(models.error().code, ErrorCode::unreadable);
+    EXPECT_NE(models.error().message.find("m.off"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cdprep::scenes

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#include "simulate/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "support/meshes.h"
+#include "support/open_tiny.h"
+#include "support/run_threads.h"
+
+namespace cdprep::scenes {
+namespace {
+
+/// A row of bodies, and as many that move through it. Bodies of the first row all meet.
+class Rows {
+public:
+    Rows(std::uint32_t count, double spacing) {
+        file_.name = "rows.json";
+        file_.step_s = 0.5;
+        file_.layers = {"resting", "moving", "alone"};
+        file_.pairs = {{.asked = {.a = 0, .b = 1, .effects = Ask::collide}}};
+        file_.models = {"sphere", "unused"};
+        file_.motions = {
+            Motion::fixed({}),
+            Motion::steady(*Pose::from_quaternion(1, 0, 0, 0, {-4, 0, 0}), {1, 0, 0}, {0, 0.5, 0})};
+        file_.objects.push_back({.name = "alone", .model = 1, .layer = 2});
+        for (std::uint32_t i = 0; i < count; ++i) {
+            for (const std::uint32_t layer : {0U, 1U}) {
+                file_.objects.push_back({.name = std::to_string(layer) + "," + std::to_string(i),
+                                         .layer = layer,
+                                         .motion = layer,
+                                         .offset = {0, spacing * i, 0}});
+            }
+        }
+        models_.resize(2);
+        models_[0].model.emplace(std::move(sphere_.model));
+    }
+    [[nodiscard]] SceneFile& file() {
+        return file_;
+    }
+    [[nodiscard]] Result<Simulation> make(std::uint32_t threads = 1) const {
+        return Simulation::make(file_, models_, threads, test::run_threads);
+    }
+
+private:
+    SceneFile file_;
+    std::vector<SceneModel> models_;
+    test::OpenModel sphere_ = test::open_tiny(test::icosphere(1));
+};
+
+using Event = std::tuple<std::uint64_t, std::string, std::string, bool>;
+
+/// Returns the events of some frames, in their order.
+std::vector<Event> events_of(Simulation& simulation, std::uint64_t frames) {
+    std::vector<Event> events;
+    for (std::uint64_t frame = 0; frame < frames; ++frame) {
+        const Result<Done> done = simulation.step(frame);
+        EXPECT_TRUE(done) << frame;
+        for (const SceneEvent& event : simulation.scene().events()) {
+            events.emplace_back(frame, simulation.object(event.a).name,
+                                simulation.object(event.b).name, event.begins);
+        }
+    }
+    return events;
+}
+
+constexpr std::uint64_t kFrames = 20;
+
+// By hand: spheres of radius 1 that approach by 0.5 a frame from -4 touch from -2 to 2.
+TEST(Simulation, TellsWhatBeginsAndEnds) {
+    const Rows rows(3, 10);
+    auto simulation = rows.make();
+    ASSERT_TRUE(simulation);
+    const std::vector<Event> events = events_of(*simulation, kFrames);
+    ASSERT_EQ(events.size(), 6u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& [begin, a, b, begins] = events[i];
+        EXPECT_TRUE(begins);
+        EXPECT_EQ(a, "0," + std::to_string(i));
+        EXPECT_EQ(b, "1," + std::to_string(i));
+        EXPECT_TRUE(begin == 4 || begin == 5) << begin;
+        const auto& [end, c, d, still] = events[3 + i];
+        EXPECT_FALSE(still);
+        EXPECT_TRUE(end == 12 || end == 13) << end;
+    }
+    EXPECT_EQ(simulation->scene().object_count(), 6u) << "an object that nobody asks for";
+    EXPECT_EQ(simulation->grown_steps(), 0u);
+}
+
+// 100 x 100 pairs meet, for which there is no room at the beginning.
+TEST(Simulation, MakesRoomWithoutLosingAnEvent) {
+    const Rows rows(100, 0);
+    auto grown = rows.make();
+    Rows with_room(100, 0);
+    with_room.file().most_pairs = 20'000;
+    auto large = with_room.make(2);
+    ASSERT_TRUE(grown && large);
+    const std::vector<Event> events = events_of(*grown, kFrames);
+    EXPECT_EQ(events.size(), 20'000u);
+    EXPECT_EQ(events, events_of(*large, kFrames));
+    EXPECT_EQ(grown->grown_steps(), 1u);
+    EXPECT_EQ(large->grown_steps(), 0u);
+    EXPECT_EQ(grown->scene().state_hash(), large->scene().state_hash());
+}
+
+TEST(Simulation, MakesRoomInTheFirstFrame) {
+    Rows rows(100, 0);
+    rows.file().motions[1] = Motion::fixed({});
+    auto simulation = rows.make();
+    ASSERT_TRUE(simulation);
+    EXPECT_EQ(events_of(*simulation, 2).size(), 10'000u);
+    EXPECT_EQ(simulation->grown_steps(), 1u);
+}
+
+TEST(Simulation, EndsWhereTheFileLimitsThePairs) {
+    Rows rows(100, 0);
+    rows.file().most_pairs = 9'999;
+    auto simulation = rows.make();
+    ASSERT_TRUE(simulation);
+    Result<Done> done = Done{};
+    for (std::uint64_t frame = 0; frame < kFrames && done; ++frame) done = simulation->step(frame);
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().code, ErrorCode::over_budget);
+    EXPECT_NE(done.error().message.find("needs room for 10000 pairs, but limits.pairs is 9999."),
+              std::string::npos)
+        << done.error().message;
+}
+
+// A pair of which nothing has moved is not asked again.
+TEST(Simulation, CountsAnObjectThatPausesAsNotMoved) {
+    Rows rows(1, 0);
+    rows.file().motions[1] =
+        Motion::path({{0, Pose()}, {1, *Pose::from_quaternion(1, 0, 0, 0, {0.5, 0, 0})}});
+    auto simulation = rows.make();
+    ASSERT_TRUE(simulation);
+    for (std::uint64_t frame = 0; frame < 5; ++frame) {
+        ASSERT_TRUE(simulation->step(frame));
+        EXPECT_EQ(simulation->scene().counts().kept, frame > 2 ? 1u : 0u) << frame;
+    }
+}
+
+TEST(Simulation, NamesAnObjectThatLeavesTheCoordinates) {
+    Rows rows(1, 0);
+    rows.file().motions[1] = Motion::steady({}, {1e301, 0, 0}, {});
+    auto simulation = rows.make();
+    ASSERT_TRUE(simulation);
+    ASSERT_TRUE(simulation->step(0));
+    const Result<Done> done = simulation->step(100);
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(done.error().message.substr(0, 24), "rows.json: object '1,0':");
+}
+
+}  // namespace
+}  // namespace cdprep::scenes
