@@ -63,7 +63,7 @@ std::vector<Event> events_of(Simulation& simulation, std::uint64_t frames) {
         EXPECT_TRUE(done) << frame;
         for (const SceneEvent& event : simulation.scene().events()) {
             events.emplace_back(frame, simulation.object(event.a).name,
-                                simulation.object(event.b).name, event.begins);
+                                simulation.object(event.b).name, event.kind == EventKind::begins);
         }
     }
     return events;
