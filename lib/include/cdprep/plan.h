@@ -105,7 +105,8 @@ private:
 
     SceneLimits limits_;
     std::vector<LayerPair> pairs_;
-    std::array<std::uint16_t, std::size_t{kLayers} * kLayers> number_{};  ///< [a][b]: 1 more than the pair's
+    /// [a][b]: 1 more than the pair's number.
+    std::array<std::uint16_t, std::size_t{kLayers} * kLayers> number_{};
 };
 
 struct Plan::Compiled {

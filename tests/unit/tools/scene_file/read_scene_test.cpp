@@ -155,11 +155,20 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
           "line 3: /pairs/0/effects/1: found 3; expected an effect: " + words,
           "line 3: /pairs/0/body: 'hull' is not a body. Choose from surface or solid.",
           "line 3: /pairs/0/overlap: found 1; expected a meaning of overlap: closed or proper."}},
-        {one_object("", "\"tolerance\": -1, \"max_distance\": [], \"events\": [\"stays\"]"),
+        {one_object("", "\"tolerance\": -1, \"max_distance\": [], \"events\": [\"pauses\"]"),
          {"line 3: /pairs/0: the key 'effects' is missing.",
           "line 3: /pairs/0/tolerance: found -1; expected a number, 0 or more.",
           "line 3: /pairs/0/max_distance: found []; expected a number, 0 or more.",
-          "line 3: /pairs/0/events/0: 'stays' is not an event. Choose from begins or ends."}},
+          "line 3: /pairs/0/events/0: 'pauses' is not an event. Choose from begins, ends or "
+          "stays."}},
+        {one_object("", "\"effects\": [], \"contacts\": {\"depth\": 2}"),
+         {"line 3: /pairs/0/contacts/depth: 'depth' is not a key here. Choose from tolerance, most "
+          "or "
+          "work."}},
+        {one_object("", "\"effects\": [], \"contacts\": {\"most\": 0, \"tolerance\": -1}"),
+         {"line 3: /pairs/0/contacts/tolerance: found -1; expected a number, 0 or more.",
+          "line 3: /pairs/0/contacts/most: found 0; expected a whole number from 1 to "
+          "2147483648."}},
         {one_object(", \"pose\": {\"translation\": [1, 2]}"),
          {"line 4: /objects/0/pose/translation: found [1,2]; expected an array of 3 numbers."}},
         {one_object(", \"pose\": {\"quaternion\": [0, 0, 0, 0]}"),
