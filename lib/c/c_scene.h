@@ -14,8 +14,8 @@ namespace cdprep::c {
 /// The results of the last complete step, as C structs. The room is that of the scene.
 struct SceneResults {
     cdprep_scene_hit* hits = nullptr;
-    cdprep_scene_overlap* overlaps = nullptr;    ///< null if the plan asks for none
-    cdprep_scene_distance* distances = nullptr;  ///< null if the plan asks for none
+    cdprep_scene_overlap* overlaps = nullptr;    ///< without room if the plan asks for none
+    cdprep_scene_distance* distances = nullptr;  ///< likewise
     cdprep_event* events = nullptr;
     std::size_t hit_count = 0, overlap_count = 0, distance_count = 0, event_count = 0;
 };

@@ -161,6 +161,17 @@ private:
     std::vector<std::string> sentences_;
 };
 
+/// Which other query tells the answer of collide(): see PairQueries.
+const char* told_by(const LayerPair& pair) {
+    const bool is_solid = pair.body == Body::solid;
+    if (has(pair.effects, Ask::overlap)) {
+        return is_solid ? " (overlap tells it if it finds any)" : " (overlap tells it)";
+    }
+    const bool is_told =
+        has(pair.effects, Ask::distance) && !is_solid && pair.overlap == Overlap::closed;
+    return is_told ? " (distance mostly tells it)" : "";
+}
+
 std::string sentence_of(const LayerPair& pair) {
     std::string effects;
     const auto add = [&](const std::string& text) {
@@ -171,7 +182,7 @@ std::string sentence_of(const LayerPair& pair) {
     const bool has_overlap = has(pair.effects, Ask::overlap);
     const bool has_distance = has(pair.effects, Ask::distance);
     if (has(pair.effects, Ask::collide)) {
-        add("collide" + solid + proper + (has_overlap ? " (overlap tells it)" : ""));
+        add("collide" + solid + proper + told_by(pair));
     }
     if (has_overlap) add("overlap" + proper);
     if (has(pair.effects, Ask::within)) {
@@ -182,8 +193,13 @@ std::string sentence_of(const LayerPair& pair) {
     if (has(pair.effects, Ask::contacts)) {
         add("contacts" + solid + " within " + text_of(pair.contacts.tolerance) + ", at most " +
             std::to_string(pair.contacts.most) +
-            (pair.contacts.work == 0 ? "" : ", work " + std::to_string(pair.contacts.work)));
+            (pair.contacts.work == 0 ? "" : ", work " + std::to_string(pair.contacts.work)) +
+            (pair.contacts.manifold == Manifold::four ? ", with manifolds" : "") +
+            (pair.contacts.cluster_angle == 0
+                 ? ""
+                 : ", clusters of " + text_of(pair.contacts.cluster_angle) + " radians"));
     }
+    if (pair.lists_stays) add("events for what goes on");
     return "layers " + std::to_string(pair.a) + " and " + std::to_string(pair.b) + ": " + effects;
 }
 

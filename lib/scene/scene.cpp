@@ -225,9 +225,13 @@ std::uint64_t Scene::state_hash() const noexcept {
     };
     add_stream(hits(), [&](const SceneHit& hit) {
         hash.add(static_cast<std::uint64_t>(hit.holds));
-        hash.add(static_cast<std::uint64_t>(hit.collision.hit));
+        const Containment& inside = hit.collision.containment;
+        hash.add(static_cast<std::uint32_t>(hit.collision.hit),
+                 static_cast<std::uint32_t>(inside.answer) << 1 | (inside.a_inside_b ? 1U : 0U));
+        hash.add(inside.winding);
     });
     add_stream(overlaps(), [&](const SceneOverlaps& found) {
+        hash.add(std::uint64_t{found.triangles.size()});
         for (const TrianglePair& pair : found.triangles) hash.add(pair.a, pair.b);
     });
     add_stream(distances(), [&](const SceneDistance& found) {
@@ -237,6 +241,7 @@ std::uint64_t Scene::state_hash() const noexcept {
     });
     add_stream(contacts(), [&](const SceneContacts& found) {
         hash.add(found.verdict.found);
+        hash.add(std::uint64_t{found.contacts.size()});
         for (const Contact& contact : found.contacts) hash.add(contact);
     });
     add_stream(events(), [&](const SceneEvent& event) {

@@ -81,7 +81,7 @@ enum class EventKind : std::uint32_t {
 
 /// The reason of an event.
 enum class EventReason : std::uint32_t {
-    moved,      ///< an object moved, or was added
+    moved,      ///< an object moved or was added, or step_with() got other pairs
     removed,    ///< an object was removed
     relayered,  ///< an object is in another layer than in the last step
     paused,     ///< the effect was paused or resumed
@@ -99,8 +99,8 @@ struct SceneEvent {
     EventReason reason;
 };
 
-/// The work of a step. A query is not called if another one has told its answer: overlap() tells
-/// that of collide(), and distance() mostly that of collide() and within().
+/// The work of a step. A query is not called if another one has told its answer. Of surfaces,
+/// overlaps() tells that of collide(), and distance() mostly that of collide() and within().
 struct SceneCounts {
     std::uint64_t moved = 0;       ///< objects that moved, were added, removed or relayered
     std::uint64_t candidates = 0;  ///< pairs whose boxes meet
@@ -193,8 +193,9 @@ public:
     [[nodiscard]] std::uint32_t object_count() const noexcept;
     /// Returns the model of an object, or null if there is none with this id.
     [[nodiscard]] const Model* model_of(ObjectId object) const noexcept;
-    /// Returns a hash of all hits, overlaps, distances, contacts and events. It is equal for any
-    /// number of threads and any instruction set.
+    /// Returns a hash of all hits, overlaps, distances, contacts and events. It leaves out witness
+    /// points, features and the points of manifolds. It is equal for any number of threads and any
+    /// instruction set.
     [[nodiscard]] std::uint64_t state_hash() const noexcept;
 
 private:

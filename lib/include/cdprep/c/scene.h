@@ -109,7 +109,8 @@ typedef struct cdprep_object {
 } cdprep_object;
 
 /* Stores the number of bytes that cdprep_scene_make() needs for this plan. It depends only on the
- * limits and on the effects: about 430 bytes for each object, and 390 to 990 for each pair. */
+ * limits and on the effects: about 430 bytes for each object and 470 to 1,300 for each pair.
+ * CDPREP_ASK_OVERLAP takes 24 more for each triangle pair, and 16 KiB for each lane. */
 CDPREP_API int cdprep_scene_size(const cdprep_plan* plan, size_t* size, cdprep_error* error);
 
 /* Makes an empty scene in the caller's memory. The memory must start at a multiple of

@@ -49,13 +49,13 @@ static const char* compile(const cdprep_model* cube, cdprep_plan** plan) {
 }
 
 static const char* read_plan(const cdprep_plan* plan) {
-    char text[200], start[7];
+    char text[400], start[7];
     size_t length = 0, same = 0;
     uint32_t ask = 0;
     MUST(cdprep_plan_text(plan, NULL, 0, &length, NULL) == CDPREP_OK && length > 50);
     MUST(cdprep_plan_text(plan, text, sizeof text, &same, NULL) == CDPREP_OK && same == length);
     MUST(length < sizeof text && strlen(text) == length);
-    MUST(strncmp(text, "layers 31 and 3: collide, distance up to 0.5\n", 45) == 0);
+    MUST(strstr(text, "layers 31 and 3: collide (distance mostly tells it), ") == text);
     MUST(cdprep_plan_text(plan, start, sizeof start, &same, NULL) == CDPREP_OK);
     MUST(same == length && strcmp(start, "layers") == 0);
     MUST(cdprep_plan_ask(plan, FLOOR, &ask, NULL) == CDPREP_OK && ask == EFFECTS);
