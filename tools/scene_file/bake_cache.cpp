@@ -33,12 +33,13 @@ std::string hexadecimal(std::uint64_t value) {
 /// Returns whether the files that a mesh refers to are those that were read.
 bool are_same(const Json& files, const fs::path& folder, std::uint64_t max_bytes) {
     for (const Json& file : files) {
+        const auto is_text = [&](const char* key) {
+            return file.contains(key) && file[key].is_string();
+        };
+        if (!file.is_object() || !is_text("name") || !is_text("xxh3_64")) return false;
         const auto found =
-            import::SourceFile::open(folder / file.value("name", std::string()), max_bytes);
-        if (!found) return false;
-        if (hexadecimal(hash_of(found->bytes())) != file.value("xxh3_64", std::string())) {
-            return false;
-        }
+            import::SourceFile::open(folder / file["name"].get<std::string>(), max_bytes);
+        if (!found || hexadecimal(hash_of(found->bytes())) != file["xxh3_64"]) return false;
     }
     return true;
 }
@@ -47,7 +48,7 @@ bool are_same(const Json& files, const fs::path& folder, std::uint64_t max_bytes
 /// other files.
 bool is_bake_of(const fs::path& baked, const fs::path& mesh, const std::string& origin,
                 std::uint64_t max_bytes) {
-    const Result<Model> opened = Model::open(baked, SectionSet{SectionId::provenance});
+    const Result<Model> opened = Model::open(baked);  // damage anywhere: bake again
     if (!opened) return false;
     Json found = Json::parse(opened->record().provenance, nullptr, false);
     if (!found.is_object() || !found.contains("source") || !found["source"].is_object()) {

@@ -8,7 +8,7 @@
 namespace cdprep::scenes {
 namespace {
 
-/// "collide, within and distance".
+/// "collide, overlap and within".
 std::string built_effects() {
     std::string text;
     for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {

@@ -141,6 +141,9 @@ private:
             pair.asked.overlap = word == 1 ? Overlap::proper : Overlap::closed;
         }
         if (const auto contacts = element.find("contacts")) {
+            if (!contains(pair.asked.effects, Ask::contacts)) {
+                contacts->refuse("the effect contacts is not asked for.");
+            }
             read_contacts(*contacts, pair.asked.contacts);
         }
         if (element.find("events")) read_events(element, pair);
@@ -213,11 +216,14 @@ private:
         add(*name, std::move(object));
     }
 
-    void add(const JsonElement& place, FileObject object) {
+    /// Returns false if the name is taken.
+    bool add(const JsonElement& place, FileObject object) {
         if (!names_.insert(object.name).second) {
-            return place.refuse("another object has the name '" + object.name + "'.");
+            place.refuse("another object has the name '" + object.name + "'.");
+            return false;
         }
         scene_.objects.push_back(std::move(object));
+        return true;
     }
 
     void add_copies(const JsonElement& place, const FileObject& object, const Grid& grid) {
@@ -228,7 +234,7 @@ private:
                     copy.name += "[" + std::to_string(x) + "," + std::to_string(y) + "," +
                                  std::to_string(z) + "]";
                     copy.offset = {x * grid.spacing.x, y * grid.spacing.y, z * grid.spacing.z};
-                    add(place, std::move(copy));
+                    if (!add(place, std::move(copy))) return;
                 }
             }
         }

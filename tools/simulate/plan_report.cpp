@@ -141,12 +141,18 @@ Json model_json(const std::string& path, const SceneModel& model) {
 }
 
 Json pair_json(const SceneFile& scene, const LayerPair& pair) {
-    return {{"layers", {scene.layers[pair.a], scene.layers[pair.b]}},
-            {"effects", names_of(pair.effects)},
-            {"tolerance", pair.tolerance},
-            {"max_distance", pair.max_distance},
-            {"body", pair.body == Body::solid ? "solid" : "surface"},
-            {"overlap", pair.overlap == Overlap::proper ? "proper" : "closed"}};
+    Json json = {{"layers", {scene.layers[pair.a], scene.layers[pair.b]}},
+                 {"effects", names_of(pair.effects)},
+                 {"tolerance", pair.tolerance},
+                 {"max_distance", pair.max_distance},
+                 {"body", pair.body == Body::solid ? "solid" : "surface"},
+                 {"overlap", pair.overlap == Overlap::proper ? "proper" : "closed"},
+                 {"lists_stays", pair.lists_stays}};
+    if (contains(pair.effects, Ask::contacts)) {
+        json["contacts"] = {{"tolerance", pair.contacts.tolerance}, {"most", pair.contacts.most}};
+        if (pair.contacts.work > 0) json["contacts"]["work"] = pair.contacts.work;
+    }
+    return json;
 }
 
 }  // namespace

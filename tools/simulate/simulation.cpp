@@ -9,7 +9,7 @@
 namespace cdprep::scenes {
 namespace {
 
-constexpr std::uint64_t kFirstPairs = 1024;   ///< room for pairs at the beginning
+constexpr std::uint32_t kFirstPairs = 1024;   ///< room for pairs and lists at the beginning
 constexpr std::uint64_t kPairsPerObject = 8;  ///< likewise
 /// Room for twice as many pairs as meet makes the broad phase faster; lists grow seldom.
 constexpr std::uint64_t kRoom = 2;
@@ -31,9 +31,9 @@ Simulation::Simulation(const SceneFile& file, std::span<const SceneModel> models
     : file_(&file), models_(models), parallel_for_(parallel_for), workspaces_(threads) {
     limits_.objects = static_cast<std::uint32_t>(file.objects.size());
     limits_.threads = threads;
-    limits_.pairs = file.most_pairs.value_or(
-        static_cast<std::uint32_t>(std::max(kFirstPairs, kPairsPerObject * limits_.objects)));
-    limits_.triangle_pairs = limits_.contacts = limits_.pairs;
+    limits_.pairs = file.most_pairs.value_or(static_cast<std::uint32_t>(
+        std::max<std::uint64_t>(kFirstPairs, kPairsPerObject * limits_.objects)));
+    limits_.triangle_pairs = limits_.contacts = kFirstPairs;
 }
 
 Result<Simulation> Simulation::make(const SceneFile& file, std::span<const SceneModel> models,
@@ -87,14 +87,12 @@ Result<Done> Simulation::make_room(const SceneStep& step, std::uint64_t frame) {
                                                  " needs room for " + std::to_string(needed) + " " +
                                                  what + " is " + std::to_string(most) + "."};
     };
-    const std::uint64_t most_pairs = file_->most_pairs.value_or(kMostRoom);
-    if (step.needed_pairs > most_pairs) {
-        return refuse("pairs, but limits.pairs", step.needed_pairs, most_pairs);
+    if (file_->most_pairs && step.needed_pairs > *file_->most_pairs) {
+        return refuse("pairs, but limits.pairs", step.needed_pairs, *file_->most_pairs);
     }
-    if (const auto most = std::max(step.needed_triangle_pairs, step.needed_contacts);
-        most > kMostRoom) {
-        return refuse("items in lists, but the most", most, kMostRoom);
-    }
+    const std::uint64_t most =
+        std::max({step.needed_pairs, step.needed_triangle_pairs, step.needed_contacts});
+    if (most > kMostRoom) return refuse("items in lists, but the most", most, kMostRoom);
     limits_.pairs = room_for(step.needed_pairs, limits_.pairs);
     limits_.triangle_pairs = room_for(step.needed_triangle_pairs, limits_.triangle_pairs);
     limits_.contacts = room_for(step.needed_contacts, limits_.contacts);

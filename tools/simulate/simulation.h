@@ -36,7 +36,7 @@ public:
     [[nodiscard]] const FileObject& object(ObjectId id) const noexcept {
         return file_->objects[objects_[id.slot]];
     }
-    /// The wall time that the library took for the last frame, poses and room for pairs excluded.
+    /// The wall time that the library took for the last frame, poses and more room excluded.
     [[nodiscard]] double step_seconds() const noexcept {
         return step_seconds_;
     }

@@ -14,8 +14,8 @@ namespace cdprep::report {
 enum class EventFormat : std::uint8_t { text, json, ndjson };
 
 /// Collects the frames of a simulation and words its report. An event in JSON has its frame and
-/// time, "begins" or "ends", the effect, the two objects and the reason. If it begins a distance,
-/// it has the bounds of the distance.
+/// time, "begins", "stays" or "ends", the effect, the two objects and the reason. Unless it ends,
+/// it has the bounds of a distance, or the length of a list.
 class SimulationReport {
 public:
     /// `scene` must outlive the object.

@@ -161,11 +161,14 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
           "line 3: /pairs/0/max_distance: found []; expected a number, 0 or more.",
           "line 3: /pairs/0/events/0: 'pauses' is not an event. Choose from begins, ends or "
           "stays."}},
-        {one_object("", "\"effects\": [], \"contacts\": {\"depth\": 2}"),
+        {one_object("", "\"effects\": [\"collide\"], \"contacts\": {}"),
+         {"line 3: /pairs/0/contacts: the effect contacts is not asked for."}},
+        {one_object("", "\"effects\": [\"contacts\"], \"contacts\": {\"depth\": 2}"),
          {"line 3: /pairs/0/contacts/depth: 'depth' is not a key here. Choose from tolerance, most "
           "or "
           "work."}},
-        {one_object("", "\"effects\": [], \"contacts\": {\"most\": 0, \"tolerance\": -1}"),
+        {one_object("",
+                    "\"effects\": [\"contacts\"], \"contacts\": {\"most\": 0, \"tolerance\": -1}"),
          {"line 3: /pairs/0/contacts/tolerance: found -1; expected a number, 0 or more.",
           "line 3: /pairs/0/contacts/most: found 0; expected a whole number from 1 to "
           "2147483648."}},
