@@ -122,10 +122,10 @@ struct Asked {
     std::vector<LayerPair> pairs;
     std::vector<std::uint16_t> given_as;  ///< of each pair
     /// [a][b]: 1 more than the index of the pair that was given for two layers.
-    std::array<std::uint16_t, kLayers * kLayers> given{};
+    std::array<std::uint16_t, std::size_t{kLayers} * kLayers> given{};
 
     [[nodiscard]] std::uint16_t& given_for(std::uint32_t a, std::uint32_t b) noexcept {
-        return given[std::min(a, b) * kLayers + std::max(a, b)];
+        return given[std::size_t{std::min(a, b)} * kLayers + std::max(a, b)];
     }
 };
 
