@@ -146,7 +146,7 @@ int refuse_box(Call& call, std::uint32_t number, const cdprep_world_box& box) no
             return call.refuse(CDPREP_WHY_NOT_FINITE, name.of("upper", axis), "is not a number.");
         }
     }
-    return call.refuse(CDPREP_WHY_NOT_FINITE, name, "has a number that is none.");
+    return call.refuse(CDPREP_WHY_NOT_FINITE, name, "has a NaN coordinate.");
 }
 
 BroadPhaseUpdate update_with(cdprep_broad_phase& broad_phase, const cdprep_box_update& update,

@@ -161,15 +161,15 @@ private:
     std::vector<std::string> sentences_;
 };
 
-/// Which other query tells the answer of collide(): see PairQueries.
-const char* told_by(const LayerPair& pair) {
+/// The query from which the answer of collide() follows: see PairQueries.
+const char* source_of(const LayerPair& pair) {
     const bool is_solid = pair.body == Body::solid;
     if (has(pair.effects, Ask::overlap)) {
-        return is_solid ? " (overlap tells it if it finds any)" : " (overlap tells it)";
+        return is_solid ? " (from overlap if any triangles overlap)" : " (from overlap)";
     }
     const bool is_told =
         has(pair.effects, Ask::distance) && !is_solid && pair.overlap == Overlap::closed;
-    return is_told ? " (distance mostly tells it)" : "";
+    return is_told ? " (mostly from distance)" : "";
 }
 
 std::string sentence_of(const LayerPair& pair) {
@@ -182,12 +182,11 @@ std::string sentence_of(const LayerPair& pair) {
     const bool has_overlap = has(pair.effects, Ask::overlap);
     const bool has_distance = has(pair.effects, Ask::distance);
     if (has(pair.effects, Ask::collide)) {
-        add("collide" + solid + proper + told_by(pair));
+        add("collide" + solid + proper + source_of(pair));
     }
     if (has_overlap) add("overlap" + proper);
     if (has(pair.effects, Ask::within)) {
-        add("within " + text_of(pair.tolerance) +
-            (has_distance ? " (distance mostly tells it)" : ""));
+        add("within " + text_of(pair.tolerance) + (has_distance ? " (mostly from distance)" : ""));
     }
     if (has_distance) add("distance" + solid + " up to " + text_of(pair.max_distance));
     if (has(pair.effects, Ask::contacts)) {

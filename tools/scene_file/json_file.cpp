@@ -59,7 +59,7 @@ public:
     bool key(string_t& key) override {
         key_ = key;
         if (!open_.back().value->contains(key)) return true;
-        return refuse("the key '" + key + "' stands twice in one object.");
+        return refuse("the key '" + key + "' occurs twice in one object.");
     }
     bool end_object() override {
         return close();

@@ -100,7 +100,7 @@ private:
             if (!name) return;
             if (std::find(scene_.layers.begin(), scene_.layers.end(), *name) !=
                 scene_.layers.end()) {
-                layer.refuse("the layer '" + *name + "' stands twice.");
+                layer.refuse("the layer '" + *name + "' occurs twice.");
             }
             scene_.layers.push_back(*name);
             if (scene_.layers.size() == kLayers + 1) {
@@ -142,7 +142,7 @@ private:
         }
         if (const auto contacts = element.find("contacts")) {
             if (!contains(pair.asked.effects, Ask::contacts)) {
-                contacts->refuse("the effect contacts is not asked for.");
+                contacts->refuse("the pair does not ask for contacts.");
             }
             read_contacts(*contacts, pair.asked.contacts);
         }

@@ -72,7 +72,7 @@ class Plan {
 public:
     struct Compiled;
     /// Returns the plan, or every reason why there is none, a sentence each. Refused are unknown
-    /// layers, a pair of layers that stands twice, effects that are not built, numbers out of
+    /// layers, a pair of layers that occurs twice, effects that are not built, numbers out of
     /// range, options that no effect reads, and models that do not serve an effect of their layers.
     [[nodiscard]] static Compiled compile(const PlanOptions& options);
 

@@ -99,8 +99,8 @@ struct SceneEvent {
     EventReason reason;
 };
 
-/// The work of a step. A query is not called if another one has told its answer. Of surfaces,
-/// overlaps() tells that of collide(), and distance() mostly that of collide() and within().
+/// The work of a step. A query is not called if its answer follows from another one. For surfaces,
+/// collide() follows from overlaps(), and mostly from distance(), as within() does.
 struct SceneCounts {
     std::uint64_t moved = 0;       ///< objects that moved, were added, removed or relayered
     std::uint64_t candidates = 0;  ///< pairs whose boxes meet
@@ -172,7 +172,7 @@ public:
     /// limits.threads allows; there must be at least one. Calls `parallel_for` at most five times.
     SceneStep step(std::span<Workspace> workspaces, ParallelFor parallel_for = serial_for) noexcept;
     /// Does the same with the pairs of a broad phase of the caller: pairs of slots, in any order.
-    /// They must contain all pairs whose boxes meet; a pair that is missing is not looked at. Pairs
+    /// They must contain all pairs whose boxes meet; a pair that is missing is ignored. Pairs
     /// of free slots, of layers that are not paired and of boxes that do not meet are ignored.
     /// If pairs are listed twice, needed_pairs may be larger than is needed.
     SceneStep step_with(std::span<const BoxPair> candidates, std::span<Workspace> workspaces,

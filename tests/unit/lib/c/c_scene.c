@@ -55,7 +55,7 @@ static const char* read_plan(const cdprep_plan* plan) {
     MUST(cdprep_plan_text(plan, NULL, 0, &length, NULL) == CDPREP_OK && length > 50);
     MUST(cdprep_plan_text(plan, text, sizeof text, &same, NULL) == CDPREP_OK && same == length);
     MUST(length < sizeof text && strlen(text) == length);
-    MUST(strstr(text, "layers 31 and 3: collide (distance mostly tells it), ") == text);
+    MUST(strstr(text, "layers 31 and 3: collide (mostly from distance), ") == text);
     MUST(cdprep_plan_text(plan, start, sizeof start, &same, NULL) == CDPREP_OK);
     MUST(same == length && strcmp(start, "layers") == 0);
     MUST(cdprep_plan_ask(plan, FLOOR, &ask, NULL) == CDPREP_OK && ask == EFFECTS);

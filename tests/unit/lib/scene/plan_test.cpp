@@ -46,7 +46,7 @@ TEST(Plan, DropsWhatNobodyAsksFor) {
     EXPECT_TRUE(plan.filter_of(3).allows(plan.filter_of(1)));
     EXPECT_EQ(plan.describe(),
               "layers 0 and 1: collide\n"
-              "layers 3 and 1: within 0.5 (distance mostly tells it), distance up to 2\n"
+              "layers 3 and 1: within 0.5 (mostly from distance), distance up to 2\n"
               "not computed, for no pair of layers asks: overlap, contacts\n"
               "layers that are never looked at together: 0 and 0, 0 and 3, 1 and 1, 3 and 3\n");
     EXPECT_EQ(
@@ -65,11 +65,10 @@ TEST(Plan, DescribesListsAndTheirLimits) {
     const auto made = compiled({{.effects = Ask::collide | Ask::overlap | Ask::contacts,
                                  .overlap = Overlap::proper,
                                  .contacts = {.tolerance = 0.25, .most = 8, .work = 1000}}});
-    EXPECT_EQ(
-        made.plan->describe(),
-        "layers 0 and 0: collide, proper (overlap tells it), overlap, proper, contacts within "
-        "0.25, at most 8, work 1000\n"
-        "not computed, for no pair of layers asks: within, distance\n");
+    EXPECT_EQ(made.plan->describe(),
+              "layers 0 and 0: collide, proper (from overlap), overlap, proper, contacts within "
+              "0.25, at most 8, work 1000\n"
+              "not computed, for no pair of layers asks: within, distance\n");
     EXPECT_EQ(made.plan->reach_of(0), 0.125);
 }
 

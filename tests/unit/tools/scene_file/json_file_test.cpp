@@ -50,7 +50,7 @@ TEST(JsonFile, NamesTheLineOfASyntaxError) {
 
 TEST(JsonFile, RefusesAKeyThatStandsTwice) {
     EXPECT_EQ(refusal_of("{\"a\": 1,\n\"a\": 1}"),
-              "f: line 2: the key 'a' stands twice in one object.");
+              "f: line 2: the key 'a' occurs twice in one object.");
 }
 
 // A hostile file: its pointers would take quadratic memory.

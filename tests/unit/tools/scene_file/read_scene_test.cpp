@@ -146,7 +146,7 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
         {"{\"cdprep_scene\": 1, \"pairs\": [], \"objects\": {}, \"limits\": {\"pairs\": 0.5},\n"
          "\"layers\": [\"a\", \"a\", \"\"]}",
          {"line 1: /limits/pairs: found 0.5; expected a whole number from 1 to 2147483648.",
-          "line 2: /layers/1: the layer 'a' stands twice.",
+          "line 2: /layers/1: the layer 'a' occurs twice.",
           "line 2: /layers/2: found \"\"; expected a text that is not empty.",
           "line 1: /objects: found an empty object; expected an array."}},
         {one_object("", "\"effects\": [\"colide\", 3], \"body\": \"hull\", \"overlap\": 1"),
@@ -162,7 +162,7 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
           "line 3: /pairs/0/events/0: 'pauses' is not an event. Choose from begins, ends or "
           "stays."}},
         {one_object("", "\"effects\": [\"collide\"], \"contacts\": {}"),
-         {"line 3: /pairs/0/contacts: the effect contacts is not asked for."}},
+         {"line 3: /pairs/0/contacts: the pair does not ask for contacts."}},
         {one_object("", "\"effects\": [\"contacts\"], \"contacts\": {\"depth\": 2}"),
          {"line 3: /pairs/0/contacts/depth: 'depth' is not a key here. Choose from tolerance, most "
           "or "
