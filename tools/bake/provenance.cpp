@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bake/provenance.h"
 
-#include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "text/bounds_name.h"
+#include "text/number_text.h"
 #include "text/space_name.h"
 #include "text/structure_name.h"
 
 namespace cdprep::cli {
 namespace {
-
-std::string hexadecimal(std::uint64_t value) {
-    std::array<char, 17> text{};
-    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
-    return text.data();
-}
 
 /// Returns {} if no structure besides the BVH was built.
 nlohmann::json structures_json(const std::vector<report::StructureSettings>& structures) {
@@ -59,7 +52,7 @@ std::string provenance_json(const BakeOptions& options, const mesh::TriangleSoup
           {"repair", options.repair},
           {"structures", structures_json(options.structures.settings)},
           {"weld", options.weld_distance}}},
-        {"source", {{"xxh3_64", hexadecimal(soup.source_hash)}}},
+        {"source", {{"xxh3_64", report::hexadecimal(soup.source_hash)}}},
     };
     nlohmann::json& given = json["options"];
     if (hulls.max_vertices > 0) given["hull_vertices"] = hulls.max_vertices;
@@ -70,7 +63,7 @@ std::string provenance_json(const BakeOptions& options, const mesh::TriangleSoup
     if (options.import.up_axis) given["up_axis"] = report::axis_name(*options.import.up_axis);
     for (const mesh::InputFile& file : soup.other_files) {
         json["source"]["files"].push_back(
-            {{"name", file.name}, {"xxh3_64", hexadecimal(file.hash)}});
+            {{"name", file.name}, {"xxh3_64", report::hexadecimal(file.hash)}});
     }
     return json.dump();
 }

@@ -3,8 +3,9 @@
 
 #include <array>
 #include <charconv>
-#include <cstdio>
 #include <ostream>
+
+#include "text/number_text.h"
 
 // This file writes JSON by hand. There may be millions of pairs, and scripts may rely on the blank
 // after each comma and colon.
@@ -253,12 +254,6 @@ std::string as_json(const ContactFeature& feature) {
     return text + "}";
 }
 
-std::string hex(std::uint64_t id) {
-    std::array<char, 17> text{};
-    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(id));
-    return text.data();
-}
-
 std::string as_json(const Contact& contact) {
     std::string text =
         "{\"id\": [" + number(contact.id >> 32) + ", " + number(contact.id & 0xffffffffU) +
@@ -278,8 +273,8 @@ std::string as_json(const Contact& contact) {
         const ManifoldPoint& point = contact.points[i];
         text += std::string(i > 0 ? ", " : "") + "{\"on_a\": [" + place(point.on_a, ", ") +
                 "], \"on_b\": [" + place(point.on_b, ", ") +
-                "], \"distance\": " + number(point.distance) + ", \"id\": \"" + hex(point.id) +
-                "\"}";
+                "], \"distance\": " + number(point.distance) + ", \"id\": \"" +
+                hexadecimal(point.id) + "\"}";
     }
     return text + "]}";
 }

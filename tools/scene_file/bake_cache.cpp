@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene_file/bake_cache.h"
 
-#include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -13,6 +11,7 @@
 #include "cdprep/format/checksum.h"
 #include "cdprep/model.h"
 #include "import/source_file.h"
+#include "text/number_text.h"
 
 namespace cdprep::scenes {
 namespace {
@@ -24,12 +23,6 @@ std::uint64_t hash_of(std::string_view bytes) {
     return format::checksum(std::as_bytes(std::span(bytes)));
 }
 
-std::string hexadecimal(std::uint64_t value) {
-    std::array<char, 17> text{};
-    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
-    return text.data();
-}
-
 /// Returns whether the files that a mesh refers to are those that were read.
 bool are_same(const Json& files, const fs::path& folder, std::uint64_t max_bytes) {
     for (const Json& file : files) {
@@ -39,7 +32,7 @@ bool are_same(const Json& files, const fs::path& folder, std::uint64_t max_bytes
         if (!file.is_object() || !is_text("name") || !is_text("xxh3_64")) return false;
         const auto found =
             import::SourceFile::open(folder / file["name"].get<std::string>(), max_bytes);
-        if (!found || hexadecimal(hash_of(found->bytes())) != file["xxh3_64"]) return false;
+        if (!found || report::hexadecimal(hash_of(found->bytes())) != file["xxh3_64"]) return false;
     }
     return true;
 }
@@ -76,7 +69,7 @@ Result<fs::path> find_or_bake(const fs::path& mesh, const fs::path& folder,
     soup.source_hash = hash_of(source->bytes());
     const std::string origin = cli::provenance_json(options, soup);
     const fs::path baked =
-        folder / (mesh.stem().string() + "-" + hexadecimal(hash_of(origin)) + ".cdp.h5");
+        folder / (mesh.stem().string() + "-" + report::hexadecimal(hash_of(origin)) + ".cdp.h5");
     if (is_bake_of(baked, mesh, origin, options.import.file_bytes)) return baked;
     const auto done = cli::bake(mesh, baked, options, threads, begins);
     if (!done) return done.error();

@@ -79,12 +79,6 @@ Json event_json(std::uint64_t frame, double time_s, const SceneEvent& event,
     return json;
 }
 
-std::string hash_text(std::uint64_t hash) {
-    std::array<char, 17> text{};
-    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
-    return text.data();
-}
-
 std::size_t number_of(Ask effect) {
     const auto* at = std::find(kSceneEffects.begin(), kSceneEffects.end(), effect);
     return static_cast<std::size_t>(at - kSceneEffects.begin());
@@ -184,7 +178,7 @@ std::string SimulationReport::summary_json(const scenes::Simulation& simulation)
                     {"not_computed", not_computed_},
                     {"grown_steps", simulation.grown_steps()},
                     {"step_ms", {{"median", milliseconds_at(0.5)}, {"p95", milliseconds_at(0.95)}}},
-                    {"state_hash", hash_text(simulation.scene().state_hash())}});
+                    {"state_hash", hexadecimal(simulation.scene().state_hash())}});
 }
 
 std::string SimulationReport::summary_text(const scenes::Simulation& simulation) const {
@@ -214,7 +208,7 @@ std::string SimulationReport::summary_text(const scenes::Simulation& simulation)
             counted(simulation.grown_steps(), "frame", "frames") + " needed more room\n";
     return text + "a frame took " + fixed(milliseconds_at(0.5), 3) + " ms (median), 95 % below " +
            fixed(milliseconds_at(0.95), 3) + " ms; state " +
-           hash_text(simulation.scene().state_hash()) + "\n";
+           hexadecimal(simulation.scene().state_hash()) + "\n";
 }
 
 }  // namespace cdprep::report

@@ -18,4 +18,7 @@ namespace cdprep::report {
 /// Returns a count with its noun: "1 triangle", "2 triangles".
 [[nodiscard]] std::string counted(std::uint64_t count, const char* one, const char* many);
 
+/// Returns 16 hexadecimal digits.
+[[nodiscard]] std::string hexadecimal(std::uint64_t value);
+
 }  // namespace cdprep::report
