@@ -16,7 +16,7 @@ set(lib_rooms
     "hull: core exact kernels"
     "pieces: core exact hull walk"
     "query: core exact pieces walk"
-    "scene: core kernels"
+    "scene: core kernels walk"
     "cells: core exact kernels walk"
     "cells/build: build cells core exact"
     "c: core kernels pieces walk")

@@ -28,10 +28,25 @@ bool any_contact(const Model& a, const Model& b, const Placement& placement, Wor
     if (proven_gap(*cache, a, b, placement) > 0) return false;
     CachedSearch search(a, b, placement, workspace, options, *cache);
     const bool touched = (cache->holds & held_touch) != 0 && has_pair(*cache, a, b);
-    const LeafPlaces held = {cache->triangle_a / format::kBvhWidth,
-                             cache->triangle_b / format::kBvhWidth};
-    if (touched && search.touches_again(held)) return true;
+    if (touched && search.touches_again()) return true;
     return search.walk();
+}
+
+bool any_contact_near(TreePair& touched, const Pair& pair, Workspace& workspace) noexcept {
+    const Model &a = pair.a, &b = pair.b;
+    if (touched.a < a.triangle_count() && touched.b < b.triangle_count()) {
+        PairCache cache;
+        remember_pair(cache, touched);
+        CachedSearch search(a, b, pair.placement, workspace, pair.options, cache);
+        const bool touches = search.touches_again();
+        touched = {cache.triangle_a, cache.triangle_b};
+        if (touches) return true;
+    }
+    // If nothing is held, no gap is proved either: most pairs that do not touch are never asked
+    // again, and a proof takes twice as long as a walk.
+    const auto found = find_contact(a, b, pair.placement, workspace, pair.options);
+    touched = found.value_or(no_pair);
+    return found.has_value();
 }
 
 }  // namespace cdprep

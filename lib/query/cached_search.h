@@ -35,12 +35,6 @@ inline bool still_touches(const PairCache& cache, const Model& a, const Model& b
     return touch(cache.triangle_a, cache.triangle_b, false);
 }
 
-/// Leaves of both hierarchies.
-struct LeafPlaces {
-    std::uint32_t a;
-    std::uint32_t b;
-};
-
 /// One query that starts from a cache.
 class CachedSearch {
 public:
@@ -56,8 +50,9 @@ public:
           batch_(a, b, placed_, scratch_),
           trees_(a, b, scratch_) {}
 
-    /// Returns whether anything touches in two leaves, or in two nodes around them.
-    bool touches_again(const LeafPlaces& held) noexcept;
+    /// Returns whether anything touches in the leaves of the cached pair, or in two nodes around
+    /// them.
+    bool touches_again() noexcept;
     /// Returns whether anything touches. Walks both hierarchies with boxes widened by the gap to be
     /// proved until it reaches a leaf, and with unwidened boxes from then on. If it reaches none,
     /// the gap is proved.
@@ -101,14 +96,16 @@ private:
     TriangleTrees trees_;
 };
 
-inline bool CachedSearch::touches_again(const LeafPlaces& held) noexcept {
-    if (look_at(held.a, held.b)) return true;
+inline bool CachedSearch::touches_again() noexcept {
+    const std::uint32_t leaf_a = cache_.triangle_a / format::kBvhWidth;
+    const std::uint32_t leaf_b = cache_.triangle_b / format::kBvhWidth;
+    if (look_at(leaf_a, leaf_b)) return true;
     const auto around = [](const Tree& tree, std::uint32_t leaf) {
         const std::uint32_t height = std::min(kNearHeight, tree.shape.levels);
         return TreePlace{height, leaf >> (3 * height)};
     };
     return !walk_pairs_from<Search::first>(
-        {around(trees_.a, held.a), around(trees_.b, held.b)}, 0, trees_.a, trees_.b, placed_,
+        {around(trees_.a, leaf_a), around(trees_.b, leaf_b)}, 0, trees_.a, trees_.b, placed_,
         scratch_, [&](const PendingPair& pair) { return !look_at(pair.a.index, pair.b.index); });
 }
 

@@ -8,9 +8,8 @@ namespace {
 
 class PairQueries {
 public:
-    PairQueries(const Pair& pair, const LayerPair& asks, Workspace& workspace,
-                PairAnswer& answer) noexcept
-        : pair_(pair), asks_(asks), workspace_(workspace), answer_(answer) {}
+    PairQueries(const PairQuestion& question, Workspace& workspace, PairAnswer& answer) noexcept
+        : pair_(question.pair), asks_(question.asks), workspace_(workspace), answer_(answer) {}
 
     // The later ones use what the earlier ones have found.
     void overlap(ListPages<TrianglePair>::Writer& list) noexcept {
@@ -44,7 +43,7 @@ public:
             answer_.collision.hit = *known;
         } else {
             call(Ask::collide);
-            answer_.collision = cdprep::collide(pair_, workspace_);
+            answer_.collision = collision();
         }
         hold(Ask::collide, answer_.collision.hit == Answer::yes);
     }
@@ -78,6 +77,14 @@ private:
         if (holds) answer_.holds = answer_.holds | effect;
     }
 
+    /// As cdprep::collide(), but begins where the last contact was.
+    [[nodiscard]] Collision collision() noexcept {
+        if (any_contact_near(answer_.touched, pair_, workspace_)) return {Answer::yes, {}};
+        if (asks_.body == Body::surface) return {};
+        const Containment inside = containment(pair_, workspace_);
+        return {inside.answer, inside};
+    }
+
     /// Whether the surfaces touch, if the distance tells.
     [[nodiscard]] std::optional<Answer> touches_by_distance() const noexcept {
         if (!called(Ask::distance) || asks_.body == Body::solid) return std::nullopt;
@@ -108,10 +115,12 @@ private:
 
 }  // namespace
 
-PairAnswer ask_pair(const Pair& pair, const LayerPair& asks, Ask effects, Workspace& workspace,
+PairAnswer ask_pair(const PairQuestion& question, Workspace& workspace,
                     const ListWriters& lists) noexcept {
+    const Ask effects = question.effects;
     PairAnswer answer;
-    PairQueries queries(pair, asks, workspace, answer);
+    answer.touched = question.touched;
+    PairQueries queries(question, workspace, answer);
     if (contains(effects, Ask::overlap)) queries.overlap(*lists.triangle_pairs);
     if (contains(effects, Ask::distance)) queries.distance();
     if (contains(effects, Ask::collide)) queries.collide();

@@ -8,6 +8,7 @@
 #include "cdprep/pairs.h"
 #include "cdprep/plan.h"
 #include "scene/list_pages.h"
+#include "walk/find_contact.h"
 
 namespace cdprep {
 
@@ -18,6 +19,14 @@ struct ListWriters {
     std::span<Contact> contact_room;                  ///< for the contacts of two objects
 };
 
+/// What is asked of two objects.
+struct PairQuestion {
+    const Pair& pair;
+    const LayerPair& asks;  ///< the options of the effects
+    Ask effects;
+    TreePair touched;  ///< triangles that touched in the last step, or no_pair
+};
+
 /// What is known of two objects.
 struct PairAnswer {
     Ask holds = Ask::nothing;   ///< effects that hold
@@ -26,10 +35,10 @@ struct PairAnswer {
     Distance distance{};            ///< if `distance` holds
     ContactsVerdict contacts{};     ///< of the list of contacts
     std::uint64_t overlapping = 0;  ///< triangle pairs in the list
+    TreePair touched = no_pair;     ///< triangles found to touch
 };
 
-/// Computes `effects` of two objects; `asks` has their options.
-[[nodiscard]] PairAnswer ask_pair(const Pair& pair, const LayerPair& asks, Ask effects,
-                                  Workspace& workspace, const ListWriters& lists) noexcept;
+[[nodiscard]] PairAnswer ask_pair(const PairQuestion& question, Workspace& workspace,
+                                  const ListWriters& lists) noexcept;
 
 }  // namespace cdprep

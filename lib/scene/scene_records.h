@@ -9,6 +9,7 @@
 #include "cdprep/pairs.h"
 #include "cdprep/scene.h"
 #include "scene/carver.h"
+#include "walk/find_contact.h"
 
 namespace cdprep {
 
@@ -28,6 +29,7 @@ struct Record {
     Ask called = Ask::nothing;  ///< effects whose query was called in this step
     Ask holds = Ask::nothing;
     Collision collision;
+    TreePair touched = no_pair;  ///< triangles that `collide` found, where the next search begins
     RecordList triangle_pairs;
     RecordList contacts;
     bool is_new = false;    ///< looked at in this step

@@ -112,9 +112,12 @@ void Scene::State::keep(std::uint32_t old, std::uint32_t now) noexcept {
 void Scene::State::keep_known() noexcept {
     merge(last, next, [&](std::uint32_t old, std::uint32_t now) {
         if (old == last.count || now == next.count) return;
-        const Record &before = last.record[old], &record = next.record[now];
+        const Record& before = last.record[old];
+        Record& record = next.record[now];
+        if (!record.is_same(before)) return;
         const bool is_known = contains(before.asked, effects_of(record));
-        if (is_known && !is_changed(record) && record.is_same(before)) keep(old, now);
+        if (is_known && !is_changed(record)) keep(old, now);
+        record.touched = before.touched;
     });
     asked_count = 0;
     for (std::uint32_t i = 0; i < next.count; ++i) {
@@ -151,9 +154,11 @@ void Scene::State::ask(std::uint32_t number, Workspace& workspace,
                     {.body = asks.body, .overlap = asks.overlap}};
     if (lists.triangle_pairs) record.triangle_pairs.source = lists.triangle_pairs->begin_list();
     if (lists.contacts) record.contacts.source = lists.contacts->begin_list();
-    const PairAnswer answer = ask_pair(pair, asks, record.asked, workspace, lists);
+    const PairAnswer answer =
+        ask_pair({pair, asks, record.asked, record.touched}, workspace, lists);
     record.holds = answer.holds;
     record.called = answer.called;
+    record.touched = answer.touched;
     record.collision = answer.collision;
     // A list that does not fit is longer than its count says; then the step is not complete.
     record.triangle_pairs.count = static_cast<std::uint32_t>(answer.overlapping);

@@ -14,6 +14,9 @@ struct TreePair {
     std::uint32_t b;
 };
 
+/// No pair: no model has triangles of these numbers.
+inline constexpr TreePair no_pair = {0xffffffff, 0xffffffff};
+
 /// Returns whether the cache holds a pair of triangles that both models have.
 [[nodiscard]] bool has_pair(const PairCache& cache, const Model& a, const Model& b) noexcept;
 
@@ -28,5 +31,11 @@ void remember_pair(PairCache& cache, const TreePair& pair) noexcept;
 [[nodiscard]] bool any_contact(const Model& a, const Model& b, const Placement& placement,
                                Workspace& workspace, const PairOptions& options,
                                PairCache* cache) noexcept;
+
+/// Returns whether any triangles are in contact. Searches around `touched` first, a pair that was
+/// in contact before, or no_pair. Sets it to the pair found, or to no_pair. It changes speed, never
+/// the result.
+[[nodiscard]] bool any_contact_near(TreePair& touched, const Pair& pair,
+                                    Workspace& workspace) noexcept;
 
 }  // namespace cdprep
