@@ -243,7 +243,7 @@ CellBlock KeyedWalk<Contacts>::block_around(unsigned boxes) const noexcept {
 template <class Contacts>
 std::size_t KeyedWalk<Contacts>::find_cells(const TestedBoxes& side,
                                             std::array<KeyedCell, 8>& cells) noexcept {
-    kernel_.place_among_cells(cell_placement_, node_boxes(tree_b_, side), boxes_);
+    kernel_.place_among_cells(cell_placement_, node_boxes(tree_b_, side, false), boxes_);
     const CellBlock block = block_around(chosen(side));
     std::array<std::uint8_t, 8> met;
     kernel_.cells_met(boxes_, planes_.planes(block), chosen(side), met.data());
@@ -410,9 +410,9 @@ kernels::BoxPairs KeyedWalk<Contacts>::meeting(const CandidateNode& candidate,
         scratch_.counts->box_pairs += std::uint64_t(std::popcount(of_a)) * std::popcount(of_b);
     }
     kernels::BoxSizes sizes;
-    return candidate.pairs &
-           kernel_.overlapping_boxes(placed_.placement, node_boxes(tree_a_, side_a),
-                                     node_boxes(tree_b_, side), {of_a, of_b, nullptr}, sizes);
+    return candidate.pairs & kernel_.overlapping_boxes(
+                                 placed_.placement, node_boxes(tree_a_, side_a, false),
+                                 node_boxes(tree_b_, side, false), {of_a, of_b, nullptr}, sizes);
 }
 
 template <class Contacts>

@@ -228,6 +228,8 @@ struct BoundTests {
     /// As Table::near_boxes.
     BoxPairs (*near)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
                      const BoxChoice& choice, const Reach& reach, BoxPairFloats& gaps) noexcept;
+
+    bool reads_swept;  ///< NodeBoxes::swept must be there
 };
 
 /// The motion of points under test. They move to rotation * p + translation, as

@@ -360,8 +360,9 @@ BoxPairs near_swept_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxe
 }
 
 template <int kSides, class F, class R>
-inline constexpr BoundTests kSweptTests = {
-    overlapping_swept_of<kSides, F, R>, swept_depths_of<kSides, F, R>, near_swept_of<kSides, F, R>};
+inline constexpr BoundTests kSweptTests = {overlapping_swept_of<kSides, F, R>,
+                                           swept_depths_of<kSides, F, R>,
+                                           near_swept_of<kSides, F, R>, true};
 
 }  // namespace
 }  // namespace cdprep::kernels

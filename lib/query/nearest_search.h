@@ -145,9 +145,10 @@ std::size_t NearestSearch<Trees>::push_children(const Tree& a, const Tree& b,
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
     kernels::BoxPairFloats gaps;
-    kernels::BoxPairs pairs = tests_for(a, b, Prefer::swept)
-                                  .near(placement, node_boxes(a, side_a), node_boxes(b, side_b),
-                                        {chosen(side_a), chosen(side_b), nullptr}, reach_, gaps);
+    const kernels::BoundTests tests = tests_for(a, b, Prefer::swept);
+    kernels::BoxPairs pairs = tests.near(placement, node_boxes(a, side_a, tests.reads_swept),
+                                         node_boxes(b, side_b, tests.reads_swept),
+                                         {chosen(side_a), chosen(side_b), nullptr}, reach_, gaps);
     const std::uint64_t base = PendingPair{side_a.first_below, side_b.first_below}.packed();
     for (; pairs != 0; pairs &= pairs - 1) {
         const auto bit = static_cast<unsigned>(std::countr_zero(pairs));

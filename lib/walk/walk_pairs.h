@@ -191,10 +191,12 @@ inline const float* box_around(const Tree& tree, const TreePlace& place) noexcep
     return &tree.nodes[node].lower[0][place.index % format::kBvhWidth];
 }
 
-inline kernels::NodeBoxes node_boxes(const Tree& tree, const TestedBoxes& side) noexcept {
+/// What a file holds beyond what a test reads must not cost the test anything.
+inline kernels::NodeBoxes node_boxes(const Tree& tree, const TestedBoxes& side,
+                                     bool reads_swept) noexcept {
     const float* oriented =
         tree.oriented == nullptr ? nullptr : tree.oriented[side.node].axis[0][0].data();
-    const float* swept = tree.swept == nullptr ? nullptr : tree.swept[side.node].centre[0].data();
+    const float* swept = reads_swept ? tree.swept[side.node].centre[0].data() : nullptr;
     return {tree.nodes[side.node].lower[0].data(), oriented, swept};
 }
 
@@ -213,7 +215,7 @@ inline kernels::BoundTests tests_for(const Tree& a, const Tree& b, Prefer prefer
     if (swept && (prefer == Prefer::swept || !oriented)) {
         return kernel.swept[static_cast<std::size_t>(a.swept_kind)];
     }
-    return {kernel.overlapping_boxes, kernel.overlap_depths, kernel.near_boxes};
+    return {kernel.overlapping_boxes, kernel.overlap_depths, kernel.near_boxes, false};
 }
 
 inline std::uint8_t chosen(const TestedBoxes& side) noexcept {
@@ -237,8 +239,8 @@ void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed,
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
     const kernels::BoxChoice choice = {chosen(side_a), chosen(side_b),
                                        descent.a && descent.b ? box_around(a, pair.a) : nullptr};
-    const kernels::NodeBoxes in_a = node_boxes(a, side_a);
-    const kernels::NodeBoxes in_b = node_boxes(b, side_b);
+    const kernels::NodeBoxes in_a = node_boxes(a, side_a, tests.reads_swept);
+    const kernels::NodeBoxes in_b = node_boxes(b, side_b, tests.reads_swept);
     // Search::first cannot predict the deepest pair, so its oriented boxes were not prefetched. The
     // test reads them late, so a prefetch here still helps. Those of all children would be too
     // many.
