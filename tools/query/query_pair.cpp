@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <span>
 #include <sstream>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "bake/structures.h"
-#include "cdprep/advanced/convex_distance.h"
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/advanced/query_counts.h"
 #include "cdprep/cells.h"
 #include "cdprep/cells/level_of_detail.h"
 #include "cdprep/cells/overlap_through.h"
-#include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
 #include "cli/open_for.h"
 #include "cli/signals.h"
@@ -28,72 +23,12 @@
 #include "command_line/command_page.h"
 #include "compare/cells/literal_octree.h"
 #include "query/command.h"
-#include "query/query_placements.h"
-#include "query/query_scene.h"
-#include "query/query_structure.h"
+#include "query/query_hulls.h"
 #include "query/triangle_lists.h"
 #include "text/structure_name.h"
 
 namespace cdprep::cli {
 namespace {
-
-enum class PairQuestion : std::uint8_t { collide, overlap, distance, within };
-
-struct PairArguments {
-    PairQuestion question = PairQuestion::collide;
-    std::filesystem::path a;
-    std::filesystem::path b;
-    PlacementWords placement;
-    StructureWords structure;
-    std::string format;  ///< empty: text, or ndjson for a scene
-    std::string as = "surface";
-    std::string contact = "closed";
-    std::optional<double> tolerance;
-    DistanceOptions errors;
-    SceneArguments scene;
-    std::optional<std::uint32_t> level_of_detail;
-    std::size_t repeat = 1;
-    bool timings = false;
-    bool count = false;
-    bool pairs = false;
-    bool segments = false;
-    bool counts = false;
-    bool skip_degenerate = false;
-};
-
-/// Runs a query `repeat` times and keeps the time of each run.
-class Stopwatch {
-public:
-    template <class Ask>
-    std::invoke_result_t<Ask> timed(std::size_t repeat, bool wanted, Ask ask) {
-        for (std::size_t i = 1;; ++i) {
-            const Clock::time_point begin = Clock::now();
-            auto answer = ask();
-            const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
-            if (wanted) microseconds_.push_back(taken.count());
-            if (i >= repeat) return answer;
-        }
-    }
-
-    /// Returns the distribution of the times as one line of text.
-    [[nodiscard]] std::string line() {
-        if (microseconds_.empty()) return "";
-        std::sort(microseconds_.begin(), microseconds_.end());
-        const auto at = [&](double share) {
-            return microseconds_[static_cast<std::size_t>(
-                share * static_cast<double>(microseconds_.size() - 1))];
-        };
-        std::ostringstream line;
-        line << microseconds_.size() << " questions: median " << std::fixed << std::setprecision(2)
-             << at(0.5) << " us, 95 % below " << at(0.95) << " us, most " << at(1) << " us\n";
-        return line.str();
-    }
-
-private:
-    using Clock = std::chrono::steady_clock;
-
-    std::vector<double> microseconds_;
-};
 
 /// Returns whether a structure has cells; the BVH and the pieces have none.
 bool has_cells(Structure structure) {
@@ -279,92 +214,6 @@ private:
     PieceCache cache_;
     Stopwatch stopwatch_;
 };
-
-bool asks_hulls(const PairArguments& arguments) {
-    return arguments.structure.structure == "hull" &&
-           (arguments.question == PairQuestion::collide ||
-            arguments.question == PairQuestion::distance);
-}
-
-/// Returns an error if an option is given that queries on convex hulls do not support.
-std::optional<Error> find_idle_for_hulls(const PairArguments& arguments) {
-    const std::array<std::pair<const char*, bool>, 6> options = {
-        {{"--leaf-test", !arguments.structure.leaf_test.empty()},
-         {"--descent", !arguments.structure.descent.empty()},
-         {"--search", !arguments.structure.search.empty()},
-         {"--level-of-detail", arguments.level_of_detail.has_value()},
-         {"--contact proper", arguments.contact == "proper"},
-         {"--skip-degenerate", arguments.skip_degenerate}}};
-    for (const auto& [option, is_given] : options) {
-        if (!is_given) continue;
-        return Error{ErrorCode::bad_argument,
-                     std::string(option) +
-                         " says nothing of convex hulls: leave it out, or ask "
-                         "through another --structure."};
-    }
-    return std::nullopt;
-}
-
-Result<Model> open_hulls(const std::filesystem::path& path) {
-    Result<Model> opened = open_for(path, Ask::hulls);
-    if (!opened || find_hull(opened.value(), format::HullScope::whole)) return opened;
-    return Error{ErrorCode::bad_argument,
-                 path.string() +
-                     ": has no convex hull of the whole model. Bake the mesh again with "
-                     "--structures hull."};
-}
-
-std::string hull_counts(const QueryCounts& counts) {
-    std::ostringstream line;
-    line << counts.hull_pairs << " hull pairs, " << counts.hull_steps
-         << " steps, each a farthest point of both; decided " << counts.hulls_by_exact
-         << " exactly, in " << counts.exact_steps << " steps\n";
-    return line.str();
-}
-
-/// Queries the convex hulls of the whole models, always as solids.
-Exit run_hulls(const PairArguments& arguments) {
-    if (const auto error = find_idle_for_hulls(arguments)) return fail("query", *error);
-    const Result<Model> a = open_hulls(arguments.a);
-    if (!a) return fail("query", a.error());
-    const Result<Model> b = open_hulls(arguments.b);
-    if (!b) return fail("query", b.error());
-    const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
-    if (!placements) return fail("query", placements.error());
-
-    const ConvexPoints of_a = convex_points(a.value(), 0), of_b = convex_points(b.value(), 0);
-    const DistanceOptions options = {arguments.errors.relative_error,
-                                     arguments.errors.absolute_error,
-                                     arguments.errors.max_distance};
-    ConvexCache cache;
-    QueryCounts counts;
-    QueryCounts* const counted = arguments.counts ? &counts : nullptr;
-    Stopwatch stopwatch;
-    report::Answers answers(std::cout, parse_answer_format(arguments.format));
-    for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
-        const Placement& placement = placements.value()[i];
-        const ConvexCache before = cache;
-        const auto timed = [&](auto ask) {
-            return stopwatch.timed(arguments.repeat, arguments.timings, [&] {
-                cache = before;
-                return ask();
-            });
-        };
-        if (arguments.question == PairQuestion::collide) {
-            answers.add(report::HullCollideAnswer{
-                i, timed([&] { return convex_collide(of_a, of_b, placement, &cache, counted); })});
-        } else {
-            answers.add(report::HullDistanceAnswer{
-                i, timed([&] {
-                    return convex_distance(of_a, of_b, placement, options, &cache, counted);
-                })});
-        }
-    }
-    answers.finish();
-    if (arguments.timings) std::cerr << stopwatch.line();
-    if (arguments.counts) std::cerr << hull_counts(counts);
-    return Exit::success;
-}
 
 /// Returns the queries that both models must serve.
 Ask asks_of(const PairArguments& arguments) {
