@@ -51,9 +51,9 @@ double deviation(const Linear& m) {
 }
 
 /// Splits transforms into models and poses.
-class Reader {
+class AssemblyReader {
 public:
-    Reader(const fs::path& path, import::Assembly file)
+    AssemblyReader(const fs::path& path, import::Assembly file)
         : read_{.file = std::move(file), .scene = {}, .models = {}, .rounding = 0}, path_(path) {}
 
     Result<AssemblyScene> run() {
@@ -183,7 +183,7 @@ bool is_assembly(const fs::path& path) {
 Result<AssemblyScene> read_assembly(const fs::path& path, const import::ImportOptions& options) {
     Result<import::Assembly> file = import::Assembly::open(path, options);
     if (!file) return file.error();
-    return Reader(path, std::move(file).value()).run();
+    return AssemblyReader(path, std::move(file).value()).run();
 }
 
 }  // namespace cdprep::scenes

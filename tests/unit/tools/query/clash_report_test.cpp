@@ -36,7 +36,9 @@ TEST(ClashReport, ALineHasTheMembersOfTheQuery) {
               "{\"a\": \"a\\\"b\", \"b\": \"c\", \"effect\": \"overlap\", \"hit\": true, "
               "\"count\": 2, \"pairs\": [[17, 4], [18, 4]]}\n");
     const ClashReport within(Ask::within, AnswerFormat::ndjson);
-    EXPECT_EQ(within.line("a", "b", WithinAnswer{.within = true}),
+    WithinAnswer near;
+    near.within = true;
+    EXPECT_EQ(within.line("a", "b", near),
               "{\"a\": \"a\", \"b\": \"b\", \"effect\": \"within\", \"within\": true}\n");
 }
 

@@ -5,9 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 #include <cstring>
-#include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
