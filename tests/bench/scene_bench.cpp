@@ -283,8 +283,8 @@ struct FclSearch {
         if (self.is_bounded) result.min_distance = nearer_than;
         fcl::distance(a, b, fcl::DistanceRequestd(), result);
         if (result.min_distance <= self.tolerance) {
-            const auto [low, high] = std::minmax(number(a), number(b));
-            self.clashes.found.push_back({low, high});
+            const std::uint32_t first = number(a), second = number(b);
+            self.clashes.found.push_back({std::min(first, second), std::max(first, second)});
         }
         return false;
     }
