@@ -492,9 +492,7 @@ void add_question(const Command& query, PairQuestion question, const char* name,
     command.set_notes(serves_scenes ? kSceneNotes : "", examples);
     const Option a = command.add_option("a", arguments->a, "The first baked model");
     const Option b = command.add_option("b", arguments->b, "The second baked model");
-    if (serves_scenes) {
-        add_scene(command, arguments->scene);
-    } else {
+    if (!serves_scenes) {
         a.required();
         b.required();
     }
@@ -540,6 +538,7 @@ void add_question(const Command& query, PairQuestion question, const char* name,
             .excludes(count)
             .group("Query");
     }
+    if (serves_scenes) add_scene(command, arguments->scene);
     command.callback([arguments, command, &exit] { exit = run(command, *arguments); });
 }
 
