@@ -427,6 +427,8 @@ def the_pairs(program, folder):
     found, summary = ask([far], "distance")
     must(found == oracle({"a"}, "distance", "--max-distance", 0.5) and found and
          summary["max_distance"] == 0.5, f"{summary}")
+    found, summary = ask([], "overlap")
+    must(found == [] and summary["objects"] == summary["pairs_possible"] == 0, f"{summary}")
     # The sample's layers state a tolerance and a distance. The bolt begins 40 mm above.
     found, summary = clashes(program, "distance", SCENES / "assembly.json", "--max-distance", 50)
     must(len(found) == 1 and summary["models"] == 2, f"{found} {summary}")
@@ -469,8 +471,7 @@ def mistakes(program, folder):
                                "/objects/0/layer: 'b' is not a layer"]),
         ("distance", [unserved], 2, ["crate.cdp.h5: its layers ask for distance",
                                      "--effects distance."]),
-        ("within", [good], 2, ["good.glb: pair 0 of layers states no tolerance of within. Give "
-                               "--tolerance."]),
+        ("within", [good], 2, ["good.glb: it states no tolerance of within. Give --tolerance."]),
         ("within", [no_tolerance], 2, ["tolerance.json: pair 0 of layers states no tolerance"]),
         ("within", [good, "--tolerance", -1], 2, ["--tolerance", "0 or more"]),
         ("distance", [good, "--max-distance", -1], 2, ["--max-distance", "0 or more"]),

@@ -98,7 +98,7 @@ private:
     /// pairs in the file, every layer asks about every other and itself.
     std::optional<Error> choose_pairs() {
         std::vector<AskedPair>& pairs = scene().pairs;
-        if (pairs.empty()) {
+        if (!scene().has_pairs) {
             const auto layers = static_cast<std::uint32_t>(scene().layers.size());
             for (std::uint32_t a = 0; a < layers; ++a) {
                 for (std::uint32_t b = a; b < layers; ++b) {
@@ -121,9 +121,11 @@ private:
         switch (effect()) {
             case Ask::within:
                 if (!question_.tolerance && !contains(file.effects, Ask::within)) {
+                    const std::string pair =
+                        scene().has_pairs ? "pair " + std::to_string(number) + " of layers" : "it";
                     return Error{ErrorCode::bad_argument,
-                                 scene().name + ": pair " + std::to_string(number) +
-                                     " of layers states no tolerance of within. Give --tolerance."};
+                                 scene().name + ": " + pair +
+                                     " states no tolerance of within. Give --tolerance."};
                 }
                 asked.tolerance = question_.tolerance.value_or(file.tolerance);
                 break;

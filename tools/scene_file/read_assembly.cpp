@@ -59,6 +59,7 @@ public:
     Result<AssemblyScene> run() {
         read_.scene.name = path_.string();
         read_.scene.layers = {"parts"};
+        read_.scene.has_pairs = false;
         const std::span<const MeshNode> nodes = read_.file.nodes();
         if (nodes.size() > kMostObjects) {
             return Error{ErrorCode::over_budget, path_.string() + ": has " +
