@@ -454,12 +454,12 @@ const char* structure_text(PairQuestion question) {
 }
 
 constexpr const char* kSceneNotes =
-    "With --scene, the pairs of layers that the scene file pairs are asked, with their tolerance, "
-    "max_distance, body and overlap; options replace these. Without pairs in the file, all parts "
-    "are asked about all others. In a glTF file, each node with triangles is a part, named by its "
-    "path; later nodes of the same path get #2, #3 and so on. Nodes that use one mesh share its "
-    "model. A transform that is not rigid is applied to the vertices. Parts that touch clash: the "
-    "answers are exact. The order of the lines does not depend on the number of threads.";
+    "A scene file pairs layers. The command queries the parts of paired layers, with the pair's "
+    "tolerance, max_distance, body and overlap. Options replace these. If the file has no pairs, "
+    "every part is queried against every other. In a glTF file, each node with triangles is a "
+    "part, named by its path. Later nodes of the same path get #2, #3 and so on. Nodes that use "
+    "one mesh share its model. A transform that is not rigid is applied to the vertices. The "
+    "answers are exact: parts that touch clash. The lines do not depend on the number of threads.";
 
 void add_pair_format(const Command& command, std::string& word, bool serves_scenes) {
     if (!serves_scenes) {
@@ -473,23 +473,27 @@ void add_pair_format(const Command& command, std::string& word, bool serves_scen
         .group("Report");
 }
 
+/// Sets what follows the options in the help of a query.
+void set_pair_notes(const Command& command, PairQuestion question) {
+    const std::string call = "cdprep query " + std::string(name_of(question));
+    const std::string tolerance = question == PairQuestion::within ? " --tolerance 0.5" : "";
+    std::vector<std::string> examples = {call +
+                                         " arm.cdp.h5 part.cdp.h5 --pose "
+                                         "'1 0 0 0 1 0 0 0 1 0.1 0 0'" +
+                                         tolerance};
+    if (question == PairQuestion::collide) return command.set_notes("", examples);
+    examples.push_back(call + " --scene samples/scenes/assembly.json" + tolerance);
+    examples.push_back(call + " --scene robot.glb" + tolerance);
+    command.set_notes(kSceneNotes, examples);
+}
+
 void add_question(const Command& query, PairQuestion question, const char* name,
                   const char* description, Exit& exit) {
     auto arguments = std::make_shared<PairArguments>();
     arguments->question = question;
     const Command command = query.add_command(name, description);
     const bool serves_scenes = question != PairQuestion::collide;
-    const std::string call = "cdprep query " + std::string(name);
-    const std::string tolerance = question == PairQuestion::within ? " --tolerance 0.5" : "";
-    std::vector<std::string> examples = {call +
-                                         " arm.cdp.h5 part.cdp.h5 --pose "
-                                         "'1 0 0 0 1 0 0 0 1 0.1 0 0'" +
-                                         tolerance};
-    if (serves_scenes) {
-        examples.push_back(call + " --scene samples/scenes/assembly.json" + tolerance);
-        examples.push_back(call + " --scene robot.glb" + tolerance);
-    }
-    command.set_notes(serves_scenes ? kSceneNotes : "", examples);
+    set_pair_notes(command, question);
     const Option a = command.add_option("a", arguments->a, "The first baked model");
     const Option b = command.add_option("b", arguments->b, "The second baked model");
     if (!serves_scenes) {
