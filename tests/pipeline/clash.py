@@ -175,7 +175,7 @@ def matrix(rotation, translation):
 class Heap:
     """Parts in exact poses, two meshes used by many nodes, below a moved root."""
 
-    def __init__(self, program, folder, count=11):
+    def __init__(self, program, folder, count=11, reach=7):
         self.meshes = [star(1), star(2), cube()]
         files = []
         for i, mesh in enumerate(self.meshes):
@@ -187,7 +187,7 @@ class Heap:
         shift = (8, -4, 0.5)
         for i in range(count):
             mesh, rotation = i % 3, QUARTERS[places.randrange(4)]
-            at = tuple(places.randrange(-12, 13) / 4 for _ in range(3))
+            at = tuple(places.randrange(-reach, reach + 1) / 4 for _ in range(3))
             world = tuple(x + y for x, y in zip(at, shift))
             name = f"part {i}"
             self.nodes.append({"name": name, "mesh": mesh, "matrix": matrix(rotation, at)})
@@ -257,7 +257,7 @@ def the_default_distance(program, folder):
 
 def the_forms(program, folder):
     """A scene file, .gltf, a buffer beside it, threads and the cache give the same lines."""
-    heap = Heap(program, folder, 60)
+    heap = Heap(program, folder, 60, 12)
     lines = lambda scene, *more: run(program, "query", "distance", "--scene", scene,
                                      "--max-distance", 1, *more)
     one = lines(heap.glb, "-j", 1)
@@ -389,7 +389,7 @@ def the_touching(program, folder):
 
 def the_pairs(program, folder):
     """Only paired layers are asked, with what the file says of them unless options say more."""
-    heap = Heap(program, folder, 24)
+    heap = Heap(program, folder, 24, 10)
     members = {"cdprep_scene": 1, "layers": ["a", "b", "c"], "objects": heap.objects}
     scene = folder / "pairs.json"
     layer = {entry["name"]: entry["layer"] for entry in heap.objects}
