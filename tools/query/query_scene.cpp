@@ -187,8 +187,10 @@ private:
                 if (is_interrupted() || !written) return;
                 written = output_.append(report_.next(chunk.lines));
                 counts.add(chunk.counts);
+                const std::size_t percent = 100 * asked / count;
                 asked += size;
-                progress.show(asked, "pairs");
+                // Plain progress takes a line each time.
+                if (100 * asked / count > percent) progress.show(asked, "pairs");
             });
         });
         progress.clear();
