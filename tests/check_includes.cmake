@@ -43,10 +43,10 @@ set(tools_rooms
     "study: bake decompose/enclose decompose/surface mesh"
     "accuracy: cli decompose/enclose hull command_line mesh page study text"
     "compare/cells: mesh study"
+    "scene_file: bake cli import text"
     "compare: cli compare/cells decompose/surface hull import command_line mesh page query study\
  text"
-    "query: bake cli compare/cells command_line mesh text write"
-    "scene_file: bake cli import text"
+    "query: bake cli compare/cells command_line mesh scene_file text write"
     "simulate: cli command_line scene_file text")
 
 # A library of others: the pattern of its headers, then the folders that may know it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scene/object_box.h"
+#include "cdprep/advanced/object_box.h"
 
 #include <algorithm>
 #include <array>

@@ -12,16 +12,25 @@
 //
 // Prints a CSV table: milliseconds of the thread's time for each frame, poses included, and for
 // each candidate microseconds. `times` is relative to ours.
+//
+// A second table is of the bodies as they are at first: which pairs are within a distance (0.5 % of
+// the scene's size, and the tolerance above), and how far apart those are. Each contender begins
+// with models and poses alone, and they take turns. FCL's manager calls back with pairs whose boxes
+// are that near; `fcl_bounded` tells its search for the distance of two meshes so too. The pairs
+// found must be equal, or the program stops. `asked` counts the pairs of meshes that are asked.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "bench_input.h"
+#include "cdprep/advanced/object_box.h"
 #include "cdprep/scene.h"
 
 #ifdef CDPREP_HAVE_FCL
@@ -196,6 +205,168 @@ void compare(const std::vector<Model>& models, std::size_t bodies, int frames,
     }
 }
 
+// --- Clashes: a scene without motion -------------------------------------------------------
+
+constexpr double kShareOfScene = 0.005;
+
+/// The pairs within a distance, sorted, and the pairs of meshes that were asked.
+struct Clashes {
+    std::vector<BoxPair> found;
+    std::uint64_t asked = 0;
+};
+
+/// A scene without motion. Bodies are numbered as their poses.
+struct Still {
+    const std::vector<Model>& models;
+    std::vector<Pose> poses;
+    double tolerance;
+
+    [[nodiscard]] const Model& model(std::size_t body) const {
+        return models[body % models.size()];
+    }
+};
+
+double diagonal(const std::vector<Model>& models, const std::vector<Pose>& poses) {
+    std::array<double, 3> lower{}, upper{};
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const WorldBox box = world_box(root_box(models[i % models.size()], poses[i], 0));
+        for (std::size_t k = 0; k < 3; ++k) {
+            lower[k] = i == 0 ? box.lower[k] : std::min(lower[k], double{box.lower[k]});
+            upper[k] = i == 0 ? box.upper[k] : std::max(upper[k], double{box.upper[k]});
+        }
+    }
+    return std::hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]);
+}
+
+/// As `cdprep query within --scene` and `query distance --scene` do it.
+template <class Near>
+Clashes our_clashes(const Still& still, const Near& is_near) {
+    std::vector<RootBox> roots;
+    std::vector<WorldBox> boxes;
+    for (std::size_t i = 0; i < still.poses.size(); ++i) {
+        roots.push_back(root_box(still.model(i), still.poses[i], still.tolerance / 2));
+        boxes.push_back(world_box(roots.back()));
+    }
+    const auto count = static_cast<std::uint32_t>(boxes.size());
+    BroadPhase broad_phase({.boxes = count, .pairs = 64 * count});
+    const BroadPhaseUpdate update = broad_phase.update(boxes);
+    if (!update.complete) stop("There is too little room for pairs.");
+    Clashes clashes;
+    for (const BoxPair& pair : update.pairs) {
+        if (!may_meet(roots[pair.a], roots[pair.b])) continue;
+        ++clashes.asked;
+        if (is_near(Pair{still.model(pair.a), still.model(pair.b),
+                         Placement::world(still.poses[pair.a], still.poses[pair.b])})) {
+            clashes.found.push_back(pair);
+        }
+    }
+    return clashes;
+}
+
+#ifdef CDPREP_HAVE_FCL
+/// What FCL's callback knows of the search.
+struct FclSearch {
+    double tolerance;
+    bool is_bounded;  ///< a search for a distance ends beyond the tolerance
+    Clashes clashes;
+
+    static std::uint32_t number(const fcl::CollisionObjectd* object) {
+        return *static_cast<const std::uint32_t*>(object->getUserData());
+    }
+    static bool call(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* search,
+                     double& nearer_than) {
+        auto& self = *static_cast<FclSearch*>(search);
+        // The manager skips boxes that are not nearer than this.
+        nearer_than = std::nextafter(self.tolerance, 2 * self.tolerance);
+        ++self.clashes.asked;
+        fcl::DistanceResultd result;
+        if (self.is_bounded) result.min_distance = nearer_than;
+        fcl::distance(a, b, fcl::DistanceRequestd(), result);
+        if (result.min_distance <= self.tolerance) {
+            const std::uint32_t first = number(a), second = number(b);
+            self.clashes.found.push_back({std::min(first, second), std::max(first, second)});
+        }
+        return false;
+    }
+};
+
+class FclClashes {
+public:
+    explicit FclClashes(const std::vector<Model>& models) {
+        for (const Model& model : models) {
+            shapes_.push_back(
+                std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>(fcl_model<fcl::OBBRSSd>(model)));
+            shapes_.back()->computeLocalAABB();
+        }
+    }
+    Clashes find(const Still& still, bool is_bounded) {
+        std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
+        std::vector<fcl::CollisionObjectd*> pointers;
+        std::vector<std::uint32_t> numbers(still.poses.size());
+        for (std::size_t i = 0; i < still.poses.size(); ++i) {
+            numbers[i] = static_cast<std::uint32_t>(i);
+            objects.push_back(std::make_unique<fcl::CollisionObjectd>(
+                shapes_[i % shapes_.size()], fcl_transform(still.poses[i])));
+            objects.back()->setUserData(&numbers[i]);
+            objects.back()->computeAABB();
+            pointers.push_back(objects.back().get());
+        }
+        fcl::DynamicAABBTreeCollisionManagerd manager;
+        manager.registerObjects(pointers);
+        manager.setup();
+        FclSearch search{still.tolerance, is_bounded, {}};
+        manager.distance(&search, FclSearch::call);
+        std::sort(search.clashes.found.begin(), search.clashes.found.end());
+        return search.clashes;
+    }
+
+private:
+    std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes_;
+};
+#endif
+
+void compare_clashes(const Still& still, int rounds) {
+    Workspace workspace;
+    using Find = std::function<Clashes()>;
+    std::vector<std::pair<const char*, Find>> contenders;
+    contenders.emplace_back("cdprep_within", [&] {
+        return our_clashes(
+            still, [&](const Pair& pair) { return within(pair, still.tolerance, workspace); });
+    });
+    contenders.emplace_back("cdprep_distance", [&] {
+        return our_clashes(still, [&](const Pair& pair) {
+            return distance(pair, workspace, {.max_distance = still.tolerance}).has_value();
+        });
+    });
+#ifdef CDPREP_HAVE_FCL
+    FclClashes fcl(still.models);
+    contenders.emplace_back("fcl_distance", [&] { return fcl.find(still, false); });
+    contenders.emplace_back("fcl_bounded", [&] { return fcl.find(still, true); });
+#endif
+    std::vector<std::vector<double>> ms(contenders.size());
+    std::vector<Clashes> clashes(contenders.size());
+    for (int round = -1; round < rounds; ++round) {  // the first is not counted
+        for (std::size_t i = 0; i < contenders.size(); ++i) {
+            const double begun = thread_us();
+            clashes[i] = contenders[i].second();
+            if (round >= 0) ms[i].push_back((thread_us() - begun) / 1000);
+            if (clashes[i].found != clashes[0].found) {
+                stop(std::string(contenders[i].first) + " finds other pairs.");
+            }
+        }
+    }
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+        const double middle = median(ms[i]);
+        std::printf("%g,%s,%zu,%llu,%zu,%.3f,%.3f,%.3f,%.2f,%.2f\n", still.tolerance,
+                    contenders[i].first, still.poses.size(),
+                    static_cast<unsigned long long>(clashes[i].asked), clashes[i].found.size(),
+                    middle, median(ms[i], 0.95),
+                    1000 * middle / static_cast<double>(clashes[i].asked), middle / median(ms[0]),
+                    middle / median(ms[1]));
+    }
+    std::fflush(stdout);
+}
+
 void run(std::size_t bodies, int frames, const std::vector<std::string>& paths) {
     std::vector<Model> models;
     for (const std::string& path : paths) models.push_back(open_or_stop(path));
@@ -203,6 +374,13 @@ void run(std::size_t bodies, int frames, const std::vector<std::string>& paths) 
     compare(models, bodies, frames, {.effects = Ask::collide});
     compare(models, bodies, frames, {.effects = Ask::within, .tolerance = kTolerance});
     compare(models, bodies, frames, {.effects = Ask::distance, .max_distance = kTolerance});
+    std::printf(
+        "\ntolerance,contender,bodies,asked,found,ms,ms_95,us_pair,times_within,"
+        "times_distance\n");
+    const Bodies still(bodies, 1);
+    for (const double tolerance : {kShareOfScene * diagonal(models, still.poses()), kTolerance}) {
+        compare_clashes({models, still.poses(), tolerance}, std::max(3, frames / 8));
+    }
 }
 
 }  // namespace

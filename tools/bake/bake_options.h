@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <string>
 
 #include "bake/effects.h"
@@ -24,6 +26,11 @@ struct BakeOptions {
     bool strict = false;  ///< refuse a mesh with a warning or error, or not fully examined
     build::BvhBounds bounds = build::BvhOptions{}.bounds;
     import::ImportOptions import;
+    /// Reads the input. Another function may read a part of it, which `part` then names.
+    std::function<Result<mesh::TriangleSoup>(const std::filesystem::path& input,
+                                             const import::ImportOptions& options)>
+        read = import::import_file;
+    std::string part;  ///< for the provenance; empty: the whole input
 };
 
 }  // namespace cdprep::cli

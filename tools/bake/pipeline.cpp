@@ -88,7 +88,7 @@ private:
         auto imported = stages_.run("import", [&] {
             import::ImportOptions options = options_.import;
             options.parallel_for = threads_.parallel_for();
-            return import::import_file(input_, options);
+            return options_.read(input_, options);
         });
         if (is_interrupted()) return interrupted(input_);
         if (!imported) return imported.error();

@@ -61,6 +61,7 @@ std::string provenance_json(const BakeOptions& options, const mesh::TriangleSoup
     if (options.max_pairs != mesh::kDefaultMaxPairs) given["max_pairs"] = options.max_pairs;
     if (options.import.metres_per_unit) given["metres_per_unit"] = *options.import.metres_per_unit;
     if (options.import.up_axis) given["up_axis"] = report::axis_name(*options.import.up_axis);
+    if (!options.part.empty()) json["source"]["part"] = options.part;
     for (const mesh::InputFile& file : soup.other_files) {
         json["source"]["files"].push_back(
             {{"name", file.name}, {"xxh3_64", report::hexadecimal(file.hash)}});

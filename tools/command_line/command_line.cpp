@@ -138,7 +138,8 @@ Option Command::add_flag(const std::string& names, const std::function<void()>& 
 }
 
 std::size_t Command::count(const std::string& option) const {
-    return app_->count(option);
+    const CLI::Option* const found = app_->get_option_no_throw(option);
+    return found == nullptr ? 0 : found->count();
 }
 
 void Command::callback(const std::function<void()>& run) const {

@@ -111,7 +111,7 @@ public:
     Option add_flag(const std::string& names, const std::function<void()>& call,
                     const std::string& text) const;
 
-    /// Returns the number of times that an option was given.
+    /// Returns the number of times that an option was given; 0 if the command has no such option.
     [[nodiscard]] std::size_t count(const std::string& option) const;
     /// Called after the whole command line was parsed.
     void callback(const std::function<void()>& run) const;

@@ -56,31 +56,6 @@ private:
     int number_;
 };
 
-/// The child's result, mapped. No other process holds this shared memory any more.
-class ResultBytes {
-public:
-    explicit ResultBytes(int descriptor) {
-        struct stat status {};
-        if (::fstat(descriptor, &status) != 0 || status.st_size <= 0) return;
-        size_ = static_cast<std::size_t>(status.st_size);
-        memory_ = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, descriptor, 0);
-    }
-    ResultBytes(const ResultBytes&) = delete;
-    ResultBytes& operator=(const ResultBytes&) = delete;
-    ~ResultBytes() {
-        if (memory_ != MAP_FAILED) ::munmap(memory_, size_);
-    }
-
-    [[nodiscard]] std::span<const std::byte> bytes() const noexcept {
-        if (memory_ == MAP_FAILED) return {};
-        return {static_cast<const std::byte*>(memory_), size_};
-    }
-
-private:
-    void* memory_ = MAP_FAILED;
-    std::size_t size_ = 0;
-};
-
 /// Returns the path of the child program: beside the running program, where it is installed, or
 /// in a build tree.
 std::optional<std::filesystem::path> find_child_program() {
@@ -217,8 +192,9 @@ Error failure(const SourceFile& file, const Ending& ending, const ImportOptions&
                            std::to_string(WEXITSTATUS(ending.status)) + ")");
 }
 
-Result<mesh::TriangleSoup> take_result(const SourceFile& file, std::span<const std::byte> bytes,
-                                       const Ending& ending, const ImportOptions& options) {
+/// Returns the reason why the child's result is no scene, or nothing.
+std::optional<Error> find_failure(const SourceFile& file, std::span<const std::byte> bytes,
+                                  const Ending& ending, const ImportOptions& options) {
     const auto header = read_scene_header(bytes);
     const bool ended_well = WIFEXITED(ending.status) && WEXITSTATUS(ending.status) == 0;
     if (!header || !ended_well) return failure(file, ending, options);
@@ -226,20 +202,33 @@ Result<mesh::TriangleSoup> take_result(const SourceFile& file, std::span<const s
     const std::string_view message(text - header->text_bytes, header->text_bytes);
     switch (header->outcome) {
         case SceneOutcome::read:
-            break;
+            return std::nullopt;
         case SceneOutcome::unreadable:
             return file.unreadable(as_clause(message));
-        case SceneOutcome::out_of_memory:
+        default:
             return out_of_memory(file, header->input_bytes, options);
     }
-    return flatten_scene(file, bytes, options);
 }
 
 }  // namespace
 
-Result<mesh::TriangleSoup> import_in_child(const SourceFile& file,
-                                           const std::filesystem::path& path,
-                                           const ImportOptions& options) {
+ChildResult::ChildResult(int descriptor) {
+    struct stat status {};
+    if (::fstat(descriptor, &status) != 0 || status.st_size <= 0) return;
+    const auto size = static_cast<std::size_t>(status.st_size);
+    void* const memory = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor, 0);
+    if (memory == MAP_FAILED) return;
+    bytes_ = {static_cast<const std::byte*>(memory), size};
+}
+
+ChildResult::ChildResult(ChildResult&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+
+ChildResult::~ChildResult() {
+    if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+}
+
+Result<ChildResult> read_in_child(const SourceFile& file, const std::filesystem::path& path,
+                                  const ImportOptions& options) {
     if (const std::string outside = find_outside_reference(file.bytes()); !outside.empty()) {
         return file.unreadable("refers to " + utf8_name(outside) + ", which is not read");
     }
@@ -257,8 +246,17 @@ Result<mesh::TriangleSoup> import_in_child(const SourceFile& file,
                                std::generic_category().message(errno));
     }
     const Ending ending = child->wait(options.time);
-    const ResultBytes bytes(result.number());
-    Result<mesh::TriangleSoup> soup = take_result(file, bytes.bytes(), ending, options);
+    ChildResult scene(result.number());
+    if (auto error = find_failure(file, scene.bytes(), ending, options)) return *std::move(error);
+    return scene;
+}
+
+Result<mesh::TriangleSoup> import_in_child(const SourceFile& file,
+                                           const std::filesystem::path& path,
+                                           const ImportOptions& options) {
+    const Result<ChildResult> scene = read_in_child(file, path, options);
+    if (!scene) return scene.error();
+    Result<mesh::TriangleSoup> soup = flatten_scene(file, scene->bytes(), options);
     if (soup) add_collada_asset(file.bytes(), soup.value());
     return soup;
 }

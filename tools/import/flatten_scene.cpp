@@ -17,7 +17,6 @@
 namespace cdprep::import {
 namespace {
 
-using Affine = std::array<double, 12>;  // 3 x 4, row by row
 using mesh::Double3;
 
 constexpr Affine kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -124,27 +123,55 @@ struct MeshPlace {
 struct Use {
     std::uint32_t mesh;
     std::uint32_t node;
+    Affine model_from_mesh;
 };
 
-class SceneFlattener {
-public:
-    SceneFlattener(const SourceFile& file, const Arrays& arrays, const ImportOptions& options)
-        : file_(file), arrays_(arrays), options_(options) {}
+}  // namespace
 
-    Result<mesh::TriangleSoup> flatten() {
-        if (!place_meshes() || !place_nodes() || !take_names(arrays_.materials, materials_) ||
-            !take_names(arrays_.files, other_files_)) {
-            return file_.unreadable("the importing child's result is inconsistent");
-        }
-        if (auto excess = find_excess()) return *std::move(excess);
-        std::vector<PolygonChunk> chunks(uses_.size());
-        options_.parallel_for(uses_.size(), [&](std::size_t i) { chunks[i] = read_use(uses_[i]); });
+class PlacedScene::Content {
+public:
+    Content(const SourceFile& file, const Arrays& arrays) : file_(file), arrays_(arrays) {}
+
+    /// Returns false if the counts contradict each other.
+    bool place() {
+        return place_meshes() && place_nodes() && take_names(arrays_.materials, materials_) &&
+               take_names(arrays_.files, other_files_);
+    }
+
+    [[nodiscard]] Result<mesh::TriangleSoup> flatten(std::span<const Use> uses,
+                                                     const ImportOptions& options) const {
+        if (auto excess = find_excess(uses, options)) return *std::move(excess);
+        std::vector<PolygonChunk> chunks(uses.size());
+        options.parallel_for(uses.size(), [&](std::size_t i) { chunks[i] = read_use(uses[i]); });
         Result<mesh::TriangleSoup> joined = join_chunks(file_, std::move(chunks),
                                                         {.face_numbers = FaceNumbers::every_chunk,
-                                                         .memory_bytes = options_.memory_bytes,
-                                                         .parallel_for = options_.parallel_for});
-        if (joined) describe(joined.value());
+                                                         .memory_bytes = options.memory_bytes,
+                                                         .parallel_for = options.parallel_for});
+        if (joined) describe(uses, joined.value());
         return joined;
+    }
+
+    /// The uses of all nodes, in order.
+    [[nodiscard]] std::span<const Use> uses() const noexcept {
+        return uses_;
+    }
+
+    /// Returns "root/arm/hand". It is built on demand, because deep scenes have long paths.
+    [[nodiscard]] std::string path_of(std::uint32_t node) const {
+        constexpr std::size_t kMaxPathBytes = 4096;
+        std::vector<std::string_view> parts;
+        std::size_t bytes = 0;
+        for (std::uint32_t n = node; n != kNoParent && bytes <= kMaxPathBytes; n = parents_[n]) {
+            parts.emplace_back(names_[n]);
+            bytes += names_[n].size() + 1;
+            if (bytes > kMaxPathBytes && parts.size() > 1) parts.back() = "...";
+        }
+        std::string path;
+        for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+            if (!path.empty()) path += '/';
+            path += *part;
+        }
+        return path;
     }
 
 private:
@@ -200,7 +227,8 @@ private:
             for (std::uint32_t m = 0; m < node.mesh_count; ++m) {
                 const auto mesh = element<std::uint32_t>(arrays_.node_meshes, next_mesh++);
                 if (mesh >= meshes_.size()) return false;
-                if (meshes_[mesh].triangle_count > 0) uses_.push_back({mesh, i});
+                if (meshes_[mesh].triangle_count == 0) continue;
+                uses_.push_back({mesh, i, model_from_node_.back()});
             }
         }
         return true;
@@ -217,16 +245,17 @@ private:
 
     /// Returns an error if the scene is too large. Instances multiply the content of the file, so
     /// their size is computed before they are made.
-    [[nodiscard]] std::optional<Error> find_excess() const {
+    [[nodiscard]] std::optional<Error> find_excess(std::span<const Use> uses,
+                                                   const ImportOptions& options) const {
         std::uint64_t bytes = 0;
-        for (const Use& use : uses_) {
+        for (const Use& use : uses) {
             const MeshPlace& place = meshes_[use.mesh];
             bytes += 2 * (place.counts.vertex_count * sizeof(Double3) +
                           place.triangle_count * sizeof(mesh::Triangle));
-            if (bytes > options_.memory_bytes) {
+            if (bytes > options.memory_bytes) {
                 return file_.over_budget(
                     "its instances need more than the " +
-                    std::to_string(options_.memory_bytes >> 20) +
+                    std::to_string(options.memory_bytes >> 20) +
                     " MiB of memory that are allowed. Raise --import-memory to read it");
             }
         }
@@ -235,16 +264,16 @@ private:
 
     [[nodiscard]] PolygonChunk read_use(const Use& use) const {
         const MeshPlace& place = meshes_[use.mesh];
-        const Affine& model_from_node = model_from_node_[use.node];
+        const Affine& model_from_mesh = use.model_from_mesh;
         PolygonChunk chunk;
-        chunk.single_precision = model_from_node == kIdentity && place.counts.is_single == 1;
+        chunk.single_precision = model_from_mesh == kIdentity && place.counts.is_single == 1;
         chunk.positions.reserve(place.counts.vertex_count);
         for (std::uint64_t i = 0; i < place.counts.vertex_count; ++i) {
             const auto stored = element<Double3>(arrays_.vertices, place.first_vertex + i);
             chunk.positions.push_back(
-                model_from_node == kIdentity ? stored : apply(model_from_node, stored));
+                model_from_mesh == kIdentity ? stored : apply(model_from_mesh, stored));
         }
-        read_faces(place, mirrors(model_from_node), chunk);
+        read_faces(place, mirrors(model_from_mesh), chunk);
         const bool named = place.counts.material < materials_.size();
         if (!materials_.empty()) {
             chunk.materials.push_back({0, named ? materials_[place.counts.material] : ""});
@@ -275,25 +304,7 @@ private:
         chunk.corners.push_back(0);
     }
 
-    /// Returns "root/arm/hand". It is built on demand, because deep scenes have long paths.
-    [[nodiscard]] std::string path_of(std::uint32_t node) const {
-        constexpr std::size_t kMaxPathBytes = 4096;
-        std::vector<std::string_view> parts;
-        std::size_t bytes = 0;
-        for (std::uint32_t n = node; n != kNoParent && bytes <= kMaxPathBytes; n = parents_[n]) {
-            parts.emplace_back(names_[n]);
-            bytes += names_[n].size() + 1;
-            if (bytes > kMaxPathBytes && parts.size() > 1) parts.back() = "...";
-        }
-        std::string path;
-        for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
-            if (!path.empty()) path += '/';
-            path += *part;
-        }
-        return path;
-    }
-
-    void describe(mesh::TriangleSoup& soup) const {
+    void describe(std::span<const Use> uses, mesh::TriangleSoup& soup) const {
         for (const std::string& name : other_files_) soup.other_files.push_back({name, 0});
         soup.metres_per_unit =
             std::isfinite(arrays_.header.metres_per_unit) && arrays_.header.metres_per_unit > 0
@@ -303,20 +314,19 @@ private:
             soup.up_axis = static_cast<format::UpAxis>(arrays_.header.up_axis);
         }
         std::uint32_t first = 0;
-        for (std::size_t i = 0; i < uses_.size(); ++i) {
-            const Use& use = uses_[i];
+        for (std::size_t i = 0; i < uses.size(); ++i) {
+            const Use& use = uses[i];
             const auto count = static_cast<std::uint32_t>(meshes_[use.mesh].triangle_count);
-            if (i == 0 || uses_[i - 1].node != use.node) {
+            if (i == 0 || uses[i - 1].node != use.node) {
                 soup.instance_names.push_back(path_of(use.node));
             }
-            const Affine& model_from_node = model_from_node_[use.node];
             soup.instances.push_back(
-                {.model_from_node = model_from_node,
+                {.model_from_node = use.model_from_mesh,
                  .mesh = use.mesh,
                  .name = static_cast<std::uint32_t>(soup.instance_names.size() - 1),
                  .first_triangle = first,
                  .triangle_count = count,
-                 .flags = mirrors(model_from_node)
+                 .flags = mirrors(use.model_from_mesh)
                               ? static_cast<std::uint32_t>(format::instance_mirrored)
                               : 0,
                  .reserved = 0});
@@ -338,8 +348,7 @@ private:
     }
 
     const SourceFile& file_;
-    const Arrays& arrays_;
-    const ImportOptions& options_;
+    const Arrays arrays_;
     std::vector<MeshPlace> meshes_;
     std::vector<Use> uses_;
     std::vector<std::string> names_;
@@ -350,7 +359,46 @@ private:
     std::size_t text_used_ = 0;
 };
 
-}  // namespace
+PlacedScene::PlacedScene(std::unique_ptr<const Content> content) noexcept
+    : content_(std::move(content)) {}
+PlacedScene::PlacedScene(PlacedScene&&) noexcept = default;
+PlacedScene& PlacedScene::operator=(PlacedScene&&) noexcept = default;
+PlacedScene::~PlacedScene() = default;
+
+Result<PlacedScene> PlacedScene::make(const SourceFile& file, std::span<const std::byte> bytes) {
+    const auto arrays = find_arrays(bytes);
+    if (!arrays) return file.unreadable("the importing child's result is incomplete");
+    auto content = std::make_unique<Content>(file, *arrays);
+    if (!content->place()) {
+        return file.unreadable("the importing child's result is inconsistent");
+    }
+    return PlacedScene(std::move(content));
+}
+
+Result<mesh::TriangleSoup> PlacedScene::flatten(const ImportOptions& options) const {
+    return content_->flatten(content_->uses(), options);
+}
+
+Result<mesh::TriangleSoup> PlacedScene::flatten_node(const MeshNode& node,
+                                                     const Affine& model_from_mesh,
+                                                     const ImportOptions& options) const {
+    std::vector<Use> uses;
+    for (const std::uint32_t mesh : node.meshes) {
+        uses.push_back({mesh, node.number, model_from_mesh});
+    }
+    return content_->flatten(uses, options);
+}
+
+std::vector<MeshNode> PlacedScene::mesh_nodes() const {
+    std::vector<MeshNode> nodes;
+    for (const Use& use : content_->uses()) {
+        if (nodes.empty() || nodes.back().number != use.node) {
+            nodes.push_back({use.node, content_->path_of(use.node), {}, use.model_from_mesh});
+        }
+        nodes.back().meshes.push_back(use.mesh);
+    }
+    return nodes;
+}
 
 std::optional<SceneHeader> read_scene_header(std::span<const std::byte> bytes) noexcept {
     const auto arrays = find_arrays(bytes);
@@ -359,9 +407,8 @@ std::optional<SceneHeader> read_scene_header(std::span<const std::byte> bytes) n
 
 Result<mesh::TriangleSoup> flatten_scene(const SourceFile& file, std::span<const std::byte> bytes,
                                          const ImportOptions& options) {
-    const auto arrays = find_arrays(bytes);
-    if (!arrays) return file.unreadable("the importing child's result is incomplete");
-    return SceneFlattener(file, *arrays, options).flatten();
+    const Result<PlacedScene> scene = PlacedScene::make(file, bytes);
+    return scene ? scene->flatten(options) : scene.error();
 }
 
 }  // namespace cdprep::import

@@ -1,26 +1,65 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "import/import_file.h"
 #include "import/scene_bytes.h"
 #include "import/source_file.h"
 
 namespace cdprep::import {
+/// An affine map: three rows of four numbers.
+using Affine = std::array<double, 12>;
+
+/// A node of a scene whose meshes have triangles.
+struct MeshNode {
+    std::uint32_t number = 0;           ///< depth first
+    std::string path;                   ///< "root/arm/hand"; several nodes may have the same
+    std::vector<std::uint32_t> meshes;  ///< those with triangles; equal lists are equal geometry
+    Affine world_from_node{};
+};
+
+/// A child's result whose every count and reference was checked.
+class PlacedScene {
+public:
+    /// `file` and `bytes` must outlive the object. The bytes must have an outcome of `read`. Fails
+    /// with `unreadable` on any inconsistency in them.
+    [[nodiscard]] static Result<PlacedScene> make(const SourceFile& file,
+                                                  std::span<const std::byte> bytes);
+    PlacedScene(PlacedScene&&) noexcept;
+    PlacedScene& operator=(PlacedScene&&) noexcept;
+    ~PlacedScene();
+
+    /// Makes a soup of all nodes, depth first. Applies their transforms in double and reverses
+    /// faces under mirroring transforms. Meshes without triangles leave no instance. A soup is
+    /// single precision if every used transform is the identity and every used mesh is single
+    /// precision.
+    [[nodiscard]] Result<mesh::TriangleSoup> flatten(const ImportOptions& options) const;
+    /// Does the same for the meshes of one node, with another transform.
+    [[nodiscard]] Result<mesh::TriangleSoup> flatten_node(const MeshNode& node,
+                                                          const Affine& model_from_mesh,
+                                                          const ImportOptions& options) const;
+    /// Returns the nodes that have triangles, depth first.
+    [[nodiscard]] std::vector<MeshNode> mesh_nodes() const;
+
+private:
+    class Content;
+    explicit PlacedScene(std::unique_ptr<const Content> content) noexcept;
+    std::unique_ptr<const Content> content_;
+};
 
 /// Returns the header if `bytes` begin with one and have exactly the length that its counts give.
 [[nodiscard]] std::optional<SceneHeader> read_scene_header(
     std::span<const std::byte> bytes) noexcept;
 
-/// Makes a soup of the child's result. Checks every count and reference, walks the nodes depth
-/// first, applies their transforms in double and reverses faces under mirroring transforms.
-///
-/// Meshes without triangles leave no instance. A scene is single precision if every used
-/// transform is the identity and every used mesh is single precision. `bytes` must have an
-/// outcome of `read`. Fails with `unreadable` on any inconsistency in them.
+/// Returns PlacedScene::flatten() of a child's result.
 [[nodiscard]] Result<mesh::TriangleSoup> flatten_scene(const SourceFile& file,
                                                        std::span<const std::byte> bytes,
                                                        const ImportOptions& options);

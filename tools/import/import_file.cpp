@@ -37,7 +37,17 @@ std::uint64_t hash_of(const SourceFile& file) {
     return format::checksum(std::as_bytes(std::span(file.bytes())));
 }
 
-/// Records the hash of each file that was read, so that a changed buffer changes the source.
+Error empty(const SourceFile& file, const mesh::TriangleSoup& soup) {
+    const std::size_t points = soup.positions.size();
+    return file.unreadable("has no triangles" +
+                           (points == 0   ? std::string(" and no vertices")
+                            : points == 1 ? std::string(", only 1 vertex")
+                                          : ", only " + std::to_string(points) + " vertices") +
+                           ". Check the file, or give --allow-empty to accept it");
+}
+
+}  // namespace
+
 std::optional<Error> note_files(const SourceFile& file, const std::filesystem::path& path,
                                 const ImportOptions& options, mesh::TriangleSoup& soup) {
     soup.source_hash = hash_of(file);
@@ -49,17 +59,6 @@ std::optional<Error> note_files(const SourceFile& file, const std::filesystem::p
     }
     return std::nullopt;
 }
-
-Error empty(const SourceFile& file, const mesh::TriangleSoup& soup) {
-    const std::size_t points = soup.positions.size();
-    return file.unreadable("has no triangles" +
-                           (points == 0   ? std::string(" and no vertices")
-                            : points == 1 ? std::string(", only 1 vertex")
-                                          : ", only " + std::to_string(points) + " vertices") +
-                           ". Check the file, or give --allow-empty to accept it");
-}
-
-}  // namespace
 
 Result<mesh::TriangleSoup> import_file(const std::filesystem::path& path,
                                        const ImportOptions& options) {

@@ -8,6 +8,7 @@
 
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/result.h"
+#include "import/source_file.h"
 #include "mesh/mesh.h"
 
 namespace cdprep::import {
@@ -34,5 +35,12 @@ struct ImportOptions {
 /// without triangles, unless options.allow_empty is set.
 [[nodiscard]] Result<mesh::TriangleSoup> import_file(const std::filesystem::path& path,
                                                      const ImportOptions& options = {});
+
+/// Sets the hash of the source, and of each other file that was read, so that a changed buffer
+/// changes the source. Fails if one of these files can no longer be read.
+[[nodiscard]] std::optional<Error> note_files(const SourceFile& file,
+                                              const std::filesystem::path& path,
+                                              const ImportOptions& options,
+                                              mesh::TriangleSoup& soup);
 
 }  // namespace cdprep::import

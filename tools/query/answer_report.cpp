@@ -129,30 +129,6 @@ std::string pair_lines(const std::optional<std::span<const TrianglePair>>& pairs
     return pairs ? pairs_text(*pairs, {"\n  ", " ", "", ""}) : "";
 }
 
-std::string as_json(const PairAnswer& answer) {
-    std::string text = "{\"pose\": " + number(answer.pose) + ", \"hit\": " + word(answer.hit);
-    if (answer.is_approximate) text += ", \"approximate\": true";
-    text += count_and_pairs_json(answer);
-    if (answer.crossings) text += crossings_json(*answer.crossings);
-    if (answer.containment) {
-        text += std::string(", \"containment\": \"") + word(answer.containment->answer) +
-                "\", \"winding\": " + number(answer.containment->winding);
-    }
-    return text + "}";
-}
-
-std::string as_text(const PairAnswer& answer) {
-    std::string text = "pose " + number(answer.pose) + (answer.hit ? ": hit" : ": free");
-    if (answer.count) text += ", " + number(*answer.count) + " pairs";
-    if (answer.is_approximate) text += ", approximate: some may be missing";
-    if (answer.containment) {
-        text += std::string(", containment ") + word(answer.containment->answer);
-    }
-    text += pair_lines(answer.pairs);
-    if (answer.crossings) text += crossings_text(*answer.crossings);
-    return text;
-}
-
 std::string as_json(const CoarseAnswer& answer) {
     const CoarseCollision& collision = answer.collision;
     return "{\"pose\": " + number(answer.pose) + ", \"answer\": \"" + word(collision.answer) +
@@ -167,28 +143,6 @@ std::string as_text(const CoarseAnswer& answer) {
                              ", approximate: facets are up to ";
     return text + number(collision.error_a) + " and " + number(collision.error_b) +
            " from the surfaces";
-}
-
-std::string as_json(const DistanceAnswer& answer) {
-    std::string text =
-        "{\"pose\": " + number(answer.pose) + ", \"found\": " + word(answer.distance.has_value());
-    if (answer.distance) {
-        const Distance& d = *answer.distance;
-        text += ", \"lower\": " + number(d.lower) + ", \"upper\": " + number(d.upper) +
-                ", \"witness_a\": [" + place(d.witness_a, ", ") + "], \"witness_b\": [" +
-                place(d.witness_b, ", ") + "], \"triangle_a\": " + number(d.triangle_a) +
-                ", \"triangle_b\": " + number(d.triangle_b);
-    }
-    return text + "}";
-}
-
-std::string as_text(const DistanceAnswer& answer) {
-    const std::string text = "pose " + number(answer.pose) + ": ";
-    if (!answer.distance) return text + "nothing that near";
-    const Distance& d = *answer.distance;
-    return text + "distance " + number(d.lower) + " to " + number(d.upper) + ", triangles " +
-           number(d.triangle_a) + " and " + number(d.triangle_b) + ", at " +
-           place(d.witness_a, " ") + " and " + place(d.witness_b, " ");
 }
 
 std::string as_json(const HullCollideAnswer& answer) {
@@ -220,17 +174,6 @@ std::string as_text(const HullDistanceAnswer& answer) {
     return text + "distance of hulls " + number(d.lower) + " to " + number(d.upper) + ", at " +
            place(d.witness_a, " ") + " and " + place(d.witness_b, " ") +
            ", approximate: the models may be farther apart";
-}
-
-std::string as_json(const WithinAnswer& answer) {
-    return "{\"pose\": " + number(answer.pose) + ", \"within\": " + word(answer.within) +
-           count_and_pairs_json(answer) + "}";
-}
-
-std::string as_text(const WithinAnswer& answer) {
-    std::string text = "pose " + number(answer.pose) + (answer.within ? ": within" : ": farther");
-    if (answer.count) text += ", " + number(*answer.count) + " pairs";
-    return text + pair_lines(answer.pairs);
 }
 
 const char* word(FeatureKind kind) {
@@ -383,15 +326,81 @@ std::string as_text(const RayAnswer& answer) {
 
 }  // namespace
 
+std::string answer_members(const PairAnswer& answer) {
+    std::string text = std::string(", \"hit\": ") + word(answer.hit);
+    if (answer.is_approximate) text += ", \"approximate\": true";
+    text += count_and_pairs_json(answer);
+    if (answer.crossings) text += crossings_json(*answer.crossings);
+    if (answer.containment) {
+        text += std::string(", \"containment\": \"") + word(answer.containment->answer) +
+                "\", \"winding\": " + number(answer.containment->winding);
+    }
+    return text;
+}
+
+std::string answer_words(const PairAnswer& answer) {
+    std::string text = answer.hit ? ": hit" : ": free";
+    if (answer.count) text += ", " + number(*answer.count) + " pairs";
+    if (answer.is_approximate) text += ", approximate: some may be missing";
+    if (answer.containment) {
+        text += std::string(", containment ") + word(answer.containment->answer);
+    }
+    text += pair_lines(answer.pairs);
+    if (answer.crossings) text += crossings_text(*answer.crossings);
+    return text;
+}
+
+std::string answer_members(const DistanceAnswer& answer) {
+    std::string text = std::string(", \"found\": ") + word(answer.distance.has_value());
+    if (answer.distance) {
+        const Distance& d = *answer.distance;
+        text += ", \"lower\": " + number(d.lower) + ", \"upper\": " + number(d.upper) +
+                ", \"witness_a\": [" + place(d.witness_a, ", ") + "], \"witness_b\": [" +
+                place(d.witness_b, ", ") + "], \"triangle_a\": " + number(d.triangle_a) +
+                ", \"triangle_b\": " + number(d.triangle_b);
+    }
+    return text;
+}
+
+std::string answer_words(const DistanceAnswer& answer) {
+    if (!answer.distance) return ": nothing that near";
+    const Distance& d = *answer.distance;
+    return ": distance " + number(d.lower) + " to " + number(d.upper) + ", triangles " +
+           number(d.triangle_a) + " and " + number(d.triangle_b) + ", at " +
+           place(d.witness_a, " ") + " and " + place(d.witness_b, " ");
+}
+
+std::string answer_members(const WithinAnswer& answer) {
+    return std::string(", \"within\": ") + word(answer.within) + count_and_pairs_json(answer);
+}
+
+std::string answer_words(const WithinAnswer& answer) {
+    std::string text = answer.within ? ": within" : ": farther";
+    if (answer.count) text += ", " + number(*answer.count) + " pairs";
+    return text + pair_lines(answer.pairs);
+}
+
+namespace {
+
+/// Returns an answer that begins with its pose.
+template <class Answer>
+std::string of_pose(const Answer& answer, AnswerFormat format) {
+    const std::string pose = number(answer.pose);
+    if (format == AnswerFormat::text) return "pose " + pose + answer_words(answer);
+    return "{\"pose\": " + pose + answer_members(answer) + "}";
+}
+
+}  // namespace
+
 void Answers::add(const PairAnswer& answer) {
-    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
+    write(of_pose(answer, format_));
 }
 
 void Answers::add(const CoarseAnswer& answer) {
     write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
 }
 void Answers::add(const DistanceAnswer& answer) {
-    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
+    write(of_pose(answer, format_));
 }
 
 void Answers::add(const HullCollideAnswer& answer) {
@@ -403,7 +412,7 @@ void Answers::add(const HullDistanceAnswer& answer) {
 }
 
 void Answers::add(const WithinAnswer& answer) {
-    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
+    write(of_pose(answer, format_));
 }
 
 void Answers::add(const ContactsAnswer& answer) {

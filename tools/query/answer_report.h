@@ -59,6 +59,16 @@ struct WithinAnswer {
     std::optional<std::span<const TrianglePair>> pairs;  ///< with --pairs
 };
 
+/// Returns the members of an answer in JSON without its pose: `, "hit": true, "count": 2`.
+[[nodiscard]] std::string answer_members(const PairAnswer& answer);
+[[nodiscard]] std::string answer_members(const DistanceAnswer& answer);
+[[nodiscard]] std::string answer_members(const WithinAnswer& answer);
+
+/// Returns an answer in words without its pose: ": hit, 2 pairs".
+[[nodiscard]] std::string answer_words(const PairAnswer& answer);
+[[nodiscard]] std::string answer_words(const DistanceAnswer& answer);
+[[nodiscard]] std::string answer_words(const WithinAnswer& answer);
+
 /// The contacts of two models in one pose.
 struct ContactsAnswer {
     std::size_t pose = 0;

@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <filesystem>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <span>
 #include <sstream>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "bake/structures.h"
-#include "cdprep/advanced/convex_distance.h"
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/advanced/query_counts.h"
 #include "cdprep/cells.h"
 #include "cdprep/cells/level_of_detail.h"
 #include "cdprep/cells/overlap_through.h"
-#include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
 #include "cli/open_for.h"
 #include "cli/signals.h"
@@ -28,69 +23,12 @@
 #include "command_line/command_page.h"
 #include "compare/cells/literal_octree.h"
 #include "query/command.h"
-#include "query/query_placements.h"
-#include "query/query_structure.h"
+#include "query/query_hulls.h"
+#include "query/triangle_lists.h"
 #include "text/structure_name.h"
 
 namespace cdprep::cli {
 namespace {
-
-enum class PairQuestion : std::uint8_t { collide, overlap, distance, within };
-
-struct PairArguments {
-    PairQuestion question = PairQuestion::collide;
-    std::filesystem::path a;
-    std::filesystem::path b;
-    PlacementWords placement;
-    StructureWords structure;
-    std::string format = "text";
-    std::string as = "surface";
-    std::string contact = "closed";
-    double tolerance = 0;
-    DistanceOptions errors;
-    std::optional<std::uint32_t> level_of_detail;
-    std::size_t repeat = 1;
-    bool timings = false;
-    bool count = false;
-    bool pairs = false;
-    bool segments = false;
-    bool counts = false;
-    bool skip_degenerate = false;
-};
-
-/// Runs a query `repeat` times and keeps the time of each run.
-class Stopwatch {
-public:
-    template <class Ask>
-    std::invoke_result_t<Ask> timed(std::size_t repeat, bool wanted, Ask ask) {
-        for (std::size_t i = 1;; ++i) {
-            const Clock::time_point begin = Clock::now();
-            auto answer = ask();
-            const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
-            if (wanted) microseconds_.push_back(taken.count());
-            if (i >= repeat) return answer;
-        }
-    }
-
-    /// Returns the distribution of the times as one line of text.
-    [[nodiscard]] std::string line() {
-        if (microseconds_.empty()) return "";
-        std::sort(microseconds_.begin(), microseconds_.end());
-        const auto at = [&](double share) {
-            return microseconds_[static_cast<std::size_t>(
-                share * static_cast<double>(microseconds_.size() - 1))];
-        };
-        std::ostringstream line;
-        line << microseconds_.size() << " questions: median " << std::fixed << std::setprecision(2)
-             << at(0.5) << " us, 95 % below " << at(0.95) << " us, most " << at(1) << " us\n";
-        return line.str();
-    }
-
-private:
-    using Clock = std::chrono::steady_clock;
-
-    std::vector<double> microseconds_;
-};
 
 /// Returns whether a structure has cells; the BVH and the pieces have none.
 bool has_cells(Structure structure) {
@@ -189,15 +127,19 @@ private:
         answer.pose = number;
         answer.is_approximate = is_literal_;
         if (arguments_.question == PairQuestion::overlap) {
-            const std::size_t count =
-                arguments_.segments ? find_crossings(placement) : find_pairs(placement);
-            answer.hit = count > 0;
-            answer.count = count;
             if (arguments_.segments) {
-                answer.crossings = crossings_;
-            } else if (!arguments_.count) {
-                answer.pairs = std::span(pairs_).first(count);
+                answer.crossings = lists_.crossings(pair(placement), workspace_);
+                answer.count = answer.crossings->size();
+            } else if (is_literal_) {
+                find_pairs_literally(placement, answer);
+            } else if (arguments_.count) {
+                answer.count = find_pairs(placement, {});
+            } else {
+                answer.pairs = lists_.pairs(
+                    [&](std::span<TrianglePair> room) { return find_pairs(placement, room); });
+                answer.count = answer.pairs->size();
             }
+            answer.hit = *answer.count > 0;
             if (options_.body == Body::surface) return answer;
         }
         const Collision collision = find_collision(placement);
@@ -219,33 +161,31 @@ private:
 
     /// Returns an answer whose pairs are valid until the next call.
     report::WithinAnswer ask_within(std::size_t number, const Placement& placement) {
-        const double tolerance = arguments_.tolerance;
+        const double tolerance = *arguments_.tolerance;
         report::WithinAnswer answer;
         answer.pose = number;
-        if (!arguments_.pairs && !arguments_.count) {
-            answer.within = within(pair(placement), tolerance, workspace_);
-            return answer;
+        if (arguments_.pairs) {
+            answer.pairs = lists_.pairs([&](std::span<TrianglePair> room) {
+                return pairs_within(pair(placement), tolerance, workspace_, room);
+            });
+            answer.count = answer.pairs->size();
+        } else if (arguments_.count) {
+            answer.count = pairs_within(pair(placement), tolerance, workspace_, {});
         }
-        answer.count = keep_pairs([&](std::span<TrianglePair> room) {
-            return pairs_within(pair(placement), tolerance, workspace_, room);
-        });
-        answer.within = *answer.count > 0;
-        if (arguments_.pairs) answer.pairs = std::span(pairs_).first(*answer.count);
+        answer.within =
+            answer.count ? *answer.count > 0 : within(pair(placement), tolerance, workspace_);
         return answer;
     }
 
-    std::size_t find_pairs(const Placement& placement) {
-        if (is_literal_) return find_pairs_literally(placement);
-        return keep_pairs([&](std::span<TrianglePair> room) {
-            return overlaps_through({a_, b_, placement, options_}, through_, workspace_, room);
-        });
+    std::size_t find_pairs(const Placement& placement, std::span<TrianglePair> room) {
+        return overlaps_through({a_, b_, placement, options_}, through_, workspace_, room);
     }
 
-    std::size_t find_pairs_literally(const Placement& placement) {
+    void find_pairs_literally(const Placement& placement, report::PairAnswer& answer) {
         std::size_t count = 0;
-        if (!arguments_.count) pairs_.clear();
+        literal_.clear();
         const auto keep = [&](const TrianglePair& pair) {
-            if (!arguments_.count) pairs_.push_back(pair);
+            if (!arguments_.count) literal_.push_back(pair);
             ++count;
             return true;
         };
@@ -255,33 +195,9 @@ private:
                                        .degenerate = options_.degenerate,
                                        .counts = arguments_.counts ? &counts_ : nullptr},
                                       keep);
-        if (!arguments_.count) std::sort(pairs_.begin(), pairs_.end());
-        return count;
-    }
-
-    /// Calls `find(room)`, and again with more room if the pairs did not fit. With --count, calls
-    /// it once without room.
-    template <class Find>
-    std::size_t keep_pairs(Find find) {
-        if (arguments_.count) return find({});
-        while (true) {
-            const std::size_t count = find(std::span(pairs_));
-            if (count <= pairs_.size()) return count;
-            pairs_.resize(count);
-        }
-    }
-
-    /// Finds the crossings, sorted by their pairs, and returns their number.
-    std::size_t find_crossings(const Placement& placement) {
-        crossings_.clear();
-        const auto keep = [this](const Crossing& crossing) {
-            crossings_.push_back(crossing);
-            return true;
-        };
-        visit_crossings(pair(placement), workspace_, keep);
-        std::sort(crossings_.begin(), crossings_.end(),
-                  [](const Crossing& x, const Crossing& y) { return x.pair < y.pair; });
-        return crossings_.size();
+        std::sort(literal_.begin(), literal_.end());
+        answer.count = count;
+        if (!arguments_.count) answer.pairs = literal_;
     }
 
     const PairArguments& arguments_;
@@ -292,98 +208,12 @@ private:
     PairOptions options_;
     DistanceOptions errors_;
     Workspace workspace_{cells()};
-    std::vector<TrianglePair> pairs_ = std::vector<TrianglePair>(4096);
-    std::vector<Crossing> crossings_;
+    TriangleLists lists_;
+    std::vector<TrianglePair> literal_;
     QueryCounts counts_;
     PieceCache cache_;
     Stopwatch stopwatch_;
 };
-
-bool asks_hulls(const PairArguments& arguments) {
-    return arguments.structure.structure == "hull" &&
-           (arguments.question == PairQuestion::collide ||
-            arguments.question == PairQuestion::distance);
-}
-
-/// Returns an error if an option is given that queries on convex hulls do not support.
-std::optional<Error> find_idle_for_hulls(const PairArguments& arguments) {
-    const std::array<std::pair<const char*, bool>, 6> options = {
-        {{"--leaf-test", !arguments.structure.leaf_test.empty()},
-         {"--descent", !arguments.structure.descent.empty()},
-         {"--search", !arguments.structure.search.empty()},
-         {"--level-of-detail", arguments.level_of_detail.has_value()},
-         {"--contact proper", arguments.contact == "proper"},
-         {"--skip-degenerate", arguments.skip_degenerate}}};
-    for (const auto& [option, is_given] : options) {
-        if (!is_given) continue;
-        return Error{ErrorCode::bad_argument,
-                     std::string(option) +
-                         " says nothing of convex hulls: leave it out, or ask "
-                         "through another --structure."};
-    }
-    return std::nullopt;
-}
-
-Result<Model> open_hulls(const std::filesystem::path& path) {
-    Result<Model> opened = open_for(path, Ask::hulls);
-    if (!opened || find_hull(opened.value(), format::HullScope::whole)) return opened;
-    return Error{ErrorCode::bad_argument,
-                 path.string() +
-                     ": has no convex hull of the whole model. Bake the mesh again with "
-                     "--structures hull."};
-}
-
-std::string hull_counts(const QueryCounts& counts) {
-    std::ostringstream line;
-    line << counts.hull_pairs << " hull pairs, " << counts.hull_steps
-         << " steps, each a farthest point of both; decided " << counts.hulls_by_exact
-         << " exactly, in " << counts.exact_steps << " steps\n";
-    return line.str();
-}
-
-/// Queries the convex hulls of the whole models, always as solids.
-Exit run_hulls(const PairArguments& arguments) {
-    if (const auto error = find_idle_for_hulls(arguments)) return fail("query", *error);
-    const Result<Model> a = open_hulls(arguments.a);
-    if (!a) return fail("query", a.error());
-    const Result<Model> b = open_hulls(arguments.b);
-    if (!b) return fail("query", b.error());
-    const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
-    if (!placements) return fail("query", placements.error());
-
-    const ConvexPoints of_a = convex_points(a.value(), 0), of_b = convex_points(b.value(), 0);
-    const DistanceOptions options = {arguments.errors.relative_error,
-                                     arguments.errors.absolute_error,
-                                     arguments.errors.max_distance};
-    ConvexCache cache;
-    QueryCounts counts;
-    QueryCounts* const counted = arguments.counts ? &counts : nullptr;
-    Stopwatch stopwatch;
-    report::Answers answers(std::cout, parse_answer_format(arguments.format));
-    for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
-        const Placement& placement = placements.value()[i];
-        const ConvexCache before = cache;
-        const auto timed = [&](auto ask) {
-            return stopwatch.timed(arguments.repeat, arguments.timings, [&] {
-                cache = before;
-                return ask();
-            });
-        };
-        if (arguments.question == PairQuestion::collide) {
-            answers.add(report::HullCollideAnswer{
-                i, timed([&] { return convex_collide(of_a, of_b, placement, &cache, counted); })});
-        } else {
-            answers.add(report::HullDistanceAnswer{
-                i, timed([&] {
-                    return convex_distance(of_a, of_b, placement, options, &cache, counted);
-                })});
-        }
-    }
-    answers.finish();
-    if (arguments.timings) std::cerr << stopwatch.line();
-    if (arguments.counts) std::cerr << hull_counts(counts);
-    return Exit::success;
-}
 
 /// Returns the queries that both models must serve.
 Ask asks_of(const PairArguments& arguments) {
@@ -461,7 +291,8 @@ Result<StructureOptions> structure_of(const PairArguments& arguments) {
     return through;
 }
 
-Exit run(const PairArguments& arguments) {
+/// Runs a query about two models.
+Exit run_pair(const PairArguments& arguments) {
     if (asks_hulls(arguments)) return run_hulls(arguments);
     const Result<StructureOptions> through = structure_of(arguments);
     if (!through) return fail("query", through.error());
@@ -484,6 +315,63 @@ Exit run(const PairArguments& arguments) {
     return Exit::success;
 }
 
+/// Returns the effect that a query computes for the parts of a scene.
+Ask effect_of(PairQuestion question) {
+    switch (question) {
+        case PairQuestion::distance:
+            return Ask::distance;
+        case PairQuestion::within:
+            return Ask::within;
+        default:
+            return Ask::overlap;
+    }
+}
+
+/// Returns what the arguments say about a scene. Options that were not given are left to it.
+SceneQuestion scene_question(const Command& command, const PairArguments& arguments) {
+    SceneQuestion scene;
+    scene.question.effect = effect_of(arguments.question);
+    scene.question.counts_pairs = arguments.count;
+    scene.question.lists_pairs = arguments.question == PairQuestion::overlap
+                                     ? !arguments.count && !arguments.segments
+                                     : arguments.pairs;
+    scene.question.lists_segments = arguments.segments;
+    scene.question.degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
+    scene.question.relative_error = arguments.errors.relative_error;
+    scene.question.absolute_error = arguments.errors.absolute_error;
+    scene.tolerance = arguments.tolerance;
+    if (command.count("--max-distance") > 0) scene.max_distance = arguments.errors.max_distance;
+    if (command.count("--as") > 0) scene.body = parse_body(arguments.as);
+    if (command.count("--contact") > 0) {
+        scene.overlap = arguments.contact == "proper" ? Overlap::proper : Overlap::closed;
+    }
+    if (!arguments.format.empty()) scene.format = parse_answer_format(arguments.format);
+    return scene;
+}
+
+/// Returns an error if an argument is missing that a query about two models requires.
+std::optional<Error> find_missing(const PairArguments& arguments) {
+    if (arguments.b.empty()) {
+        return Error{ErrorCode::bad_argument,
+                     std::string(arguments.a.empty() ? "a is required: The first baked model"
+                                                     : "b is required: The second baked model") +
+                         ". Give two models, or --scene."};
+    }
+    if (arguments.question == PairQuestion::within && !arguments.tolerance) {
+        return Error{ErrorCode::bad_argument,
+                     "--tolerance is required: Largest distance that counts as within."};
+    }
+    return std::nullopt;
+}
+
+Exit run(const Command& command, const PairArguments& arguments) {
+    const bool has_scene = !arguments.scene.scene.empty();
+    if (const auto error = find_idle_for_scene(command, has_scene)) return fail("query", *error);
+    if (has_scene) return run_scene(arguments.scene, scene_question(command, arguments));
+    if (const auto error = find_missing(arguments)) return fail("query", *error);
+    return run_pair(arguments);
+}
+
 void add_contact_options(const Command& command, PairArguments& arguments) {
     add_body(command, arguments.as);
     command
@@ -503,10 +391,10 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
     if (arguments.question == PairQuestion::within) {
         command
             .add_option("--tolerance", arguments.tolerance,
-                        "Largest distance that counts as within, in model units")
+                        "Largest distance that counts as within, in model units. Required, unless "
+                        "the pairs of a scene state theirs")
             .type_name("DISTANCE")
             .check(zero_or_more())
-            .required()
             .group("Query");
         const Option pairs = command
                                  .add_flag("--pairs", arguments.pairs,
@@ -537,7 +425,8 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
     command
         .add_option("--max-distance", arguments.errors.max_distance,
                     "Do not search beyond this distance, in model units; larger distances are not "
-                    "reported")
+                    "reported. Default: no limit; in a scene the limit of the pair of layers, or "
+                    "else 1 % of the diagonal of the box around all parts")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .group("Query");
@@ -564,22 +453,59 @@ const char* structure_text(PairQuestion question) {
     }
 }
 
+constexpr const char* kSceneNotes =
+    "A scene file pairs layers. The command queries the parts of paired layers, with the pair's "
+    "tolerance, max_distance, body and overlap. Options replace these. If the file has no pairs, "
+    "every part is queried against every other. In a glTF file, each node with triangles is a "
+    "part, named by its path. Later nodes of the same path get #2, #3 and so on. Nodes that use "
+    "one mesh share its model. A transform that is not rigid is applied to the vertices. The "
+    "answers are exact: parts that touch clash. The lines do not depend on the number of threads.";
+
+void add_pair_format(const Command& command, std::string& word, bool serves_scenes) {
+    if (!serves_scenes) {
+        word = "text";
+        return add_answer_format(command, word);
+    }
+    command
+        .add_option("--format", word, "Format of the answers. Default: text; with --scene ndjson")
+        .type_name("FORMAT")
+        .check(one_of({"text", "json", "ndjson"}))
+        .group("Report");
+}
+
+/// Sets what follows the options in the help of a query.
+void set_pair_notes(const Command& command, PairQuestion question) {
+    const std::string call = "cdprep query " + std::string(name_of(question));
+    const std::string tolerance = question == PairQuestion::within ? " --tolerance 0.5" : "";
+    std::vector<std::string> examples = {call +
+                                         " arm.cdp.h5 part.cdp.h5 --pose "
+                                         "'1 0 0 0 1 0 0 0 1 0.1 0 0'" +
+                                         tolerance};
+    if (question == PairQuestion::collide) return command.set_notes("", examples);
+    examples.push_back(call + " --scene samples/scenes/assembly.json" + tolerance);
+    examples.push_back(call + " --scene robot.glb" + tolerance);
+    command.set_notes(kSceneNotes, examples);
+}
+
 void add_question(const Command& query, PairQuestion question, const char* name,
                   const char* description, Exit& exit) {
     auto arguments = std::make_shared<PairArguments>();
     arguments->question = question;
     const Command command = query.add_command(name, description);
-    command.set_notes("", {"cdprep query " + std::string(name) + " arm.cdp.h5 part.cdp.h5 --pose " +
-                           "'1 0 0 0 1 0 0 0 1 0.1 0 0'" +
-                           (question == PairQuestion::within ? " --tolerance 0.5" : "")});
-    command.add_option("a", arguments->a, "The first baked model").required();
-    command.add_option("b", arguments->b, "The second baked model").required();
+    const bool serves_scenes = question != PairQuestion::collide;
+    set_pair_notes(command, question);
+    const Option a = command.add_option("a", arguments->a, "The first baked model");
+    const Option b = command.add_option("b", arguments->b, "The second baked model");
+    if (!serves_scenes) {
+        a.required();
+        b.required();
+    }
     add_placements(command, arguments->placement);
     add_structure(command, arguments->structure, structure_text(question));
     if (question == PairQuestion::collide || question == PairQuestion::overlap) {
         add_structure_steps(command, arguments->structure);
     }
-    add_answer_format(command, arguments->format);
+    add_pair_format(command, arguments->format, serves_scenes);
     command.add_option("--repeat", arguments->repeat, "Repeat each query N times, for --timings")
         .check(whole_from(1, 1'000'000'000))
         .show_default()
@@ -616,7 +542,8 @@ void add_question(const Command& query, PairQuestion question, const char* name,
             .excludes(count)
             .group("Query");
     }
-    command.callback([arguments, &exit] { exit = run(*arguments); });
+    if (serves_scenes) add_scene(command, arguments->scene);
+    command.callback([arguments, command, &exit] { exit = run(command, *arguments); });
 }
 
 }  // namespace

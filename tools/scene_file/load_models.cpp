@@ -9,6 +9,7 @@
 
 #include "cdprep/format/file_header.h"
 #include "scene_file/bake_cache.h"
+#include "text/number_text.h"
 #include "text/space_name.h"
 
 namespace cdprep::scenes {
@@ -42,6 +43,18 @@ Result<cli::BakeOptions> bake_options_for(Ask asks, const import::ImportOptions&
     return options;
 }
 
+/// Makes a bake read a model of an assembly. Equal words name equal parts of one file.
+void read_part(const AssemblyScene& assembly, const AssemblyModel& model, cli::BakeOptions& bake) {
+    const import::MeshNode& node = assembly.file.nodes()[model.node];
+    bake.part = "meshes";
+    for (const std::uint32_t mesh : node.meshes) bake.part += " " + std::to_string(mesh);
+    bake.part += " transform";
+    for (const double x : model.model_from_mesh) bake.part += " " + report::number_text(x);
+    bake.read = [&](const fs::path& /*input*/, const import::ImportOptions& /*options*/) {
+        return assembly.file.triangles(node, model.model_from_mesh);
+    };
+}
+
 /// Loads the models of one scene.
 class Loader {
 public:
@@ -61,12 +74,14 @@ public:
 
 private:
     std::optional<Error> open(const fs::path& path, SceneModel& loaded) {
-        if (is_baked_file(path)) {
+        const AssemblyScene* const assembly = options_.assembly;
+        if (assembly == nullptr && is_baked_file(path)) {
             loaded.origin = ModelOrigin::baked;
             return open_sections(path, loaded);
         }
-        const Result<cli::BakeOptions> bake = bake_options_for(loaded.needs.asks, options_.import);
+        Result<cli::BakeOptions> bake = bake_options_for(loaded.needs.asks, options_.import);
         if (!bake) return bake.error();
+        if (assembly != nullptr) read_part(*assembly, assembly->models[done_], *bake);
         const auto begins = [&](const char* stage) {
             options_.begins(done_, path.filename().string() + ": " + stage);
         };
@@ -81,7 +96,9 @@ private:
                         loaded);
         }
         loaded.origin = ModelOrigin::cached;
-        const Result<fs::path> cached = find_or_bake(path, options_.cache, *bake, threads_, begins);
+        const Result<fs::path> cached =
+            find_or_bake(assembly == nullptr ? path : fs::path(scene_.name), options_.cache, *bake,
+                         threads_, begins);
         if (!cached) return cached.error();
         return open_sections(*cached, loaded);
     }

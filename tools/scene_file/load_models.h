@@ -13,6 +13,7 @@
 #include "cli/program_threads.h"
 #include "import/import_file.h"
 #include "scene_file/compile_scene.h"
+#include "scene_file/read_assembly.h"
 
 namespace cdprep::scenes {
 
@@ -34,6 +35,7 @@ struct SceneModel {
 struct LoadOptions {
     std::filesystem::path cache;  ///< the folder of baked meshes; empty: bake into memory
     import::ImportOptions import;
+    const AssemblyScene* assembly = nullptr;  ///< whose models are loaded; null: models are files
     /// Called as a stage of a bake begins, with the number of models before and "FILE: STAGE".
     std::function<void(std::size_t done, const std::string& what)> begins =
         [](std::size_t /*done*/, const std::string& /*what*/) {};

@@ -62,7 +62,10 @@ private:
         }
         if (const auto limits = root.find("limits")) read_limits(*limits);
         read_layers(root);
-        for_each_item(root, "pairs", [&](const JsonElement& pair) { read_pair(pair); });
+        scene_.has_pairs = root.find("pairs").has_value();
+        if (scene_.has_pairs) {
+            for_each_item(root, "pairs", [&](const JsonElement& pair) { read_pair(pair); });
+        }
         for_each_item(root, "objects", [&](const JsonElement& object) { read_object(object); });
     }
 

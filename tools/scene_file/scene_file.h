@@ -39,6 +39,7 @@ struct SceneFile {
     double duration_s = 0;
     std::optional<std::uint32_t> most_pairs;  ///< SceneLimits::pairs
     std::vector<std::string> layers;
+    bool has_pairs = true;  ///< otherwise the file does not say what is asked
     std::vector<AskedPair> pairs;
     std::vector<std::filesystem::path> models;  ///< mesh files or baked files, each once
     std::vector<Motion> motions;

@@ -56,6 +56,11 @@ public:
         scenes::SceneReading reading = scenes::read_scene(arguments_.scene);
         if (!reading.scene) return fail_all(reading.errors, ErrorCode::unreadable);
         scene_ = std::move(*reading.scene);
+        if (!scene_.has_pairs) {
+            return fail("simulate", {ErrorCode::unreadable,
+                                     scene_.name + ": the key 'pairs' is missing. It says what to "
+                                                   "compute."});
+        }
         // First without models: nothing is baked for a plan that does not exist.
         Plan::Compiled compiled = scenes::compile_scene(scene_, limits());
         if (!compiled.plan) return refuse(compiled.refusals);

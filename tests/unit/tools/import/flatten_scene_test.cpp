@@ -144,6 +144,37 @@ TEST(FlattenScene, NodesTransformTheirMeshesAlongThePath) {
               (std::array<double, 12>{2, 0, 0, 10, 0, 1, 0, 20, 0, 0, 1, 30}));
 }
 
+// The same scene as parts: each node with its own place, geometry without it.
+TEST(PlacedScene, MeshNodesStayApart) {
+    const MeshPart points = {{{0, 0, 0}}, {{0}}, 0};
+    const std::vector<std::byte> bytes =
+        Bytes({kTriangle, points}, {{"root", kNoParent, moved(10, 0, 0), {1}},
+                                    {"arm", 0, moved(0, 20, 0), {0, 1}},
+                                    {"hand", 1, moved(0, 0, 30, 2), {0}}})
+            .whole();
+    const SourceFile file("t.glb", "x");
+    const auto scene = PlacedScene::make(file, bytes);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const std::vector<MeshNode> nodes = scene->mesh_nodes();
+    ASSERT_EQ(nodes.size(), 2u) << "points are no triangles";
+    EXPECT_EQ(nodes[0].path, "root/arm");
+    EXPECT_EQ(nodes[1].path, "root/arm/hand");
+    EXPECT_EQ(nodes[0].meshes, std::vector<std::uint32_t>{0});
+    EXPECT_EQ(nodes[1].meshes, nodes[0].meshes);
+    EXPECT_EQ(nodes[1].world_from_node, (Affine{2, 0, 0, 10, 0, 1, 0, 20, 0, 0, 1, 30}));
+    const Affine none = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    const auto plain = scene->flatten_node(nodes[1], none, {});
+    ASSERT_TRUE(plain);
+    EXPECT_EQ(plain->positions, (std::vector<Double3>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+    EXPECT_TRUE(plain->single_precision);
+    EXPECT_EQ(plain->instance_names, std::vector<std::string>{"root/arm/hand"});
+    const auto mirrored = scene->flatten_node(nodes[1], {-3, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, {});
+    ASSERT_TRUE(mirrored);
+    EXPECT_EQ(mirrored->positions, (std::vector<Double3>{{-3, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+    EXPECT_EQ(mirrored->triangles, (std::vector<Triangle>{{{0, 2, 1}}}));
+    EXPECT_FALSE(mirrored->single_precision);
+}
+
 TEST(FlattenScene, IdentityKeepsFloats) {
     const auto result = flatten(Bytes({kTriangle}, {{"a", kNoParent, kIdentity, {0, 0}}}).whole());
     ASSERT_TRUE(result.ok());

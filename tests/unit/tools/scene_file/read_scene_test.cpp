@@ -117,6 +117,14 @@ TEST(ReadScene, HasDefaults) {
     EXPECT_EQ(pose_of(scene, scene.objects[0], 0)->rotation(), Pose().rotation());
 }
 
+// `query --scene` asks all about all then; an empty list of pairs asks nothing.
+TEST(ReadScene, MayHaveNoPairs) {
+    const Folder folder;
+    const std::string rest = R"("cdprep_scene": 1, "layers": ["a"], "objects": [])";
+    EXPECT_FALSE(folder.scene("{" + rest + "}").has_pairs);
+    EXPECT_TRUE(folder.scene("{" + rest + R"(, "pairs": []})").has_pairs);
+}
+
 struct Mistake {
     std::string text;
     std::vector<std::string> errors;
@@ -141,8 +149,7 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
           "'layers'?",
           "line 3: /step_s: found 0; expected a number above 0.",
           "line 3: /duration_s: found -1; expected a number, 0 or more.",
-          "line 1: the key 'layers' is missing.", "line 1: the key 'pairs' is missing.",
-          "line 1: the key 'objects' is missing."}},
+          "line 1: the key 'layers' is missing.", "line 1: the key 'objects' is missing."}},
         {"{\"cdprep_scene\": 1, \"pairs\": [], \"objects\": {}, \"limits\": {\"pairs\": 0.5},\n"
          "\"layers\": [\"a\", \"a\", \"\"]}",
          {"line 1: /limits/pairs: found 0.5; expected a whole number from 1 to 2147483648.",

@@ -18,11 +18,13 @@ struct RootBox {
 };
 
 /// Returns a box that contains all points of a moved model, as transform_point() rounds them, and
-/// reaches `reach` beyond them.
+/// reaches `reach` beyond them. The reach is finite, at least 0, in units of the models. If two
+/// models are at most d apart, their boxes with a reach of d / 2 each meet. Needs the BVH.
 [[nodiscard]] RootBox root_box(const Model& model, const Pose& world_from_model,
                                double reach) noexcept;
 
-/// Returns the axis-aligned box around a root box; absent if there are no triangles.
+/// Returns the axis-aligned box around a root box, for BroadPhase; absent if there are no
+/// triangles.
 [[nodiscard]] WorldBox world_box(const RootBox& root) noexcept;
 
 /// Returns false if two root boxes are certainly apart: by the fifteen directions of Gottschalk,

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "import/flatten_scene.h"
+#include "import/import_file.h"
+
+namespace cdprep::import {
+
+/// A mesh file whose nodes stay apart, each with its place in the world. Read once.
+class Assembly {
+public:
+    /// Reads a file of a format with nodes, in a child process, as import_file() does. Fails as
+    /// that does. Also fails if no node has triangles.
+    [[nodiscard]] static Result<Assembly> open(const std::filesystem::path& path,
+                                               const ImportOptions& options);
+    Assembly(Assembly&&) noexcept;
+    Assembly& operator=(Assembly&&) noexcept;
+    ~Assembly();
+
+    /// The nodes that have triangles, depth first.
+    [[nodiscard]] std::span<const MeshNode> nodes() const noexcept;
+    /// Returns the triangles of a node's meshes, moved by `model_from_mesh` instead of the node's
+    /// own transform. Invalid numbers are data, as in import_file().
+    [[nodiscard]] Result<mesh::TriangleSoup> triangles(const MeshNode& node,
+                                                       const Affine& model_from_mesh) const;
+
+private:
+    struct Content;
+    explicit Assembly(std::unique_ptr<const Content> content) noexcept;
+    std::unique_ptr<const Content> content_;
+};
+
+}  // namespace cdprep::import

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "query/part_pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace cdprep::cli {
+namespace {
+
+/// A list of so many pairs takes 6 GiB.
+constexpr std::uint64_t kMostCandidates = std::uint64_t{1} << 28;
+
+/// Returns the number of pairs of parts whose layers are paired.
+std::uint64_t count_possible(std::span<const Part> parts, const Plan& plan) {
+    std::array<std::uint64_t, kLayers> sizes{};
+    for (const Part& part : parts) ++sizes[part.layer];
+    std::uint64_t count = 0;
+    for (const LayerPair& pair : plan.pairs()) {
+        count += pair.a == pair.b
+                     ? sizes[pair.a] * (std::max<std::uint64_t>(sizes[pair.a], 1) - 1) / 2
+                     : sizes[pair.a] * sizes[pair.b];
+    }
+    return count;
+}
+
+}  // namespace
+
+Result<std::vector<Part>> parts_of(const scenes::SceneFile& scene, const Plan& plan,
+                                   std::span<const scenes::SceneModel> models) {
+    std::vector<Part> parts;
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        const scenes::FileObject& object = scene.objects[i];
+        if (!scenes::is_asked(plan, object)) continue;
+        const Result<Pose> pose = scenes::pose_of(scene, object, 0);
+        if (!pose) return pose.error();
+        parts.push_back({i, object.layer, &*models[object.model].model, *pose});
+    }
+    return parts;
+}
+
+double size_of(std::span<const Part> parts) {
+    std::array<double, 3> lower{}, upper{};
+    bool is_empty = true;
+    for (const Part& part : parts) {
+        const WorldBox box = world_box(root_box(*part.model, part.pose, 0));
+        if (box.lower[0] > box.upper[0]) continue;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double low = box.lower[axis], high = box.upper[axis];
+            lower[axis] = is_empty ? low : std::min(lower[axis], low);
+            upper[axis] = is_empty ? high : std::max(upper[axis], high);
+        }
+        is_empty = false;
+    }
+    return std::hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]);
+}
+
+Result<PartPairs> PartPairs::find(std::span<const Part> parts, const Plan& plan) {
+    PartPairs found(parts, plan);
+    found.possible_ = count_possible(parts, plan);
+    std::vector<WorldBox> boxes;
+    std::vector<BoxFilter> filters;
+    for (const Part& part : parts) {
+        found.roots_.push_back(root_box(*part.model, part.pose, plan.reach_of(part.layer)));
+        boxes.push_back(world_box(found.roots_.back()));
+        filters.push_back(plan.filter_of(part.layer));
+    }
+    const auto count = static_cast<std::uint32_t>(parts.size());
+    for (std::uint64_t room = 8 * std::uint64_t{count} + 64;;) {
+        BroadPhase broad_phase({.boxes = count, .pairs = static_cast<std::uint32_t>(room)});
+        const BroadPhaseUpdate update = broad_phase.update(boxes, filters);
+        if (update.complete) {
+            found.candidates_.assign(update.pairs.begin(), update.pairs.end());
+            return found;
+        }
+        if (update.needed > kMostCandidates) {
+            return Error{ErrorCode::over_budget,
+                         "The boxes of " + std::to_string(update.needed) +
+                             " pairs of parts are near enough; at most " +
+                             std::to_string(kMostCandidates) +
+                             " are possible. Choose a smaller distance, or pair fewer layers."};
+        }
+        room = update.needed;
+    }
+}
+
+const LayerPair& PartPairs::asked(const BoxPair& candidate) const noexcept {
+    return plan_->pairs()[*plan_->find_pair(parts_[candidate.a].layer, parts_[candidate.b].layer)];
+}
+
+Pair PartPairs::pair(const BoxPair& candidate) const noexcept {
+    const Part& a = parts_[candidate.a];
+    const Part& b = parts_[candidate.b];
+    return {*a.model, *b.model, Placement::world(a.pose, b.pose)};
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "cli/import_arguments.h"
+#include "query/clash_search.h"
+
+namespace cdprep::cli {
+
+/// The command-line arguments of a query about all pairs of a scene's parts.
+struct SceneArguments {
+    std::filesystem::path scene;  ///< empty: the query is about two models
+    std::filesystem::path cache;
+    std::string progress = "auto";
+    std::size_t threads = 0;
+    ImportArguments import;
+};
+
+/// What the command line says of the query; what it does not say, the scene does.
+struct SceneQuestion {
+    ClashQuestion question;
+    std::optional<double> tolerance;
+    std::optional<double> max_distance;
+    std::optional<Body> body;
+    std::optional<Overlap> overlap;
+    report::AnswerFormat format = report::AnswerFormat::ndjson;
+};
+
+/// Without a limit, distances up to this share of the scene's size are listed.
+inline constexpr double kDefaultReach = 0.01;
+
+/// Adds --scene, --cache, --jobs, --progress and the options of imports. `arguments` must outlive
+/// the command.
+void add_scene(const Command& command, SceneArguments& arguments);
+
+/// Returns an error if an option is given that is only for a query about two models, or, without
+/// --scene, one that is only for a scene.
+[[nodiscard]] std::optional<Error> find_idle_for_scene(const Command& command, bool has_scene);
+
+/// Asks all pairs of parts whose layers are paired, and writes the clashes and a summary.
+Exit run_scene(const SceneArguments& arguments, const SceneQuestion& question);
+
+}  // namespace cdprep::cli
