@@ -1,26 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include "c/c_contacts.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 
 #include "c/c_pairs.h"
-#include "cdprep/contacts.h"
 #include "cdprep/format/float_environment.h"
 #include "pieces/list_contacts.h"
 
 namespace cdprep::c {
-
-template <>
-struct Input<cdprep_contact_options> {
-    static const InputType type;
-    static cdprep_contact_options defaults() noexcept {
-        cdprep_contact_options options{};
-        options.most = kDefaultMost;
-        return options;
-    }
-    static constexpr std::uint32_t kDefaultMost = kMostListedContacts;
-};
-
 namespace {
 
 static_assert(CDPREP_VERTEX == static_cast<int>(FeatureKind::vertex) &&
@@ -45,6 +34,61 @@ cdprep_feature in_c(const ContactFeature& feature) noexcept {
             feature.edge,
             feature.triangle,
             {feature.vertex, CDPREP_NONE, CDPREP_NONE}};
+}
+
+/// Refuses options that a visitor does not use.
+int refuse_unused(Call& call, const cdprep_contact_options& options) noexcept {
+    const Name name = {"options"};
+    if (options.most != Input<cdprep_contact_options>::defaults().most) {
+        return call.refuse(CDPREP_WHY_NO_MEANING, name.of("most"),
+                           "is %u, but the visitor ends the search; leave it at its default.",
+                           options.most);
+    }
+    if (options.cluster_angle != 0) {
+        return call.refuse(CDPREP_WHY_NO_MEANING, name.of("cluster_angle"),
+                           "is %g, but a visitor gets each contact; leave it at its default.",
+                           options.cluster_angle);
+    }
+    return CDPREP_OK;
+}
+
+void answer(const ListedContacts& listed, cdprep_contact_list& list) noexcept {
+    const ContactsVerdict& verdict = listed.verdict;
+    list.count = listed.contacts.size();
+    list.complete = word(verdict.complete);
+    list.searched = word(verdict.searched);
+    list.found = verdict.found;
+    list.computed = verdict.computed;
+    list.work = verdict.work;
+    const std::size_t stored = std::min(list.count, list.room);
+    for (std::size_t i = 0; i < stored; ++i) list.items[i] = in_c(listed.contacts[i]);
+}
+
+}  // namespace
+
+cdprep_contact_options Input<cdprep_contact_options>::defaults() noexcept {
+    cdprep_contact_options options{};
+    options.most = kMostListedContacts;
+    return options;
+}
+
+int read_contact_options(Call& call, const Name& name, const cdprep_contact_options* given,
+                         cdprep_contact_options& options) noexcept {
+    if (const int code = read_options(call, name, given, options)) return code;
+    if (options.manifold != 0 && options.manifold != kManifold) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("manifold"),
+                           "is %u; it must be 0 or %u.", options.manifold, kManifold);
+    }
+    if (options.most == 0 || options.most > kMostListedContacts) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("most"), "is %u; it must be 1 to %u.",
+                           options.most, kMostListedContacts);
+    }
+    return CDPREP_OK;
+}
+
+ContactOptions in_cpp(const cdprep_contact_options& options) noexcept {
+    return {options.tolerance, options.manifold == 0 ? Manifold::none : Manifold::four,
+            options.most, options.work, options.cluster_angle};
 }
 
 cdprep_contact in_c(const Contact& contact) noexcept {
@@ -72,56 +116,6 @@ cdprep_contact in_c(const Contact& contact) noexcept {
     return to;
 }
 
-int read(Call& call, const cdprep_contact_options* given,
-         cdprep_contact_options& options) noexcept {
-    const Name name = {"options"};
-    if (const int code = read_options(call, name, given, options)) return code;
-    if (options.manifold != 0 && options.manifold != kManifold) {
-        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("manifold"),
-                           "is %u; it must be 0 or %u.", options.manifold, kManifold);
-    }
-    if (options.most == 0 || options.most > kMostListedContacts) {
-        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("most"), "is %u; it must be 1 to %u.",
-                           options.most, kMostListedContacts);
-    }
-    return CDPREP_OK;
-}
-
-/// Refuses options that a visitor does not use.
-int refuse_unused(Call& call, const cdprep_contact_options& options) noexcept {
-    const Name name = {"options"};
-    if (options.most != Input<cdprep_contact_options>::kDefaultMost) {
-        return call.refuse(CDPREP_WHY_NO_MEANING, name.of("most"),
-                           "is %u, but the visitor ends the search; leave it at its default.",
-                           options.most);
-    }
-    if (options.cluster_angle != 0) {
-        return call.refuse(CDPREP_WHY_NO_MEANING, name.of("cluster_angle"),
-                           "is %g, but a visitor gets each contact; leave it at its default.",
-                           options.cluster_angle);
-    }
-    return CDPREP_OK;
-}
-
-ContactOptions in_cpp(const cdprep_contact_options& options) noexcept {
-    return {options.tolerance, options.manifold == 0 ? Manifold::none : Manifold::four,
-            options.most, options.work, options.cluster_angle};
-}
-
-void answer(const ListedContacts& listed, cdprep_contact_list& list) noexcept {
-    const ContactsVerdict& verdict = listed.verdict;
-    list.count = listed.contacts.size();
-    list.complete = word(verdict.complete);
-    list.searched = word(verdict.searched);
-    list.found = verdict.found;
-    list.computed = verdict.computed;
-    list.work = verdict.work;
-    const std::size_t stored = std::min(list.count, list.room);
-    for (std::size_t i = 0; i < stored; ++i) list.items[i] = in_c(listed.contacts[i]);
-}
-
-}  // namespace
-
 const InputType Input<cdprep_contact_options>::type = {"cdprep_contact_options", 0xcd500005U,
                                                        sizeof(cdprep_contact_options),
                                                        sizeof(cdprep_contact_options), kFields};
@@ -148,7 +142,7 @@ int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_options* optio
         cdprep::c::kContacts, pair, workspace, list, "list", error,
         [&](Call& call) {
             if (const int code = check_list(call, {"list"}, *list)) return code;
-            return cdprep::c::read(call, options, given);
+            return read_contact_options(call, {"options"}, options, given);
         },
         [&](const AskedPair& asked, Workspace& scratch) {
             const cdprep::format::FloatEnvironment environment;
@@ -164,7 +158,8 @@ int cdprep_contacts_visit(const cdprep_pair* pair, const cdprep_contact_options*
     return ask_pair(
         cdprep::c::kContacts, pair, workspace, visit, "visit", error,
         [&](Call& call) -> int {
-            if (const int code = cdprep::c::read(call, options, given)) return code;
+            if (const int code = read_contact_options(call, {"options"}, options, given))
+                return code;
             return cdprep::c::refuse_unused(call, given);
         },
         [&](const AskedPair& asked, Workspace& scratch) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "c/c_contacts.h"
 #include "c/c_model.h"
 #include "c/c_workspace.h"
 #include "cdprep/format/float_environment.h"
@@ -61,6 +62,7 @@ constexpr std::array kOptionsFields = {
     Field{"max_objects", offsetof(cdprep_plan_options, max_objects), Holds::choice,
           kMostWorldBoxes},
     Field{"lanes", offsetof(cdprep_plan_options, lanes), Holds::choice, kMostLanes},
+    Field{"reserved", offsetof(cdprep_plan_options, reserved), Holds::reserved},
 };
 
 constexpr Name kOptions = {"options"};
@@ -129,9 +131,12 @@ struct Asked {
     }
 };
 
-/// The effects of scenes in C: all of kSceneEffects but contacts.
-constexpr std::uint32_t kEffects =
-    CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP | CDPREP_ASK_WITHIN | CDPREP_ASK_DISTANCE;
+constexpr std::uint32_t kEffects = [] {
+    std::uint32_t all = 0;
+    for (const Ask one : kSceneEffects) all |= static_cast<std::uint32_t>(one);
+    return all;
+}();
+constexpr std::uint32_t kReadBody = CDPREP_ASK_COLLIDE | CDPREP_ASK_DISTANCE | CDPREP_ASK_CONTACTS;
 
 int refuse_unused(Call& call, const Name& name, const char* effects) noexcept {
     return call.refuse(CDPREP_WHY_NO_MEANING, name,
@@ -141,8 +146,8 @@ int refuse_unused(Call& call, const Name& name, const char* effects) noexcept {
 /// Refuses fields that no effect of the pair uses.
 int check_meaning(Call& call, const Name& name, const cdprep_layer_pair& pair) noexcept {
     const auto has = [&](std::uint32_t asks) { return (pair.effects & asks) != 0; };
-    if (pair.body != CDPREP_SURFACE && !has(CDPREP_ASK_COLLIDE | CDPREP_ASK_DISTANCE)) {
-        return refuse_unused(call, name.of("body"), "CDPREP_ASK_COLLIDE or _DISTANCE");
+    if (pair.body != CDPREP_SURFACE && !has(kReadBody)) {
+        return refuse_unused(call, name.of("body"), "CDPREP_ASK_COLLIDE, _DISTANCE or _CONTACTS");
     }
     if (pair.overlap != CDPREP_CLOSED && !has(CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP)) {
         return refuse_unused(call, name.of("overlap"), "CDPREP_ASK_COLLIDE or _OVERLAP");
@@ -153,10 +158,27 @@ int check_meaning(Call& call, const Name& name, const cdprep_layer_pair& pair) n
     if (pair.max_distance > 0 && !has(CDPREP_ASK_DISTANCE)) {
         return refuse_unused(call, name.of("max_distance"), "CDPREP_ASK_DISTANCE");
     }
+    if (pair.contacts != nullptr && !has(CDPREP_ASK_CONTACTS)) {
+        return refuse_unused(call, name.of("contacts"), "CDPREP_ASK_CONTACTS");
+    }
     return CDPREP_OK;
 }
 
-LayerPair in_cpp(const cdprep_layer_pair& pair) noexcept {
+/// Reads the options of contacts of a pair.
+int read_contacts(Call& call, const Name& name, const cdprep_layer_pair& pair,
+                  ContactOptions& contacts) noexcept {
+    contacts = LayerPair().contacts;
+    if (pair.contacts == nullptr) return CDPREP_OK;
+    cdprep_contact_options given;
+    const auto text = spelt(name.of("contacts"));
+    if (const int code = read_contact_options(call, {text.data()}, pair.contacts, given)) {
+        return code;
+    }
+    contacts = in_cpp(given);
+    return CDPREP_OK;
+}
+
+LayerPair in_cpp(const cdprep_layer_pair& pair, const ContactOptions& contacts) noexcept {
     return {.a = pair.a,
             .b = pair.b,
             .effects = static_cast<Ask>(pair.effects),
@@ -164,7 +186,7 @@ LayerPair in_cpp(const cdprep_layer_pair& pair) noexcept {
             .max_distance = pair.max_distance,
             .body = pair.body == CDPREP_SOLID ? Body::solid : Body::surface,
             .overlap = pair.overlap == CDPREP_PROPER ? Overlap::proper : Overlap::closed,
-            .contacts = LayerPair().contacts,
+            .contacts = contacts,
             .lists_stays = pair.lists_stays == CDPREP_YES};
 }
 
@@ -177,6 +199,8 @@ int read_layer_pair(Call& call, const Name& name, const cdprep_layer_pair* from,
                            "is 0x%x; a scene computes only the bits 0x%x.", pair.effects, kEffects);
     }
     if (const int code = check_meaning(call, name, pair)) return code;
+    ContactOptions contacts;
+    if (const int code = read_contacts(call, name, pair, contacts)) return code;
     std::uint16_t& given = asked.given_for(pair.a, pair.b);
     if (given != 0) {
         return call.refuse(CDPREP_WHY_NO_MEANING, name,
@@ -185,7 +209,7 @@ int read_layer_pair(Call& call, const Name& name, const cdprep_layer_pair* from,
     }
     given = static_cast<std::uint16_t>(name.index + 1);
     if (pair.effects == 0) return CDPREP_OK;
-    asked.pairs.push_back(in_cpp(pair));
+    asked.pairs.push_back(in_cpp(pair, contacts));
     asked.given_as.push_back(static_cast<std::uint16_t>(name.index));
     return CDPREP_OK;
 }
@@ -250,7 +274,8 @@ std::optional<Plan> compiled(Refusals& refusals, const Asked& asked) {
                        .limits = {.objects = options.max_objects,
                                   .pairs = options.max_pairs,
                                   .threads = options.lanes,
-                                  .triangle_pairs = options.max_triangle_pairs}});
+                                  .triangle_pairs = options.max_triangle_pairs,
+                                  .contacts = options.max_contacts}});
     for (const std::string& refusal : compiled.refusals) {
         refusals.accept([&](Call& call) {
             return call.refuse_with(CDPREP_WHY_OUT_OF_RANGE, kOptions, refusal);

@@ -45,14 +45,20 @@ struct Layout {
           overlaps(hits + aligned(plan.limits().pairs * sizeof(cdprep_scene_hit))),
           distances(overlaps +
                     aligned(results_of(plan, Ask::overlap) * sizeof(cdprep_scene_overlap))),
-          events(distances +
-                 aligned(results_of(plan, Ask::distance) * sizeof(cdprep_scene_distance))),
+          contacts(distances +
+                   aligned(results_of(plan, Ask::distance) * sizeof(cdprep_scene_distance))),
+          contact_items(contacts +
+                        aligned(results_of(plan, Ask::contacts) * sizeof(cdprep_scene_contact))),
+          events(contact_items + aligned(contacts_of(plan) * sizeof(cdprep_contact))),
           scene(events + aligned(events_of(plan) * sizeof(cdprep_event))),
           scene_size(aligned(Scene::size(plan))),
           size(scene + scene_size) {}
 
     static std::size_t results_of(const Plan& plan, Ask effect) noexcept {
         return contains(plan.effects(), effect) ? plan.limits().pairs : 0;
+    }
+    static std::size_t contacts_of(const Plan& plan) noexcept {
+        return contains(plan.effects(), Ask::contacts) ? plan.limits().contacts : 0;
     }
     /// All effects of the last step end, and as many begin.
     static std::size_t events_of(const Plan& plan) noexcept {
@@ -63,6 +69,8 @@ struct Layout {
     std::size_t hits;
     std::size_t overlaps;
     std::size_t distances;
+    std::size_t contacts;
+    std::size_t contact_items;
     std::size_t events;
     std::size_t scene;
     std::size_t scene_size;
@@ -89,6 +97,8 @@ int make(Call& call, cdprep_plan& plan, const Given& given, cdprep_scene** to) n
     const SceneResults results = {array_at<cdprep_scene_hit>(block, layout.hits),
                                   array_at<cdprep_scene_overlap>(block, layout.overlaps),
                                   array_at<cdprep_scene_distance>(block, layout.distances),
+                                  array_at<cdprep_scene_contact>(block, layout.contacts),
+                                  array_at<cdprep_contact>(block, layout.contact_items),
                                   array_at<cdprep_event>(block, layout.events)};
     *to = new (block) cdprep_scene{std::move(*scene), &plan, results, own.take()};
     plan.users.fetch_add(1, std::memory_order_relaxed);
@@ -329,6 +339,7 @@ int cdprep_scene_step(cdprep_scene* scene, cdprep_workspace* workspace, cdprep_s
         step->complete = made.complete ? CDPREP_YES : CDPREP_NO;
         step->needed_pairs = made.needed_pairs;
         step->needed_triangle_pairs = made.needed_triangle_pairs;
+        step->needed_contacts = made.needed_contacts;
         if (made.complete) cdprep::c::store_results(*scene);
         return CDPREP_OK;
     });

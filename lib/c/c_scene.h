@@ -16,8 +16,11 @@ struct SceneResults {
     cdprep_scene_hit* hits = nullptr;
     cdprep_scene_overlap* overlaps = nullptr;    ///< without room if the plan asks for none
     cdprep_scene_distance* distances = nullptr;  ///< likewise
+    cdprep_scene_contact* contacts = nullptr;    ///< likewise
+    cdprep_contact* contact_items = nullptr;     ///< of all lists of contacts
     cdprep_event* events = nullptr;
-    std::size_t hit_count = 0, overlap_count = 0, distance_count = 0, event_count = 0;
+    std::size_t hit_count = 0, overlap_count = 0, distance_count = 0, contact_count = 0;
+    std::size_t event_count = 0;
 };
 
 /// Copies the results of a step.
