@@ -29,7 +29,7 @@ constexpr std::array kFields = {
     Field{"cluster_angle", offsetof(cdprep_contact_options, cluster_angle), Holds::length},
 };
 
-cdprep_feature in_c(const ContactFeature& feature) noexcept {
+cdprep_feature as_c(const ContactFeature& feature) noexcept {
     return {static_cast<std::uint32_t>(feature.kind),
             feature.edge,
             feature.triangle,
@@ -98,8 +98,8 @@ cdprep_contact in_c(const Contact& contact) noexcept {
     to.piece_b = contact.piece_b;
     to.id = contact.id;
     to.members = contact.members;
-    to.feature_a = in_c(contact.feature_a);
-    to.feature_b = in_c(contact.feature_b);
+    to.feature_a = as_c(contact.feature_a);
+    to.feature_b = as_c(contact.feature_b);
     to.flags = contact.flags;
     to.point_count = contact.point_count;
     store(contact.point_a, to.on_a);

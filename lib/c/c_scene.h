@@ -11,6 +11,12 @@
 
 namespace cdprep::c {
 
+// Boxes and their pairs have the same members in C and in C++.
+static_assert(sizeof(cdprep_world_box) == sizeof(WorldBox) &&
+              offsetof(cdprep_world_box, upper) == offsetof(WorldBox, upper));
+static_assert(sizeof(cdprep_box_pair) == sizeof(BoxPair) &&
+              offsetof(cdprep_box_pair, b) == offsetof(BoxPair, b));
+
 /// The results of the last complete step, as C structs. The room is that of the scene.
 struct SceneResults {
     cdprep_scene_hit* hits = nullptr;

@@ -113,9 +113,9 @@ typedef struct cdprep_object {
 } cdprep_object;
 
 /* Stores the number of bytes that cdprep_scene_make() needs for this plan. It depends only on the
- * limits and on the effects: about 430 bytes for each object and 470 to 1,500 for each pair.
+ * limits, the effects and `most`: about 430 bytes for each object and 470 to 1,640 for each pair.
  * CDPREP_ASK_OVERLAP takes 24 more for each triangle pair, and 16 KiB for each lane.
- * CDPREP_ASK_CONTACTS takes 1,600 more for each contact, and 200 KiB for each lane. */
+ * CDPREP_ASK_CONTACTS takes 1,630 more for each contact, and 20 to 120 KiB for each lane. */
 CDPREP_API int cdprep_scene_size(const cdprep_plan* plan, size_t* size, cdprep_error* error);
 
 /* Makes an empty scene in the caller's memory. The memory must start at a multiple of
@@ -377,5 +377,27 @@ CDPREP_API int cdprep_broad_phase_update(cdprep_broad_phase* broad_phase,
                                          const cdprep_box_update* update,
                                          cdprep_workspace* workspace, cdprep_box_pairs* pairs,
                                          cdprep_error* error);
+
+/* --- Scenes with a broad phase of the caller -------------------------------------------------- */
+
+/* Stores the address of an array of boxes and the number of its elements, which is max_objects. Box
+ * i is that of slot i in the next step. It contains the object as it is now, and its part of the
+ * tolerances. Free slots have absent boxes. The array belongs to the scene, and stays until the
+ * scene changes. Takes O(changed objects) time. Errors: CDPREP_WHY_BUSY. */
+CDPREP_API int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** boxes,
+                                  size_t* count, cdprep_error* error);
+
+/* Does the same as cdprep_scene_step(), but with the pairs of a broad phase of the caller. The
+ * candidates are pairs of slots, sorted by a, then b, as cdprep_broad_phase_update() stores them:
+ * a < b, and no pair occurs twice. They must contain all pairs whose boxes meet; a pair that is
+ * missing is not asked. Pairs whose boxes do not meet, or whose layers are not paired, are ignored.
+ * Takes O(candidates + pairs log pairs) time, and the time of the queries.
+ * Errors, such as of `candidates[3]`: CDPREP_WHY_OUT_OF_RANGE for a slot that is not below
+ * max_objects, for a >= b, and for a pair that does not come after the one before it;
+ * CDPREP_WHY_STALE for a slot without an object; CDPREP_WHY_BUSY. Then nothing has changed, and
+ * `complete` is CDPREP_NO. */
+CDPREP_API int cdprep_scene_step_with(cdprep_scene* scene, const cdprep_box_pair* candidates,
+                                      size_t count, cdprep_workspace* workspace, cdprep_step* step,
+                                      cdprep_error* error);
 
 #endif /* CDPREP_C_SCENE_H */
