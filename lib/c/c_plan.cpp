@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "c/c_model.h"
 #include "c/c_workspace.h"
 #include "cdprep/format/float_environment.h"
+#include "scene/layer_names.h"
 
 namespace cdprep::c {
 
@@ -59,10 +61,11 @@ constexpr std::array kPairFields = {
 constexpr std::array kOptionsFields = {
     Field{"layer_pair_count", offsetof(cdprep_plan_options, layer_pair_count), Holds::choice,
           kMostLayerPairs},
+    Field{"layer_name_count", offsetof(cdprep_plan_options, layer_name_count), Holds::choice,
+          kLayers},
     Field{"max_objects", offsetof(cdprep_plan_options, max_objects), Holds::choice,
           kMostWorldBoxes},
     Field{"lanes", offsetof(cdprep_plan_options, lanes), Holds::choice, kMostLanes},
-    Field{"reserved", offsetof(cdprep_plan_options, reserved), Holds::reserved},
 };
 
 constexpr Name kOptions = {"options"};
@@ -122,6 +125,7 @@ struct Asked {
     cdprep_plan_options options{};
     cdprep_allocator allocator{};
     std::vector<LayerPair> pairs;
+    std::vector<std::string_view> layer_names;
     std::vector<std::uint16_t> given_as;  ///< of each pair
     /// [a][b]: 1 more than the index of the pair that was given for two layers.
     std::array<std::uint16_t, std::size_t{kLayers} * kLayers> given{};
@@ -204,8 +208,8 @@ int read_layer_pair(Call& call, const Name& name, const cdprep_layer_pair* from,
     std::uint16_t& given = asked.given_for(pair.a, pair.b);
     if (given != 0) {
         return call.refuse(CDPREP_WHY_NO_MEANING, name,
-                           "is of layers %u and %u, and so is options.layer_pairs[%u].", pair.a,
-                           pair.b, given - 1U);
+                           "is of layers %s, and so is options.layer_pairs[%u].",
+                           layers_text(asked.layer_names, pair.a, pair.b).c_str(), given - 1U);
     }
     given = static_cast<std::uint16_t>(name.index + 1);
     if (pair.effects == 0) return CDPREP_OK;
@@ -247,7 +251,19 @@ int check_model_use(Call& call, const Name& name, const cdprep_model_use* from, 
     return CDPREP_OK;
 }
 
-int read(Call& call, const cdprep_plan_options* given, Asked& asked) noexcept {
+int read_layer_names(Call& call, Asked& asked) {
+    const cdprep_plan_options& options = asked.options;
+    if (options.layer_name_count == 0) return CDPREP_OK;
+    if (const int code = call.need(options.layer_names, kOptions.of("layer_names"))) return code;
+    for (std::uint32_t i = 0; i < options.layer_name_count; ++i) {
+        const char* const name = options.layer_names[i];
+        if (const int code = call.need(name, kOptions.of("layer_names", i))) return code;
+        asked.layer_names.emplace_back(name);
+    }
+    return CDPREP_OK;
+}
+
+int read(Call& call, const cdprep_plan_options* given, Asked& asked) {
     if (const int code = read_input(call, kOptions, given, asked.options)) return code;
     const cdprep_plan_options& options = asked.options;
     if (options.lanes == 0) {
@@ -261,6 +277,7 @@ int read(Call& call, const cdprep_plan_options* given, Asked& asked) noexcept {
     if (options.model_count > 0) {
         if (const int code = call.need(options.models, kOptions.of("models"))) return code;
     }
+    if (const int code = read_layer_names(call, asked)) return code;
     return read_allocator(call, kOptions.of("allocator"), options.allocator, asked.allocator);
 }
 
@@ -275,7 +292,8 @@ std::optional<Plan> compiled(Refusals& refusals, const Asked& asked) {
                                   .pairs = options.max_pairs,
                                   .threads = options.lanes,
                                   .triangle_pairs = options.max_triangle_pairs,
-                                  .contacts = options.max_contacts}});
+                                  .contacts = options.max_contacts},
+                       .layer_names = asked.layer_names});
     for (const std::string& refusal : compiled.refusals) {
         refusals.accept([&](Call& call) {
             return call.refuse_with(CDPREP_WHY_OUT_OF_RANGE, kOptions, refusal);

@@ -47,15 +47,17 @@ typedef struct cdprep_plan_options {
     cdprep_head head;
     const cdprep_layer_pair* layer_pairs; /* null */
     const cdprep_model_use* models;       /* null: scene_add() alone checks the models */
-    uint32_t layer_pair_count;            /* 0: at most 528 */
-    uint32_t model_count;                 /* 0 */
-    uint32_t max_objects;                 /* 0: objects of a scene, at most 2^29 */
+    /* Null: messages and texts number the layers. Otherwise the names of layers 0, 1, ... */
+    const char* const* layer_names;
+    uint32_t layer_pair_count; /* 0: at most 528 */
+    uint32_t model_count;      /* 0 */
+    uint32_t layer_name_count; /* 0: at most CDPREP_LAYERS */
+    uint32_t max_objects;      /* 0: objects of a scene, at most 2^29 */
     /* 0: pairs of objects whose boxes meet at a time. Room for twice as many is faster. */
     uint32_t max_pairs;
     uint32_t lanes; /* 1: at most 256; a step uses at most as many lanes of its workspace */
     uint32_t max_triangle_pairs;       /* 0: of overlap: in all lists of a step together */
     uint32_t max_contacts;             /* 0: of contacts, likewise */
-    uint32_t reserved;                 /* 0 */
     const cdprep_allocator* allocator; /* null: the heap; copied; also of scenes with this plan */
 } cdprep_plan_options;
 

@@ -296,8 +296,18 @@ TEST_F(CSceneHostile, PlanOptionsAreCheckedFieldByField) {
     word("options.lanes", &O::lanes, 0);
     word("options.lanes", &O::lanes, 257);
     static const cdprep_allocator none = {nullptr, nullptr, nullptr};
+    for (const std::uint32_t many : {33U, UINT32_MAX}) {
+        word("options.layer_name_count", &O::layer_name_count, many);
+    }
+    static const std::array<const char*, 2> names = {"floor", nullptr};
     all.push_back(
-        {"reserved", [](O& o) { o.reserved = 1; }, CDPREP_WHY_NEWER_FIELD, "options.reserved"});
+        {"no names", [](O& o) { o.layer_name_count = 1; }, CDPREP_WHY_NULL, "options.layer_names"});
+    all.push_back({"a name that is null",
+                   [](O& o) {
+                       o.layer_names = names.data();
+                       o.layer_name_count = 2;
+                   },
+                   CDPREP_WHY_NULL, "options.layer_names[1]"});
     all.push_back({"no pairs", [](O& o) { o.layer_pairs = nullptr; }, CDPREP_WHY_NULL,
                    "options.layer_pairs"});
     all.push_back(
@@ -340,6 +350,37 @@ TEST_F(CSceneHostile, APlanTellsEveryReason) {
     EXPECT_EQ(cdprep_plan_compile(&changed, Told::take, &two, &plan, nullptr), CDPREP_BAD_ARGUMENT);
     EXPECT_EQ(two.sentences.size(), 2u);
     EXPECT_EQ(cdprep_plan_compile(&changed, nullptr, nullptr, &plan, nullptr), CDPREP_BAD_ARGUMENT);
+}
+
+// By hand: the third layer has an empty name.
+TEST_F(CSceneHostile, MessagesAndTextsNameTheLayers) {
+    const std::vector<cdprep_layer_pair> pairs = {pair_of(0, 2, CDPREP_ASK_COLLIDE),
+                                                  pair_of(1, 0, CDPREP_ASK_COLLIDE),
+                                                  pair_of(0, 1, CDPREP_ASK_COLLIDE)};
+    const std::array<const char*, 3> names = {"floor", "crates", ""};
+    cdprep_plan_options changed = options();
+    changed.layer_pairs = pairs.data();
+    changed.layer_pair_count = 3;
+    changed.layer_names = names.data();
+    changed.layer_name_count = 3;
+    cdprep_plan* plan = nullptr;
+    cdprep_error error;
+    EXPECT_EQ(cdprep_plan_compile(&changed, nullptr, nullptr, &plan, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.message,
+                 "options.layer_pairs[2] is of layers 'floor' and 'crates', and so is "
+                 "options.layer_pairs[1].");
+    changed.layer_pair_count = 2;
+    plan = compiled(changed);
+    std::array<char, 400> text{};
+    std::size_t length = 0;
+    EXPECT_EQ(cdprep_plan_text(plan, text.data(), text.size(), &length, nullptr), CDPREP_OK);
+    EXPECT_STREQ(text.data(),
+                 "layers 'floor' and 2: collide\n"
+                 "layers 'crates' and 'floor': collide\n"
+                 "not computed, for no pair of layers asks: overlap, within, distance, contacts\n"
+                 "layers that are never looked at together: 'floor' and 'floor', 'crates' and "
+                 "'crates', 'crates' and 2, 2 and 2\n");
+    cdprep_plan_end(plan);
 }
 
 // An element of another size, or one that is not initialised, is named; the others are checked.
