@@ -42,6 +42,11 @@ Result<cli::BakeOptions> bake_options_for(Ask asks, const import::ImportOptions&
     return options;
 }
 
+/// Returns whether the next model may still be opened after such an error.
+bool is_of_one_model(ErrorCode code) {
+    return code == ErrorCode::unreadable || code == ErrorCode::bad_argument;
+}
+
 /// Loads the models of one scene.
 class Loader {
 public:
@@ -118,18 +123,21 @@ private:
 
 }  // namespace
 
-Result<std::vector<SceneModel>> load_models(const SceneFile& scene, const Plan& plan,
-                                            const LoadOptions& options,
-                                            const cli::Threads& threads) {
+LoadedModels load_models(const SceneFile& scene, const Plan& plan, const LoadOptions& options,
+                         const cli::Threads& threads) {
     const std::vector<ModelNeeds> needs = needs_of_models(scene, plan);
     Loader loader(scene, options, threads);
-    std::vector<SceneModel> models;
+    LoadedModels all;
     for (std::size_t i = 0; i < scene.models.size(); ++i) {
         Result<SceneModel> loaded = loader.load(i, needs[i]);
-        if (!loaded) return loaded.error();
-        models.push_back(std::move(loaded).value());
+        if (loaded) {
+            all.models.push_back(std::move(loaded).value());
+            continue;
+        }
+        all.errors.push_back(loaded.error());
+        if (!is_of_one_model(loaded.error().code)) break;
     }
-    return models;
+    return all;
 }
 
 std::vector<ModelUse> uses_of(const SceneFile& scene, const std::vector<SceneModel>& models,
