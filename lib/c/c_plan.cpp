@@ -16,7 +16,7 @@
 #include "c/c_model.h"
 #include "c/c_workspace.h"
 #include "cdprep/format/float_environment.h"
-#include "scene/layer_names.h"
+#include "core/layer_names.h"
 
 namespace cdprep::c {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "cdprep/format/float_environment.h"
-#include "scene/layer_names.h"
+#include "core/layer_names.h"
 
 namespace cdprep {
 namespace {
