@@ -556,7 +556,8 @@ private:
         MUST((found != nullptr) == (list.count > 0 || list.searched == CDPREP_NO));
         if (found == nullptr) return 0;
         MUST(found->count == list.count && found->found == list.found);
-        MUST(found->complete == list.complete && found->work == list.work);
+        MUST(found->complete == list.complete && found->searched == list.searched);
+        MUST(found->computed == list.computed && found->work == list.work);
         for (std::size_t i = 0; i < list.count; ++i) {
             MUST(std::memcmp(&found->items[i], &room[i], sizeof room[i]) == 0);
         }
