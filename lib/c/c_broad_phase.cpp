@@ -11,9 +11,9 @@
 #include <span>
 #include <utility>
 
+#include "c/c_scene.h"
 #include "c/c_workspace.h"
 #include "c/memory.h"
-#include "cdprep/c/scene.h"
 #include "cdprep/format/float_environment.h"
 
 /// A broad phase. The object and the memory of the C++ one lie one after the other in one block.
@@ -58,12 +58,8 @@ constexpr std::array kFields = {
 constexpr Name kUpdate = {"update"};
 
 static_assert(alignof(cdprep_broad_phase) <= CDPREP_ALIGNMENT);
-static_assert(sizeof(cdprep_world_box) == sizeof(WorldBox) &&
-              offsetof(cdprep_world_box, upper) == offsetof(WorldBox, upper));
 static_assert(sizeof(cdprep_box_filter) == sizeof(BoxFilter) &&
               offsetof(cdprep_box_filter, accepts) == offsetof(BoxFilter, accepts));
-static_assert(sizeof(cdprep_box_pair) == sizeof(BoxPair) &&
-              offsetof(cdprep_box_pair, b) == offsetof(BoxPair, b));
 
 /// Checked options of a broad phase.
 struct Asked {

@@ -1,26 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include "c/c_contacts.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 
 #include "c/c_pairs.h"
-#include "cdprep/contacts.h"
 #include "cdprep/format/float_environment.h"
 #include "pieces/list_contacts.h"
 
 namespace cdprep::c {
-
-template <>
-struct Input<cdprep_contact_options> {
-    static const InputType type;
-    static cdprep_contact_options defaults() noexcept {
-        cdprep_contact_options options{};
-        options.most = kDefaultMost;
-        return options;
-    }
-    static constexpr std::uint32_t kDefaultMost = kMostListedContacts;
-};
-
 namespace {
 
 static_assert(CDPREP_VERTEX == static_cast<int>(FeatureKind::vertex) &&
@@ -40,57 +29,17 @@ constexpr std::array kFields = {
     Field{"cluster_angle", offsetof(cdprep_contact_options, cluster_angle), Holds::length},
 };
 
-cdprep_feature in_c(const ContactFeature& feature) noexcept {
+cdprep_feature as_c(const ContactFeature& feature) noexcept {
     return {static_cast<std::uint32_t>(feature.kind),
             feature.edge,
             feature.triangle,
             {feature.vertex, CDPREP_NONE, CDPREP_NONE}};
 }
 
-cdprep_contact in_c(const Contact& contact) noexcept {
-    assert(contact.point_count <= kManifold && contact.lower <= contact.upper);
-    cdprep_contact to{};
-    to.piece_a = contact.piece_a;
-    to.piece_b = contact.piece_b;
-    to.id = contact.id;
-    to.members = contact.members;
-    to.feature_a = in_c(contact.feature_a);
-    to.feature_b = in_c(contact.feature_b);
-    to.flags = contact.flags;
-    to.point_count = contact.point_count;
-    store(contact.point_a, to.on_a);
-    store(contact.point_b, to.on_b);
-    store(contact.normal, to.normal);
-    to.lower = contact.lower;
-    to.upper = contact.upper;
-    for (std::uint32_t i = 0; i < contact.point_count; ++i) {
-        store(contact.points[i].on_a, to.points[i].on_a);
-        store(contact.points[i].on_b, to.points[i].on_b);
-        to.points[i].distance = contact.points[i].distance;
-        to.points[i].id = contact.points[i].id;
-    }
-    return to;
-}
-
-int read(Call& call, const cdprep_contact_options* given,
-         cdprep_contact_options& options) noexcept {
-    const Name name = {"options"};
-    if (const int code = read_options(call, name, given, options)) return code;
-    if (options.manifold != 0 && options.manifold != kManifold) {
-        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("manifold"),
-                           "is %u; it must be 0 or %u.", options.manifold, kManifold);
-    }
-    if (options.most == 0 || options.most > kMostListedContacts) {
-        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("most"), "is %u; it must be 1 to %u.",
-                           options.most, kMostListedContacts);
-    }
-    return CDPREP_OK;
-}
-
 /// Refuses options that a visitor does not use.
 int refuse_unused(Call& call, const cdprep_contact_options& options) noexcept {
     const Name name = {"options"};
-    if (options.most != Input<cdprep_contact_options>::kDefaultMost) {
+    if (options.most != Input<cdprep_contact_options>::defaults().most) {
         return call.refuse(CDPREP_WHY_NO_MEANING, name.of("most"),
                            "is %u, but the visitor ends the search; leave it at its default.",
                            options.most);
@@ -101,11 +50,6 @@ int refuse_unused(Call& call, const cdprep_contact_options& options) noexcept {
                            options.cluster_angle);
     }
     return CDPREP_OK;
-}
-
-ContactOptions in_cpp(const cdprep_contact_options& options) noexcept {
-    return {options.tolerance, options.manifold == 0 ? Manifold::none : Manifold::four,
-            options.most, options.work, options.cluster_angle};
 }
 
 void answer(const ListedContacts& listed, cdprep_contact_list& list) noexcept {
@@ -121,6 +65,56 @@ void answer(const ListedContacts& listed, cdprep_contact_list& list) noexcept {
 }
 
 }  // namespace
+
+cdprep_contact_options Input<cdprep_contact_options>::defaults() noexcept {
+    cdprep_contact_options options{};
+    options.most = kMostListedContacts;
+    return options;
+}
+
+int read_contact_options(Call& call, const Name& name, const cdprep_contact_options* given,
+                         cdprep_contact_options& options) noexcept {
+    if (const int code = read_options(call, name, given, options)) return code;
+    if (options.manifold != 0 && options.manifold != kManifold) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("manifold"),
+                           "is %u; it must be 0 or %u.", options.manifold, kManifold);
+    }
+    if (options.most == 0 || options.most > kMostListedContacts) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("most"), "is %u; it must be 1 to %u.",
+                           options.most, kMostListedContacts);
+    }
+    return CDPREP_OK;
+}
+
+ContactOptions in_cpp(const cdprep_contact_options& options) noexcept {
+    return {options.tolerance, options.manifold == 0 ? Manifold::none : Manifold::four,
+            options.most, options.work, options.cluster_angle};
+}
+
+cdprep_contact in_c(const Contact& contact) noexcept {
+    assert(contact.point_count <= kManifold && contact.lower <= contact.upper);
+    cdprep_contact to{};
+    to.piece_a = contact.piece_a;
+    to.piece_b = contact.piece_b;
+    to.id = contact.id;
+    to.members = contact.members;
+    to.feature_a = as_c(contact.feature_a);
+    to.feature_b = as_c(contact.feature_b);
+    to.flags = contact.flags;
+    to.point_count = contact.point_count;
+    store(contact.point_a, to.on_a);
+    store(contact.point_b, to.on_b);
+    store(contact.normal, to.normal);
+    to.lower = contact.lower;
+    to.upper = contact.upper;
+    for (std::uint32_t i = 0; i < contact.point_count; ++i) {
+        store(contact.points[i].on_a, to.points[i].on_a);
+        store(contact.points[i].on_b, to.points[i].on_b);
+        to.points[i].distance = contact.points[i].distance;
+        to.points[i].id = contact.points[i].id;
+    }
+    return to;
+}
 
 const InputType Input<cdprep_contact_options>::type = {"cdprep_contact_options", 0xcd500005U,
                                                        sizeof(cdprep_contact_options),
@@ -148,7 +142,7 @@ int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_options* optio
         cdprep::c::kContacts, pair, workspace, list, "list", error,
         [&](Call& call) {
             if (const int code = check_list(call, {"list"}, *list)) return code;
-            return cdprep::c::read(call, options, given);
+            return read_contact_options(call, {"options"}, options, given);
         },
         [&](const AskedPair& asked, Workspace& scratch) {
             const cdprep::format::FloatEnvironment environment;
@@ -164,7 +158,8 @@ int cdprep_contacts_visit(const cdprep_pair* pair, const cdprep_contact_options*
     return ask_pair(
         cdprep::c::kContacts, pair, workspace, visit, "visit", error,
         [&](Call& call) -> int {
-            if (const int code = cdprep::c::read(call, options, given)) return code;
+            if (const int code = read_contact_options(call, {"options"}, options, given))
+                return code;
             return cdprep::c::refuse_unused(call, given);
         },
         [&](const AskedPair& asked, Workspace& scratch) {

@@ -8,12 +8,15 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "c/c_contacts.h"
 #include "c/c_model.h"
 #include "c/c_workspace.h"
 #include "cdprep/format/float_environment.h"
+#include "core/layer_names.h"
 
 namespace cdprep::c {
 
@@ -58,6 +61,8 @@ constexpr std::array kPairFields = {
 constexpr std::array kOptionsFields = {
     Field{"layer_pair_count", offsetof(cdprep_plan_options, layer_pair_count), Holds::choice,
           kMostLayerPairs},
+    Field{"layer_name_count", offsetof(cdprep_plan_options, layer_name_count), Holds::choice,
+          kLayers},
     Field{"max_objects", offsetof(cdprep_plan_options, max_objects), Holds::choice,
           kMostWorldBoxes},
     Field{"lanes", offsetof(cdprep_plan_options, lanes), Holds::choice, kMostLanes},
@@ -120,6 +125,7 @@ struct Asked {
     cdprep_plan_options options{};
     cdprep_allocator allocator{};
     std::vector<LayerPair> pairs;
+    std::vector<std::string_view> layer_names;
     std::vector<std::uint16_t> given_as;  ///< of each pair
     /// [a][b]: 1 more than the index of the pair that was given for two layers.
     std::array<std::uint16_t, std::size_t{kLayers} * kLayers> given{};
@@ -129,9 +135,12 @@ struct Asked {
     }
 };
 
-/// The effects of scenes in C: all of kSceneEffects but contacts.
-constexpr std::uint32_t kEffects =
-    CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP | CDPREP_ASK_WITHIN | CDPREP_ASK_DISTANCE;
+constexpr std::uint32_t kEffects = [] {
+    std::uint32_t all = 0;
+    for (const Ask one : kSceneEffects) all |= static_cast<std::uint32_t>(one);
+    return all;
+}();
+constexpr std::uint32_t kReadBody = CDPREP_ASK_COLLIDE | CDPREP_ASK_DISTANCE | CDPREP_ASK_CONTACTS;
 
 int refuse_unused(Call& call, const Name& name, const char* effects) noexcept {
     return call.refuse(CDPREP_WHY_NO_MEANING, name,
@@ -141,8 +150,8 @@ int refuse_unused(Call& call, const Name& name, const char* effects) noexcept {
 /// Refuses fields that no effect of the pair uses.
 int check_meaning(Call& call, const Name& name, const cdprep_layer_pair& pair) noexcept {
     const auto has = [&](std::uint32_t asks) { return (pair.effects & asks) != 0; };
-    if (pair.body != CDPREP_SURFACE && !has(CDPREP_ASK_COLLIDE | CDPREP_ASK_DISTANCE)) {
-        return refuse_unused(call, name.of("body"), "CDPREP_ASK_COLLIDE or _DISTANCE");
+    if (pair.body != CDPREP_SURFACE && !has(kReadBody)) {
+        return refuse_unused(call, name.of("body"), "CDPREP_ASK_COLLIDE, _DISTANCE or _CONTACTS");
     }
     if (pair.overlap != CDPREP_CLOSED && !has(CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP)) {
         return refuse_unused(call, name.of("overlap"), "CDPREP_ASK_COLLIDE or _OVERLAP");
@@ -153,10 +162,27 @@ int check_meaning(Call& call, const Name& name, const cdprep_layer_pair& pair) n
     if (pair.max_distance > 0 && !has(CDPREP_ASK_DISTANCE)) {
         return refuse_unused(call, name.of("max_distance"), "CDPREP_ASK_DISTANCE");
     }
+    if (pair.contacts != nullptr && !has(CDPREP_ASK_CONTACTS)) {
+        return refuse_unused(call, name.of("contacts"), "CDPREP_ASK_CONTACTS");
+    }
     return CDPREP_OK;
 }
 
-LayerPair in_cpp(const cdprep_layer_pair& pair) noexcept {
+/// Reads the options of contacts of a pair.
+int read_contacts(Call& call, const Name& name, const cdprep_layer_pair& pair,
+                  ContactOptions& contacts) noexcept {
+    contacts = LayerPair().contacts;
+    if (pair.contacts == nullptr) return CDPREP_OK;
+    cdprep_contact_options given;
+    const auto text = spelt(name.of("contacts"));
+    if (const int code = read_contact_options(call, {text.data()}, pair.contacts, given)) {
+        return code;
+    }
+    contacts = in_cpp(given);
+    return CDPREP_OK;
+}
+
+LayerPair in_cpp(const cdprep_layer_pair& pair, const ContactOptions& contacts) noexcept {
     return {.a = pair.a,
             .b = pair.b,
             .effects = static_cast<Ask>(pair.effects),
@@ -164,7 +190,7 @@ LayerPair in_cpp(const cdprep_layer_pair& pair) noexcept {
             .max_distance = pair.max_distance,
             .body = pair.body == CDPREP_SOLID ? Body::solid : Body::surface,
             .overlap = pair.overlap == CDPREP_PROPER ? Overlap::proper : Overlap::closed,
-            .contacts = LayerPair().contacts,
+            .contacts = contacts,
             .lists_stays = pair.lists_stays == CDPREP_YES};
 }
 
@@ -177,15 +203,17 @@ int read_layer_pair(Call& call, const Name& name, const cdprep_layer_pair* from,
                            "is 0x%x; a scene computes only the bits 0x%x.", pair.effects, kEffects);
     }
     if (const int code = check_meaning(call, name, pair)) return code;
+    ContactOptions contacts;
+    if (const int code = read_contacts(call, name, pair, contacts)) return code;
     std::uint16_t& given = asked.given_for(pair.a, pair.b);
     if (given != 0) {
         return call.refuse(CDPREP_WHY_NO_MEANING, name,
-                           "is of layers %u and %u, and so is options.layer_pairs[%u].", pair.a,
-                           pair.b, given - 1U);
+                           "is of layers %s, and so is options.layer_pairs[%u].",
+                           layers_text(asked.layer_names, pair.a, pair.b).c_str(), given - 1U);
     }
     given = static_cast<std::uint16_t>(name.index + 1);
     if (pair.effects == 0) return CDPREP_OK;
-    asked.pairs.push_back(in_cpp(pair));
+    asked.pairs.push_back(in_cpp(pair, contacts));
     asked.given_as.push_back(static_cast<std::uint16_t>(name.index));
     return CDPREP_OK;
 }
@@ -223,7 +251,19 @@ int check_model_use(Call& call, const Name& name, const cdprep_model_use* from, 
     return CDPREP_OK;
 }
 
-int read(Call& call, const cdprep_plan_options* given, Asked& asked) noexcept {
+int read_layer_names(Call& call, Asked& asked) {
+    const cdprep_plan_options& options = asked.options;
+    if (options.layer_name_count == 0) return CDPREP_OK;
+    if (const int code = call.need(options.layer_names, kOptions.of("layer_names"))) return code;
+    for (std::uint32_t i = 0; i < options.layer_name_count; ++i) {
+        const char* const name = options.layer_names[i];
+        if (const int code = call.need(name, kOptions.of("layer_names", i))) return code;
+        asked.layer_names.emplace_back(name);
+    }
+    return CDPREP_OK;
+}
+
+int read(Call& call, const cdprep_plan_options* given, Asked& asked) {
     if (const int code = read_input(call, kOptions, given, asked.options)) return code;
     const cdprep_plan_options& options = asked.options;
     if (options.lanes == 0) {
@@ -237,6 +277,7 @@ int read(Call& call, const cdprep_plan_options* given, Asked& asked) noexcept {
     if (options.model_count > 0) {
         if (const int code = call.need(options.models, kOptions.of("models"))) return code;
     }
+    if (const int code = read_layer_names(call, asked)) return code;
     return read_allocator(call, kOptions.of("allocator"), options.allocator, asked.allocator);
 }
 
@@ -250,7 +291,9 @@ std::optional<Plan> compiled(Refusals& refusals, const Asked& asked) {
                        .limits = {.objects = options.max_objects,
                                   .pairs = options.max_pairs,
                                   .threads = options.lanes,
-                                  .triangle_pairs = options.max_triangle_pairs}});
+                                  .triangle_pairs = options.max_triangle_pairs,
+                                  .contacts = options.max_contacts},
+                       .layer_names = asked.layer_names});
     for (const std::string& refusal : compiled.refusals) {
         refusals.accept([&](Call& call) {
             return call.refuse_with(CDPREP_WHY_OUT_OF_RANGE, kOptions, refusal);

@@ -45,14 +45,20 @@ struct Layout {
           overlaps(hits + aligned(plan.limits().pairs * sizeof(cdprep_scene_hit))),
           distances(overlaps +
                     aligned(results_of(plan, Ask::overlap) * sizeof(cdprep_scene_overlap))),
-          events(distances +
-                 aligned(results_of(plan, Ask::distance) * sizeof(cdprep_scene_distance))),
+          contacts(distances +
+                   aligned(results_of(plan, Ask::distance) * sizeof(cdprep_scene_distance))),
+          contact_items(contacts +
+                        aligned(results_of(plan, Ask::contacts) * sizeof(cdprep_scene_contact))),
+          events(contact_items + aligned(contacts_of(plan) * sizeof(cdprep_contact))),
           scene(events + aligned(events_of(plan) * sizeof(cdprep_event))),
           scene_size(aligned(Scene::size(plan))),
           size(scene + scene_size) {}
 
     static std::size_t results_of(const Plan& plan, Ask effect) noexcept {
         return contains(plan.effects(), effect) ? plan.limits().pairs : 0;
+    }
+    static std::size_t contacts_of(const Plan& plan) noexcept {
+        return contains(plan.effects(), Ask::contacts) ? plan.limits().contacts : 0;
     }
     /// All effects of the last step end, and as many begin.
     static std::size_t events_of(const Plan& plan) noexcept {
@@ -63,6 +69,8 @@ struct Layout {
     std::size_t hits;
     std::size_t overlaps;
     std::size_t distances;
+    std::size_t contacts;
+    std::size_t contact_items;
     std::size_t events;
     std::size_t scene;
     std::size_t scene_size;
@@ -89,6 +97,8 @@ int make(Call& call, cdprep_plan& plan, const Given& given, cdprep_scene** to) n
     const SceneResults results = {array_at<cdprep_scene_hit>(block, layout.hits),
                                   array_at<cdprep_scene_overlap>(block, layout.overlaps),
                                   array_at<cdprep_scene_distance>(block, layout.distances),
+                                  array_at<cdprep_scene_contact>(block, layout.contacts),
+                                  array_at<cdprep_contact>(block, layout.contact_items),
                                   array_at<cdprep_event>(block, layout.events)};
     *to = new (block) cdprep_scene{std::move(*scene), &plan, results, own.take()};
     plan.users.fetch_add(1, std::memory_order_relaxed);
@@ -186,6 +196,38 @@ int check_poses(Call& call, const cdprep_pose* poses, std::size_t count) {
     return CDPREP_OK;
 }
 
+/// Refuses pairs of slots that are not sorted, occur twice or have no objects.
+int check_candidates(Call& call, const cdprep_scene& scene, const cdprep_box_pair* candidates,
+                     std::size_t count) noexcept {
+    const char* const argument = "candidates";
+    if (const int code = check_arrays(call, count, argument, candidates, argument, candidates)) {
+        return code;
+    }
+    const std::uint32_t slots = scene.plan->plan.limits().objects;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Name name = {argument, i};
+        const auto [a, b] = candidates[i];
+        if (a >= b || b >= slots) {
+            return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name,
+                               "is slots %u and %u; the first must be less than the second, and "
+                               "that less than %u.",
+                               a, b, slots);
+        }
+        const cdprep_box_pair before = i > 0 ? candidates[i - 1] : cdprep_box_pair{};
+        if (before.a > a || (before.a == a && before.b >= b)) {
+            return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name,
+                               "is slots %u and %u after %u and %u; candidates must be sorted, and "
+                               "each occur once.",
+                               a, b, before.a, before.b);
+        }
+        for (const std::uint32_t slot : {a, b}) {
+            if (scene.scene.object_at(slot) != ObjectId{}) continue;
+            return call.refuse(CDPREP_WHY_STALE, name, "names slot %u, which has no object.", slot);
+        }
+    }
+    return CDPREP_OK;
+}
+
 /// Runs `change(call)`, which changes a scene that no other call uses.
 template <class Change>
 int change_scene(cdprep_scene* scene, cdprep_error* error, Change&& change) noexcept {
@@ -194,6 +236,29 @@ int change_scene(cdprep_scene* scene, cdprep_error* error, Change&& change) noex
         InUse use;
         if (const int code = use.begin(call, {"scene"}, scene->in_use)) return code;
         return change(call);
+    });
+}
+
+/// Runs a step. `check(call)` checks what else the caller gave; `run(threads)` computes.
+template <class Check, class Run>
+int step_scene(cdprep_scene* scene, cdprep_workspace* workspace, cdprep_step* step,
+               cdprep_error* error, Check&& check, Run&& run) noexcept {
+    if (step != nullptr) *step = {};
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(scene, {"scene"})) return code;
+        if (const int code = call.need(workspace, {"workspace"})) return code;
+        if (const int code = call.need(step, {"step"})) return code;
+        InUse scene_use, workspace_use;
+        if (const int code = scene_use.begin(call, {"scene"}, scene->in_use)) return code;
+        if (const int code = check(call)) return code;
+        if (const int code = workspace_use.begin(call, *workspace)) return code;
+        const SceneStep made = run(LanesThreads(*workspace));
+        step->complete = made.complete ? CDPREP_YES : CDPREP_NO;
+        step->needed_pairs = made.needed_pairs;
+        step->needed_triangle_pairs = made.needed_triangle_pairs;
+        step->needed_contacts = made.needed_contacts;
+        if (made.complete) store_results(*scene);
+        return CDPREP_OK;
     });
 }
 
@@ -316,20 +381,36 @@ int cdprep_scene_set_paused(cdprep_scene* scene, uint32_t effects, cdprep_error*
 
 int cdprep_scene_step(cdprep_scene* scene, cdprep_workspace* workspace, cdprep_step* step,
                       cdprep_error* error) {
-    if (step != nullptr) *step = {};
-    return guarded(error, [&](Call& call) -> int {
-        if (const int code = call.need(scene, {"scene"})) return code;
-        if (const int code = call.need(workspace, {"workspace"})) return code;
-        if (const int code = call.need(step, {"step"})) return code;
-        cdprep::c::InUse scene_use, workspace_use;
-        if (const int code = scene_use.begin(call, {"scene"}, scene->in_use)) return code;
-        if (const int code = workspace_use.begin(call, *workspace)) return code;
-        const cdprep::c::LanesThreads threads(*workspace);
-        const cdprep::SceneStep made = scene->scene.step(workspace->lanes, threads);
-        step->complete = made.complete ? CDPREP_YES : CDPREP_NO;
-        step->needed_pairs = made.needed_pairs;
-        step->needed_triangle_pairs = made.needed_triangle_pairs;
-        if (made.complete) cdprep::c::store_results(*scene);
+    return cdprep::c::step_scene(
+        scene, workspace, step, error, [](Call& /*call*/) -> int { return CDPREP_OK; },
+        [&](const cdprep::c::LanesThreads& threads) {
+            return scene->scene.step(workspace->lanes, threads);
+        });
+}
+
+int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** boxes, size_t* count,
+                       cdprep_error* error) {
+    if (boxes != nullptr) *boxes = nullptr;
+    if (count != nullptr) *count = 0;
+    return cdprep::c::change_scene(scene, error, [&](Call& call) -> int {
+        if (const int code = call.need(boxes, {"boxes"})) return code;
+        if (const int code = call.need(count, {"count"})) return code;
+        const std::span<const cdprep::WorldBox> all = scene->scene.boxes();
+        *boxes = reinterpret_cast<const cdprep_world_box*>(all.data());
+        *count = all.size();
         return CDPREP_OK;
     });
+}
+
+int cdprep_scene_step_with(cdprep_scene* scene, const cdprep_box_pair* candidates, size_t count,
+                           cdprep_workspace* workspace, cdprep_step* step, cdprep_error* error) {
+    return cdprep::c::step_scene(
+        scene, workspace, step, error,
+        [&](Call& call) -> int {
+            return cdprep::c::check_candidates(call, *scene, candidates, count);
+        },
+        [&](const cdprep::c::LanesThreads& threads) {
+            const std::span pairs(reinterpret_cast<const cdprep::BoxPair*>(candidates), count);
+            return scene->scene.step_with(pairs, workspace->lanes, threads);
+        });
 }

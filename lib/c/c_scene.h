@@ -11,13 +11,22 @@
 
 namespace cdprep::c {
 
+// Boxes and their pairs have the same members in C and in C++.
+static_assert(sizeof(cdprep_world_box) == sizeof(WorldBox) &&
+              offsetof(cdprep_world_box, upper) == offsetof(WorldBox, upper));
+static_assert(sizeof(cdprep_box_pair) == sizeof(BoxPair) &&
+              offsetof(cdprep_box_pair, b) == offsetof(BoxPair, b));
+
 /// The results of the last complete step, as C structs. The room is that of the scene.
 struct SceneResults {
     cdprep_scene_hit* hits = nullptr;
     cdprep_scene_overlap* overlaps = nullptr;    ///< without room if the plan asks for none
     cdprep_scene_distance* distances = nullptr;  ///< likewise
+    cdprep_scene_contact* contacts = nullptr;    ///< likewise
+    cdprep_contact* contact_items = nullptr;     ///< of all lists of contacts
     cdprep_event* events = nullptr;
-    std::size_t hit_count = 0, overlap_count = 0, distance_count = 0, event_count = 0;
+    std::size_t hit_count = 0, overlap_count = 0, distance_count = 0, contact_count = 0;
+    std::size_t event_count = 0;
 };
 
 /// Copies the results of a step.

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 
+#include "c/c_contacts.h"
 #include "c/c_scene.h"
 #include "c/c_workspace.h"
 #include "c/pair_answers.h"
@@ -47,6 +48,23 @@ cdprep_scene_overlap as_c(const SceneOverlaps& found, std::uint32_t layer_pair) 
             found.triangles.size()};
 }
 
+/// `items` is where the contacts are.
+cdprep_scene_contact as_c(const SceneContacts& found, std::uint32_t layer_pair,
+                          const cdprep_contact* items) noexcept {
+    const ContactsVerdict& verdict = found.verdict;
+    return {as_c(found.a),
+            as_c(found.b),
+            layer_pair,
+            word(verdict.complete),
+            word(verdict.searched),
+            0,
+            items,
+            found.contacts.size(),
+            verdict.found,
+            verdict.computed,
+            verdict.work};
+}
+
 cdprep_event as_c(const SceneEvent& event, std::uint32_t layer_pair) noexcept {
     return {as_c(event.a),    as_c(event.b),
             layer_pair,       static_cast<std::uint32_t>(event.effect),
@@ -57,6 +75,15 @@ cdprep_event as_c(const SceneEvent& event, std::uint32_t layer_pair) noexcept {
 template <class From, class To>
 std::size_t store(const cdprep_plan& plan, std::span<const From> from, To* to) noexcept {
     for (const From& one : from) *to++ = as_c(one, plan.given_as[one.pair]);
+    return from.size();
+}
+
+std::size_t store_contacts(const cdprep_plan& plan, std::span<const SceneContacts> from,
+                           cdprep_scene_contact* to, cdprep_contact* items) noexcept {
+    for (const SceneContacts& found : from) {
+        *to++ = as_c(found, plan.given_as[found.pair], items);
+        for (const Contact& contact : found.contacts) *items++ = in_c(contact);
+    }
     return from.size();
 }
 
@@ -84,6 +111,8 @@ void store_results(cdprep_scene& scene) noexcept {
     results.hit_count = store(*scene.plan, scene.scene.hits(), results.hits);
     results.overlap_count = store(*scene.plan, scene.scene.overlaps(), results.overlaps);
     results.distance_count = store(*scene.plan, scene.scene.distances(), results.distances);
+    results.contact_count = store_contacts(*scene.plan, scene.scene.contacts(), results.contacts,
+                                           results.contact_items);
     results.event_count = store(*scene.plan, scene.scene.events(), results.events);
 }
 
@@ -109,6 +138,12 @@ int cdprep_scene_distances(const cdprep_scene* scene, const cdprep_scene_distanc
                            size_t* count, cdprep_error* error) {
     return read_stream(scene, "distances", distances, count, error, &SceneResults::distances,
                        &SceneResults::distance_count);
+}
+
+int cdprep_scene_contacts(const cdprep_scene* scene, const cdprep_scene_contact** contacts,
+                          size_t* count, cdprep_error* error) {
+    return read_stream(scene, "contacts", contacts, count, error, &SceneResults::contacts,
+                       &SceneResults::contact_count);
 }
 
 int cdprep_scene_events(const cdprep_scene* scene, const cdprep_event** events, size_t* count,
@@ -144,5 +179,7 @@ int cdprep_scene_counts(const cdprep_scene* scene, cdprep_counts* counts, cdprep
     counts->n[CDPREP_SCENE_DISTANCE] = all.calls_of(cdprep::Ask::distance);
     counts->n[CDPREP_SCENE_OVERLAP] = all.calls_of(cdprep::Ask::overlap);
     counts->n[CDPREP_SCENE_TRIANGLE_PAIRS] = all.triangle_pairs;
+    counts->n[CDPREP_SCENE_CONTACTS] = all.calls_of(cdprep::Ask::contacts);
+    counts->n[CDPREP_SCENE_LISTED_CONTACTS] = all.contacts;
     return CDPREP_OK;
 }

@@ -37,6 +37,15 @@ private:
     std::size_t at_ = 0;
 };
 
+void copy_text(std::string_view from, char* to, std::size_t room) noexcept {
+    assert(room > 0);
+    const std::size_t length = std::min(from.size(), room - 1);
+    std::memcpy(to, from.data(), length);
+    to[length] = 0;
+}
+
+}  // namespace
+
 Argument spelt(const Name& name) noexcept {
     Argument text{};
     Writer writer(text);
@@ -49,15 +58,6 @@ Argument spelt(const Name& name) noexcept {
     if (name.place != Name::kNone) writer.add(name.place);
     return text;
 }
-
-void copy_text(std::string_view from, char* to, std::size_t room) noexcept {
-    assert(room > 0);
-    const std::size_t length = std::min(from.size(), room - 1);
-    std::memcpy(to, from.data(), length);
-    to[length] = 0;
-}
-
-}  // namespace
 
 Call::Call(cdprep_error* error) noexcept : error_(error) {
     if (error == nullptr) return;

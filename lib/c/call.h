@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -25,6 +26,9 @@ struct Name {
         return {argument, index, its_field, its_place};
     }
 };
+
+/// Returns the text of a name, cut off where the room for it in an error ends.
+[[nodiscard]] std::array<char, sizeof(cdprep_error::argument)> spelt(const Name& name) noexcept;
 
 /// One call of the C API, with the place for its error. Every function returns the code that it
 /// fills in.

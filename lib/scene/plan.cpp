@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cdprep/format/float_environment.h"
+#include "core/layer_names.h"
 
 namespace cdprep {
 namespace {
@@ -36,12 +37,12 @@ std::string name_of(Ask one) {
     return "effect bit " + std::to_string(std::countr_zero(static_cast<std::uint32_t>(one)));
 }
 
-/// Names of effects: "collide, overlap and within".
-std::string list_of(std::span<const Ask> effects) {
+/// Words as a sentence lists them: "collide, overlap and within".
+std::string list_of(const std::vector<std::string>& words) {
     std::string text;
-    for (std::size_t i = 0; i < effects.size(); ++i) {
-        const char* before = i + 1 < effects.size() ? ", " : " and ";
-        text += (i == 0 ? "" : before) + name_of(effects[i]);
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const char* before = i + 1 < words.size() ? ", " : " and ";
+        text += (i == 0 ? "" : before) + words[i];
     }
     return text;
 }
@@ -85,9 +86,17 @@ private:
         if (options_.limits.threads == 0) add("limits.threads is 0; at least 1 is needed.");
     }
 
+    /// The start of a sentence about a pair of layers.
+    [[nodiscard]] std::string place_of(std::size_t number) const {
+        const LayerPair& pair = options_.pairs[number];
+        const auto& names = options_.layer_names;
+        return "Pair " + std::to_string(number) + " of layers" +
+               (names.empty() ? "" : ", " + layers_text(names, pair.a, pair.b)) + ": ";
+    }
+
     void check_pair(std::size_t number) {
         const LayerPair& pair = options_.pairs[number];
-        const std::string place = "Pair " + std::to_string(number) + " of layers: ";
+        const std::string place = place_of(number);
         for (const std::uint32_t layer : {pair.a, pair.b}) {
             if (layer < kLayers) continue;
             add(place + "layer " + std::to_string(layer) + " does not exist; there are 0 to 31.");
@@ -95,14 +104,13 @@ private:
         for (std::size_t other = 0; other < number; ++other) {
             const LayerPair& before = options_.pairs[other];
             if (std::minmax(pair.a, pair.b) != std::minmax(before.a, before.b)) continue;
-            add(place + "layers " + std::to_string(pair.a) + " and " + std::to_string(pair.b) +
+            add(place + "layers " + layers_text(options_.layer_names, pair.a, pair.b) +
                 " are also those of pair " + std::to_string(other) + ".");
         }
         for_each_bit(pair.effects, [&](Ask one) {
             if (std::find(kSceneEffects.begin(), kSceneEffects.end(), one) != kSceneEffects.end())
                 return;
-            add(place + name_of(one) + " is not built in a scene. Built are " +
-                list_of(kSceneEffects) + ".");
+            add(place + unbuilt_effect(name_of(one)));
         });
         check_number(place, "tolerance", pair.tolerance, has(pair.effects, Ask::within), "within");
         check_number(place, "max_distance", pair.max_distance, has(pair.effects, Ask::distance),
@@ -152,9 +160,28 @@ private:
         for_each_bit(lacking, [&](Ask one) {
             const Needs* needs = find_needs(one);
             if (needs == nullptr) return;  // refused above
-            add(std::string(model.name) + ": its layers ask for " + needs->name +
-                ", which the model does not serve. Bake it with " + needs->bake_option + ".");
+            add(std::string(model.name) + ": " + layers_that_ask(model, one) + " for " +
+                needs->name + ", which the model does not serve. Bake it with " +
+                needs->bake_option + ".");
         });
+    }
+
+    /// "its layers ask", or by name: "its layer 'crates' asks".
+    [[nodiscard]] std::string layers_that_ask(const ModelUse& model, Ask one) const {
+        if (options_.layer_names.empty()) return "its layers ask";
+        std::uint32_t asking = 0;
+        for (const LayerPair& pair : options_.pairs) {
+            if (std::max(pair.a, pair.b) >= kLayers || !has(asks_of_models(pair), one)) continue;
+            asking |= (1U << pair.a | 1U << pair.b) & model.layers;
+        }
+        std::vector<std::string> names;
+        for (std::uint32_t layer = 0; layer < kLayers; ++layer) {
+            if ((asking >> layer & 1) != 0) {
+                names.push_back(layer_text(options_.layer_names, layer));
+            }
+        }
+        return (names.size() == 1 ? "its layer " : "its layers ") + list_of(names) +
+               (names.size() == 1 ? " asks" : " ask");
     }
 
     const PlanOptions& options_;
@@ -172,7 +199,8 @@ const char* source_of(const LayerPair& pair) {
     return is_told ? " (mostly from distance)" : "";
 }
 
-std::string sentence_of(const LayerPair& pair) {
+/// What a pair of layers computes: "collide, distance up to 2".
+std::string effects_text(const LayerPair& pair) {
     std::string effects;
     const auto add = [&](const std::string& text) {
         effects += (effects.empty() ? "" : ", ") + text;
@@ -199,12 +227,20 @@ std::string sentence_of(const LayerPair& pair) {
                  : ", clusters of " + text_of(pair.contacts.cluster_angle) + " radians"));
     }
     if (pair.lists_stays) add("events for what goes on");
-    return "layers " + std::to_string(pair.a) + " and " + std::to_string(pair.b) + ": " + effects;
+    return effects;
 }
 
 }  // namespace
 
-Plan::Plan(const PlanOptions& options) : limits_(options.limits) {
+std::string unbuilt_effect(std::string_view name) {
+    std::vector<std::string> built;
+    for (const Ask effect : kSceneEffects) built.push_back(name_of(effect));
+    return std::string(name) + " is not built in a scene. Built are " + list_of(built) + ".";
+}
+
+Plan::Plan(const PlanOptions& options)
+    : limits_(options.limits),
+      layer_names_(options.layer_names.begin(), options.layer_names.end()) {
     for (const LayerPair& pair : options.pairs) {
         if (pair.effects == Ask::nothing) continue;
         pairs_.push_back(pair);
@@ -265,7 +301,8 @@ std::string Plan::describe() const {
     std::string text;
     std::uint32_t layers = 0;
     for (const LayerPair& pair : pairs_) {
-        text += sentence_of(pair) + "\n";
+        text += "layers " + layers_text(layer_names_, pair.a, pair.b) + ": " + effects_text(pair) +
+                "\n";
         layers |= 1U << pair.a | 1U << pair.b;
     }
     std::string rest;
@@ -277,7 +314,7 @@ std::string Plan::describe() const {
     for (std::uint32_t a = 0; a < kLayers; ++a) {
         for (std::uint32_t b = a; b < kLayers; ++b) {
             if ((layers >> a & layers >> b & 1) == 0 || find_pair(a, b)) continue;
-            apart += (apart.empty() ? "" : ", ") + std::to_string(a) + " and " + std::to_string(b);
+            apart += (apart.empty() ? "" : ", ") + layers_text(layer_names_, a, b);
         }
     }
     if (!apart.empty()) text += "layers that are never looked at together: " + apart + "\n";

@@ -206,6 +206,11 @@ const Model* Scene::model_of(ObjectId object) const noexcept {
     const ObjectSlot* const found = state_->find(object);
     return found == nullptr ? nullptr : found->model;
 }
+ObjectId Scene::object_at(std::uint32_t slot) const noexcept {
+    if (slot >= state_->plan->limits().objects) return {};
+    const ObjectSlot& object = state_->objects[slot];
+    return object.model == nullptr ? ObjectId{} : ObjectId{slot, object.generation};
+}
 
 std::uint64_t SceneCounts::calls_of(Ask effect) const noexcept {
     const auto at = std::find(kSceneEffects.begin(), kSceneEffects.end(), effect);

@@ -74,6 +74,17 @@ def write_ply(path, corners, triangles, count):
         file.write(triangles)
 
 
+def write_scene(path, model):
+    """Two objects of a model, which never meet: one turns beside the other."""
+    path.write_text(json.dumps({
+        "cdprep_scene": 1, "layers": ["a"],
+        "pairs": [{"layers": ["a", "a"], "effects": ["collide", "distance"]}],
+        "objects": [{"name": "still", "model": model, "layer": "a"},
+                    {"name": "turning", "model": model, "layer": "a",
+                     "pose": {"translation": [3000, 0, 0]},
+                     "motion": {"turn_rad_per_s": [0, 0, 1]}}]}))
+
+
 class Commands:
     def __init__(self, program, folder):
         self.program, self.folder = os.path.abspath(program), folder
@@ -178,6 +189,10 @@ def main():
         commands.check("info", "--deep", "sheet.cdp.h5")
         commands.check("reindex", "sheet.cdp.h5")
         commands.check("query", "overlap", "sheet.cdp.h5", "sheet.cdp.h5", "--count")
+        write_scene(folder / "frames.json", "cone.cdp.h5")
+        commands.check("simulate", "frames.json", "--frames", "1000000000")
+        write_scene(folder / "bake.json", "sheet.ply")
+        commands.check("simulate", "bake.json", "--frames", "1")
         commands.check("accuracy", "sheet.cdp.h5", "sheet.cdp.h5", "--quick")
         commands.check("compare", "sheet.ply", "--quick")
 

@@ -76,7 +76,7 @@ def the_plans(program):
         must("findings" in {section["name"] for section in model["untouched"]}, f"{model}")
         must(model["read_bytes"] == sum(s["bytes"] for s in model["read"]) > 1000, f"{model}")
     text = run(program, "simulate", SCENES / "crates.json", "--plan").stdout
-    for words in ("layer 3: debris, 60 objects", "layers 1 and 2: collide of solids",
+    for words in ("layer 'debris': 60 objects", "layers 'crates' and 'triggers': collide of solids",
                   "not computed, for no pair of layers asks: overlap, distance, contacts", "never touched: 4 sections"):
         must(words in text, f"the plan does not say '{words}':\n{text}")
 
@@ -287,9 +287,10 @@ def refusals(program, folder):
     scene = write_scene(folder / "unbuilt.json", layers=["a", "b"], objects=[crate],
                         pairs=[{"layers": ["a", "b"], "effects": ["tear", "response"]},
                                {"layers": ["b", "a"], "effects": ["collide"], "tolerance": 3}])
-    words = ["Pair 0 of layers: response is not built", "Pair 0 of layers: tear is not built",
-             "layers 1 and 0 are also those of pair 0",
-             "Pair 1 of layers: tolerance has no meaning without within"]
+    words = ["Pair 0 of layers, 'a' and 'b': response is not built",
+             "Pair 0 of layers, 'a' and 'b': tear is not built",
+             "layers 'b' and 'a' are also those of pair 0",
+             "Pair 1 of layers, 'b' and 'a': tolerance has no meaning without within"]
     done = run(program, "simulate", scene, "--plan", "--format", "json")
     must(done.returncode == 2, f"{done.returncode}: {done.stderr}")
     refused = json.loads(done.stdout)
@@ -303,7 +304,7 @@ def refusals(program, folder):
     done = run(program, "simulate", scene)
     must(done.returncode == 2 and not done.stdout, done.stderr)
     for effect in ("within", "distance"):
-        must(f"crate.cdp.h5: its layers ask for {effect}" in done.stderr and
+        must(f"crate.cdp.h5: its layer 'a' asks for {effect}" in done.stderr and
              f"--effects {effect}." in done.stderr, done.stderr)
     must(plan_of(program, write_scene(
         folder / "baked.json", layers=["a"], objects=[crate],
@@ -318,8 +319,13 @@ def mistakes(program, folder):
     (folder / "no.json").write_text('{"cdprep_scene": 1,\n"layers" ["a"]}\n')
     (folder / "broken.obj").write_text("v 1 2 3\nf 1 2 3\n")
     pairs = [{"layers": ["a", "a"], "effects": ["collide"]}]
+    (folder / "short.obj").write_text("v 1 2\n")
     write_scene(folder / "broken.json", layers=["a"], pairs=pairs,
-                objects=[{"name": "x", "model": "broken.obj", "layer": "a"}])
+                objects=[{"name": "x", "model": "broken.obj", "layer": "a"},
+                         {"name": "y", "model": "short.obj", "layer": "a"}])
+    write_scene(folder / "long.json", layers=["a"], pairs=pairs, step_s=1e-3, duration_s=1e10,
+                objects=[{"name": "x", "model": "crate.obj", "layer": "a"}])
+    write_scene(folder / "schema.json", **{"$schema": 3}, layers=["a"], pairs=pairs, objects=[])
     bake(program, folder / "crate.obj", "-o", folder / "inches.cdp.h5", "--unit", "in")
     write_scene(folder / "unit.json", layers=["a"], pairs=pairs, metres_per_unit=1,
                 objects=[{"name": "x", "model": "inches.cdp.h5", "layer": "a"}])
@@ -334,7 +340,10 @@ def mistakes(program, folder):
         ([folder / "bad.json"], 3, ["bad.json: line 4: /colour: 'colour' is not a key here",
                                     "line 3: /objects/0/model: there is no file",
                                     "line 3: /objects/0/layer: 'b' is not a layer"]),
-        ([folder / "broken.json"], 3, ["broken.obj"]),
+        ([folder / "broken.json"], 3, ["broken.obj", "short.obj"]),
+        ([folder / "long.json"], 2, ["duration_s / step_s is 1e+13 frames; at most 1000000000"]),
+        ([good, "--frames", 1000000001], 2, ["--frames", "1000000001", "from 1 to 1000000000"]),
+        ([folder / "schema.json"], 3, ["schema.json: line 1: /$schema: found 3; expected"]),
         ([folder / "unit.json"], 2, ["inches.cdp.h5 is in in, but the unit of the scene is m"]),
         ([folder / "far.json", "--frames", 2], 2, ["object 'x'"]),
         ([good, "--frames", 0], 2, ["--frames"]),

@@ -51,7 +51,7 @@ public:
         // First without models: nothing is baked for a plan that does not exist.
         Plan::Compiled compiled = scenes::compile_scene(scene(), {});
         if (!compiled.plan) return fail_all(compiled.refusals, ErrorCode::bad_argument);
-        if (const auto error = load(*compiled.plan)) return fail("query", *error);
+        if (const auto exit = load(*compiled.plan)) return *exit;
         Result<std::vector<Part>> parts = parts_of(scene(), *compiled.plan, models_);
         if (!parts) return fail("query", parts.error());
         parts_ = std::move(parts).value();
@@ -153,7 +153,8 @@ private:
             scene().pairs[number].asked.max_distance = reach;
     }
 
-    std::optional<Error> load(const Plan& plan) {
+    /// Returns the exit code of a failure.
+    std::optional<Exit> load(const Plan& plan) {
         Progress progress(style_, scene().models.size());
         scenes::LoadOptions options;
         options.cache = arguments_.cache;
@@ -163,9 +164,12 @@ private:
         options.begins = [&](std::size_t done, const std::string& what) {
             progress.show(done, what);
         };
-        auto loaded = scenes::load_models(scene(), plan, options, threads_);
-        if (!loaded) return loaded.error();
-        models_ = std::move(loaded).value();
+        scenes::LoadedModels loaded = scenes::load_models(scene(), plan, options, threads_);
+        progress.clear();
+        for (const Error& error : loaded.errors) fail("query", error);
+        // The last one, which may have ended the loading.
+        if (!loaded.errors.empty()) return exit_for(loaded.errors.back().code);
+        models_ = std::move(loaded.models);
         return std::nullopt;
     }
 

@@ -2,24 +2,11 @@
 #include "scene_file/compile_scene.h"
 
 #include <string>
+#include <string_view>
 
-#include "scene_file/effect_words.h"
+#include "text/printable.h"
 
 namespace cdprep::scenes {
-namespace {
-
-/// "collide, overlap and within".
-std::string built_effects() {
-    std::string text;
-    for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
-        if (i > 0) text += i + 1 == kSceneEffects.size() ? " and " : ", ";
-        text += effect_name(kSceneEffects[i]);
-    }
-    return text;
-}
-
-}  // namespace
-
 std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan) {
     std::vector<ModelNeeds> needs(scene.models.size());
     for (const FileObject& object : scene.objects) {
@@ -39,12 +26,17 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                              std::span<const ModelUse> models) {
     std::vector<LayerPair> pairs;
     for (const AskedPair& pair : scene.pairs) pairs.push_back(pair.asked);
-    Plan::Compiled compiled = Plan::compile({.pairs = pairs, .models = models, .limits = limits});
+    std::vector<std::string> names;
+    for (const std::string& layer : scene.layers) names.push_back(report::printable(layer));
+    const std::vector<std::string_view> layers(names.begin(), names.end());
+    Plan::Compiled compiled =
+        Plan::compile({.pairs = pairs, .models = models, .limits = limits, .layer_names = layers});
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+        const LayerPair& pair = pairs[i];
         for (const std::string& effect : scene.pairs[i].unbuilt) {
-            compiled.refusals.push_back("Pair " + std::to_string(i) + " of layers: " + effect +
-                                        " is not built in a scene. Built are " + built_effects() +
-                                        ".");
+            compiled.refusals.push_back("Pair " + std::to_string(i) + " of layers, '" +
+                                        names[pair.a] + "' and '" + names[pair.b] +
+                                        "': " + unbuilt_effect(effect));
         }
     }
     if (!compiled.refusals.empty()) compiled.plan.reset();

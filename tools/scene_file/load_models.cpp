@@ -55,6 +55,11 @@ void read_part(const AssemblyScene& assembly, const AssemblyModel& model, cli::B
     };
 }
 
+/// Returns whether the next model may still be opened after such an error.
+bool is_of_one_model(ErrorCode code) {
+    return code == ErrorCode::unreadable || code == ErrorCode::bad_argument;
+}
+
 /// Loads the models of one scene.
 class Loader {
 public:
@@ -135,18 +140,21 @@ private:
 
 }  // namespace
 
-Result<std::vector<SceneModel>> load_models(const SceneFile& scene, const Plan& plan,
-                                            const LoadOptions& options,
-                                            const cli::Threads& threads) {
+LoadedModels load_models(const SceneFile& scene, const Plan& plan, const LoadOptions& options,
+                         const cli::Threads& threads) {
     const std::vector<ModelNeeds> needs = needs_of_models(scene, plan);
     Loader loader(scene, options, threads);
-    std::vector<SceneModel> models;
+    LoadedModels all;
     for (std::size_t i = 0; i < scene.models.size(); ++i) {
         Result<SceneModel> loaded = loader.load(i, needs[i]);
-        if (!loaded) return loaded.error();
-        models.push_back(std::move(loaded).value());
+        if (loaded) {
+            all.models.push_back(std::move(loaded).value());
+            continue;
+        }
+        all.errors.push_back(loaded.error());
+        if (!is_of_one_model(loaded.error().code)) break;
     }
-    return models;
+    return all;
 }
 
 std::vector<ModelUse> uses_of(const SceneFile& scene, const std::vector<SceneModel>& models,

@@ -41,13 +41,18 @@ struct LoadOptions {
         [](std::size_t /*done*/, const std::string& /*what*/) {};
 };
 
+/// Models in the order of SceneFile::models. If there are errors, models are missing.
+struct LoadedModels {
+    std::vector<SceneModel> models;
+    std::vector<Error> errors;
+};
+
 /// Opens the models that the plan asks for, with exactly the sections that it needs or uses, in the
 /// order of SceneFile::models. Mesh files are baked for these sections. A baked file may lack some:
-/// compile_scene() tells. Fails with the error of the first model that cannot be read, or whose
-/// unit is not that of the scene.
-[[nodiscard]] Result<std::vector<SceneModel>> load_models(const SceneFile& scene, const Plan& plan,
-                                                          const LoadOptions& options,
-                                                          const cli::Threads& threads);
+/// compile_scene() tells. There is an error for each model that cannot be read, or whose unit is
+/// not that of the scene. Any other error is the last: no model is opened after it.
+[[nodiscard]] LoadedModels load_models(const SceneFile& scene, const Plan& plan,
+                                       const LoadOptions& options, const cli::Threads& threads);
 
 /// Returns the uses of the models that were opened, for compile_scene(). `names` gets the names
 /// that they refer to.

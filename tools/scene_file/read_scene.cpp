@@ -55,6 +55,7 @@ private:
         static_cast<void>(
             root.is_object_of({"$schema", "cdprep_scene", "metres_per_unit", "step_s", "duration_s",
                                "limits", "layers", "pairs", "objects"}));
+        if (const auto schema = root.find("$schema")) static_cast<void>(schema->text());
         read_above_zero(root, "metres_per_unit", scene_.metres_per_unit);
         read_above_zero(root, "step_s", scene_.step_s);
         if (const auto duration = root.find("duration_s")) {

@@ -20,6 +20,7 @@
 #include "simulate/plan_report.h"
 #include "simulate/simulation.h"
 #include "simulate/simulation_report.h"
+#include "text/number_text.h"
 
 namespace cdprep::cli {
 namespace {
@@ -64,7 +65,7 @@ public:
         // First without models: nothing is baked for a plan that does not exist.
         Plan::Compiled compiled = scenes::compile_scene(scene_, limits());
         if (!compiled.plan) return refuse(compiled.refusals);
-        if (const auto error = load(*compiled.plan)) return fail("simulate", *error);
+        if (const auto failed = load(*compiled.plan)) return *failed;
         std::vector<std::string> names;
         compiled = scenes::compile_scene(scene_, limits(), scenes::uses_of(scene_, models_, names));
         if (!compiled.plan) return refuse(compiled.refusals);
@@ -77,11 +78,15 @@ private:
                 .pairs = scene_.most_pairs.value_or(1)};
     }
 
-    [[nodiscard]] std::uint64_t frame_count() const {
+    [[nodiscard]] Result<std::uint64_t> frame_count() const {
         if (arguments_.frames) return *arguments_.frames;
         const double frames = std::round(scene_.duration_s / scene_.step_s);
-        if (!(frames >= 1)) return 1;
-        return frames < kMostFrames ? static_cast<std::uint64_t>(frames) : kMostFrames;
+        if (!(frames >= 1)) return std::uint64_t{1};
+        if (frames <= kMostFrames) return static_cast<std::uint64_t>(frames);
+        return Error{ErrorCode::bad_argument,
+                     scene_.name + ": duration_s / step_s is " + report::number_text(frames) +
+                         " frames; at most " + std::to_string(kMostFrames) +
+                         " are possible. Change the two, or choose --frames."};
     }
 
     [[nodiscard]] std::uint32_t thread_count() const {
@@ -99,7 +104,8 @@ private:
         return fail_all(refusals, ErrorCode::bad_argument);
     }
 
-    std::optional<Error> load(const Plan& plan) {
+    /// Returns the exit code if models cannot be loaded.
+    std::optional<Exit> load(const Plan& plan) {
         Progress progress(style_, scene_.models.size());
         scenes::LoadOptions options;
         options.cache = arguments_.cache;
@@ -108,9 +114,12 @@ private:
         options.begins = [&](std::size_t done, const std::string& what) {
             progress.show(done, what);
         };
-        auto loaded = scenes::load_models(scene_, plan, options, threads_);
-        if (!loaded) return loaded.error();
-        models_ = std::move(loaded).value();
+        scenes::LoadedModels loaded = scenes::load_models(scene_, plan, options, threads_);
+        progress.clear();
+        for (const Error& error : loaded.errors) fail("simulate", error);
+        // The last one, which may have ended the loading.
+        if (!loaded.errors.empty()) return exit_for(loaded.errors.back().code);
+        models_ = std::move(loaded.models);
         return std::nullopt;
     }
 
@@ -120,11 +129,13 @@ private:
     }
 
     Exit simulate(const Plan& plan) {
+        const Result<std::uint64_t> counted = frame_count();
+        if (!counted) return fail("simulate", counted.error());
+        const std::uint64_t frames = *counted;
         auto simulation =
             scenes::Simulation::make(scene_, models_, thread_count(), threads_.parallel_for());
         if (!simulation) return fail("simulate", simulation.error());
         report::SimulationReport report(scene_, plan, event_format());
-        const std::uint64_t frames = frame_count();
         Progress progress(style_, frames);
         Result<Done> done = output_.append(report.begin());
         for (std::uint64_t frame = 0; frame < frames && done; ++frame) {

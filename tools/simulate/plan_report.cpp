@@ -165,8 +165,8 @@ std::string plan_text(const SceneFile& scene, const Plan& plan,
                        counted(scene.layers.size(), "layer", "layers") + "\n";
     const std::vector<std::uint32_t> objects = objects_by_layer(scene);
     for (std::size_t i = 0; i < scene.layers.size(); ++i) {
-        text += "layer " + std::to_string(i) + ": " + printable(scene.layers[i]) + ", " +
-                counted(objects[i], "object", "objects") + "\n";
+        text += "layer '" + printable(scene.layers[i]) +
+                "': " + counted(objects[i], "object", "objects") + "\n";
     }
     text += plan.describe();
     for (std::size_t i = 0; i < models.size(); ++i) {

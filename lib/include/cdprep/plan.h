@@ -62,7 +62,13 @@ struct PlanOptions {
     std::span<const LayerPair> pairs;
     std::span<const ModelUse> models = {};
     SceneLimits limits;
+    /// Of layers 0, 1, ..., for refusals and Plan::describe(). A layer without a name is a number
+    /// there.
+    std::span<const std::string_view> layer_names = {};
 };
+
+/// Returns the reason why an effect with this name is refused: that it is not built, and which are.
+[[nodiscard]] std::string unbuilt_effect(std::string_view name);
 
 /// What a scene computes, and nothing else: compiled once from the effects of pairs of layers.
 ///
@@ -105,6 +111,7 @@ private:
 
     SceneLimits limits_;
     std::vector<LayerPair> pairs_;
+    std::vector<std::string> layer_names_;
     /// [a][b]: 1 more than the pair's number.
     std::array<std::uint16_t, std::size_t{kLayers} * kLayers> number_{};
 };

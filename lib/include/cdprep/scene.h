@@ -193,6 +193,8 @@ public:
     [[nodiscard]] std::uint32_t object_count() const noexcept;
     /// Returns the model of an object, or null if there is none with this id.
     [[nodiscard]] const Model* model_of(ObjectId object) const noexcept;
+    /// Returns the object in a slot, or the id of no object if the slot is free or does not exist.
+    [[nodiscard]] ObjectId object_at(std::uint32_t slot) const noexcept;
     /// Returns a hash of all hits, overlaps, distances, contacts and events. It leaves out witness
     /// points, features and the points of manifolds. It is equal for any number of threads and any
     /// instruction set.

@@ -2,7 +2,7 @@
 #ifndef CDPREP_C_SCENE_H
 #define CDPREP_C_SCENE_H
 
-#include "cdprep/c/pairs.h"
+#include "cdprep/c/contacts.h"
 
 /* Many objects that move, and the broad phase.
  *
@@ -18,13 +18,15 @@ enum { CDPREP_LAYERS = 32 }; /* the number of layers of a scene; an object is in
 typedef struct cdprep_layer_pair {
     cdprep_head head;
     uint32_t a, b; /* 0: below CDPREP_LAYERS */
-    /* 0: nothing is computed. Bits: CDPREP_ASK_COLLIDE, _OVERLAP, _WITHIN, _DISTANCE */
+    /* 0: nothing is computed. Bits: CDPREP_ASK_COLLIDE, _OVERLAP, _WITHIN, _DISTANCE, _CONTACTS */
     uint32_t effects;
-    uint32_t body;        /* CDPREP_SURFACE; of collide and distance */
+    uint32_t body;        /* CDPREP_SURFACE; of collide, distance and contacts */
     uint32_t overlap;     /* CDPREP_CLOSED; of collide and overlap */
     uint32_t lists_stays; /* CDPREP_NO; CDPREP_YES: also an event in each step for what goes on */
     double tolerance;     /* 0: of within, model units */
     double max_distance;  /* 0: of distance, model units: larger distances are not found */
+    /* Null: of contacts, the defaults with `most` 16. Read only during the call. */
+    const cdprep_contact_options* contacts;
 } cdprep_layer_pair;
 
 CDPREP_API void cdprep_layer_pair_init(cdprep_layer_pair* pair, size_t size);
@@ -45,13 +47,17 @@ typedef struct cdprep_plan_options {
     cdprep_head head;
     const cdprep_layer_pair* layer_pairs; /* null */
     const cdprep_model_use* models;       /* null: scene_add() alone checks the models */
-    uint32_t layer_pair_count;            /* 0: at most 528 */
-    uint32_t model_count;                 /* 0 */
-    uint32_t max_objects;                 /* 0: objects of a scene, at most 2^29 */
+    /* Null: messages and texts number the layers. Otherwise the names of layers 0, 1, ... */
+    const char* const* layer_names;
+    uint32_t layer_pair_count; /* 0: at most 528 */
+    uint32_t model_count;      /* 0 */
+    uint32_t layer_name_count; /* 0: at most CDPREP_LAYERS */
+    uint32_t max_objects;      /* 0: objects of a scene, at most 2^29 */
     /* 0: pairs of objects whose boxes meet at a time. Room for twice as many is faster. */
     uint32_t max_pairs;
     uint32_t lanes; /* 1: at most 256; a step uses at most as many lanes of its workspace */
     uint32_t max_triangle_pairs;       /* 0: of overlap: in all lists of a step together */
+    uint32_t max_contacts;             /* 0: of contacts, likewise */
     const cdprep_allocator* allocator; /* null: the heap; copied; also of scenes with this plan */
 } cdprep_plan_options;
 
@@ -69,7 +75,7 @@ typedef int (*cdprep_text_visitor)(void* context, const char* sentence);
  * failure *plan is null. The plan takes some kilobytes. Takes O(layer pairs^2 + models) time.
  * Errors, such as of `options.layer_pairs[3].tolerance`:
  * - CDPREP_WHY_OUT_OF_RANGE: a layer, an effect, an enumerator, a number or a count.
- * - CDPREP_WHY_NOT_FINITE: a tolerance or maximum distance is NaN or infinite.
+ * - CDPREP_WHY_NOT_FINITE: a tolerance, angle or maximum distance is NaN or infinite.
  * - CDPREP_WHY_NO_MEANING: Two layers form a second pair. Or a field is set that no effect of its
  *   pair uses. Or `serves` or `name` is set in addition to a model.
  * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: a model does not serve an effect of its layers.
@@ -109,8 +115,9 @@ typedef struct cdprep_object {
 } cdprep_object;
 
 /* Stores the number of bytes that cdprep_scene_make() needs for this plan. It depends only on the
- * limits and on the effects: about 430 bytes for each object and 470 to 1,300 for each pair.
- * CDPREP_ASK_OVERLAP takes 24 more for each triangle pair, and 16 KiB for each lane. */
+ * limits, the effects and `most`: about 430 bytes for each object and 470 to 1,640 for each pair.
+ * CDPREP_ASK_OVERLAP takes 24 more for each triangle pair, and 16 KiB for each lane.
+ * CDPREP_ASK_CONTACTS takes 1,630 more for each contact, and 20 to 120 KiB for each lane. */
 CDPREP_API int cdprep_scene_size(const cdprep_plan* plan, size_t* size, cdprep_error* error);
 
 /* Makes an empty scene in the caller's memory. The memory must start at a multiple of
@@ -170,8 +177,9 @@ CDPREP_API int cdprep_scene_set_paused(cdprep_scene* scene, uint32_t effects, cd
 typedef struct cdprep_step {
     uint64_t needed_pairs;          /* max_pairs for this step if it is too small; otherwise 0 */
     uint64_t needed_triangle_pairs; /* max_triangle_pairs, likewise */
-    uint32_t complete;     /* CDPREP_NO: there is too little room; the step has changed nothing */
-    uint32_t reserved[11]; /* 0 */
+    uint64_t needed_contacts;       /* max_contacts, likewise */
+    uint32_t complete;    /* CDPREP_NO: there is too little room; the step has changed nothing */
+    uint32_t reserved[9]; /* 0 */
 } cdprep_step;
 
 /* Computes the effects of all objects as they are now, on the lanes of the workspace. Too little
@@ -208,6 +216,20 @@ typedef struct cdprep_scene_distance {
     cdprep_nearest nearest; /* points are in the world */
 } cdprep_scene_distance;
 
+/* The contacts of two objects: a.slot < b.slot. A is the object with the lower slot; points and
+ * normals are in the world. The items and numbers are those of a cdprep_contact_list. Two objects
+ * whose search `work` ended early are listed even without contacts. */
+typedef struct cdprep_scene_contact {
+    cdprep_object a, b;
+    uint32_t layer_pair;
+    uint32_t complete;           /* CDPREP_NO if `most` or `work` left contacts out */
+    uint32_t searched;           /* CDPREP_NO if `work` ended the search for near triangles */
+    uint32_t reserved;           /* 0 */
+    const cdprep_contact* items; /* belongs to the scene; the deepest first */
+    size_t count;
+    uint64_t found, computed, work;
+} cdprep_scene_contact;
+
 /* The kind of an event. Each begin is followed by one end before the next begin. */
 enum {
     CDPREP_EVENT_BEGIN = 1,
@@ -227,7 +249,7 @@ enum {
 typedef struct cdprep_event {
     cdprep_object a, b;
     uint32_t layer_pair; /* when the effect began */
-    uint32_t effect;     /* one bit: CDPREP_ASK_COLLIDE, _OVERLAP, _WITHIN or _DISTANCE */
+    uint32_t effect;     /* one bit: CDPREP_ASK_COLLIDE, _OVERLAP, _WITHIN, _DISTANCE, _CONTACTS */
     uint32_t kind;       /* CDPREP_EVENT_BEGIN, _STAY, _END */
     uint32_t reason;     /* CDPREP_REASON_ */
 } cdprep_event;
@@ -244,12 +266,15 @@ CDPREP_API int cdprep_scene_overlaps(const cdprep_scene* scene,
 CDPREP_API int cdprep_scene_distances(const cdprep_scene* scene,
                                       const cdprep_scene_distance** distances, size_t* count,
                                       cdprep_error* error);
+CDPREP_API int cdprep_scene_contacts(const cdprep_scene* scene,
+                                     const cdprep_scene_contact** contacts, size_t* count,
+                                     cdprep_error* error);
 /* Events are in the order of hits. */
 CDPREP_API int cdprep_scene_events(const cdprep_scene* scene, const cdprep_event** events,
                                    size_t* count, cdprep_error* error);
 
-/* Stores a hash of these arrays, without the nearest points. It is equal on every machine and
- * for any number of lanes. Takes O(elements) time. */
+/* Stores a hash of these arrays, without nearest points, features and the points of manifolds. It
+ * is equal on every machine and for any number of lanes. Takes O(elements) time. */
 CDPREP_API int cdprep_scene_hash(const cdprep_scene* scene, uint64_t* hash, cdprep_error* error);
 
 /* Indices into cdprep_counts.n for cdprep_scene_counts(). All but the first are of the last step
@@ -264,7 +289,9 @@ enum {
     CDPREP_SCENE_WITHIN = 6,     /* within queries */
     CDPREP_SCENE_DISTANCE = 7,   /* distance queries */
     CDPREP_SCENE_OVERLAP = 8,    /* overlap queries */
-    CDPREP_SCENE_TRIANGLE_PAIRS = 9 /* in all lists of overlaps */
+    CDPREP_SCENE_TRIANGLE_PAIRS = 9,  /* in all lists of overlaps */
+    CDPREP_SCENE_CONTACTS = 10,       /* contact queries */
+    CDPREP_SCENE_LISTED_CONTACTS = 11 /* in all lists of contacts */
 };
 
 /* Stores the work of the last step, for tuning. The rest of counts->n is 0. */
@@ -352,5 +379,27 @@ CDPREP_API int cdprep_broad_phase_update(cdprep_broad_phase* broad_phase,
                                          const cdprep_box_update* update,
                                          cdprep_workspace* workspace, cdprep_box_pairs* pairs,
                                          cdprep_error* error);
+
+/* --- Scenes with a broad phase of the caller -------------------------------------------------- */
+
+/* Stores the address of an array of boxes and the number of its elements, which is max_objects. Box
+ * i is that of slot i in the next step. It contains the object as it is now, and its part of the
+ * tolerances. Free slots have absent boxes. The array belongs to the scene, and stays until the
+ * scene changes. Takes O(changed objects) time. Errors: CDPREP_WHY_BUSY. */
+CDPREP_API int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** boxes,
+                                  size_t* count, cdprep_error* error);
+
+/* Does the same as cdprep_scene_step(), but with the pairs of a broad phase of the caller. The
+ * candidates are pairs of slots, sorted by a, then b, as cdprep_broad_phase_update() stores them:
+ * a < b, and no pair occurs twice. They must contain all pairs whose boxes meet; a pair that is
+ * missing is not asked. Pairs whose boxes do not meet, or whose layers are not paired, are ignored.
+ * Takes O(candidates + pairs log pairs) time, and the time of the queries.
+ * Errors, such as of `candidates[3]`: CDPREP_WHY_OUT_OF_RANGE for a slot that is not below
+ * max_objects, for a >= b, and for a pair that does not come after the one before it;
+ * CDPREP_WHY_STALE for a slot without an object; CDPREP_WHY_BUSY. Then nothing has changed, and
+ * `complete` is CDPREP_NO. */
+CDPREP_API int cdprep_scene_step_with(cdprep_scene* scene, const cdprep_box_pair* candidates,
+                                      size_t count, cdprep_workspace* workspace, cdprep_step* step,
+                                      cdprep_error* error);
 
 #endif /* CDPREP_C_SCENE_H */

@@ -114,6 +114,27 @@ static const char* fill(cdprep_scene* scene, const cdprep_model* cube, cdprep_ob
     return NULL;
 }
 
+/* Nothing has moved since the last step, and the boxes of the first two cubes meet. */
+static const char* step_with(cdprep_scene* scene, cdprep_workspace* workspace) {
+    cdprep_box_pair candidate = {0, 1};
+    cdprep_step step;
+    const cdprep_world_box* boxes = NULL;
+    const cdprep_scene_contact* contacts = NULL;
+    size_t count = 0;
+    cdprep_error error;
+    MUST(cdprep_scene_boxes(scene, &boxes, &count, NULL) == CDPREP_OK && count == 3);
+    MUST(boxes[0].lower[0] <= -0.25F && boxes[0].upper[0] >= 1.25F); /* half of max_distance */
+    MUST(boxes[1].lower[0] <= boxes[0].upper[0]);
+    MUST(cdprep_scene_step_with(scene, &candidate, 1, workspace, &step, NULL) == CDPREP_OK);
+    MUST(step.complete == CDPREP_YES && step.needed_contacts == 0);
+    MUST(cdprep_scene_contacts(scene, &contacts, &count, NULL) == CDPREP_OK && count == 0);
+    candidate.b = 0;
+    MUST(cdprep_scene_step_with(scene, &candidate, 1, workspace, &step, &error) ==
+         CDPREP_BAD_ARGUMENT);
+    MUST(error.why == CDPREP_WHY_OUT_OF_RANGE && step.complete == CDPREP_NO);
+    return NULL;
+}
+
 static const char* move_objects(cdprep_scene* scene, cdprep_workspace* workspace,
                                 cdprep_object* ids) {
     cdprep_pose poses[2];
@@ -154,6 +175,10 @@ static const char* move_objects(cdprep_scene* scene, cdprep_workspace* workspace
     MUST(event->kind == CDPREP_EVENT_END && event->reason == CDPREP_REASON_RELAYERED);
     MUST(cdprep_scene_set_layer(scene, ids[1], CRATES, NULL) == CDPREP_OK);
     STEP(1, 1, 2);
+    {
+        const char* const wrong = step_with(scene, workspace);
+        if (wrong != NULL) return wrong;
+    }
     MUST(cdprep_scene_remove(scene, ids, 2, NULL) == CDPREP_OK);
     STEP(0, 0, 2);
     MUST(cdprep_scene_events(scene, &event, &count, NULL) == CDPREP_OK);

@@ -171,7 +171,7 @@ TEST_F(CSceneHostile, LayerPairsAreCheckedFieldByField) {
     };
     word("options.layer_pairs[0].a", &P::a, 32);
     word("options.layer_pairs[0].b", &P::b, 32);
-    word("options.layer_pairs[0].effects", &P::effects, CDPREP_ASK_CONTACTS);
+    word("options.layer_pairs[0].effects", &P::effects, CDPREP_ASK_RAY);
     word("options.layer_pairs[0].effects", &P::effects, CDPREP_ASK_SOLID);
     word("options.layer_pairs[0].body", &P::body, 2);
     word("options.layer_pairs[0].overlap", &P::overlap, 2);
@@ -199,11 +199,52 @@ TEST_F(CSceneHostile, LayerPairsAreCheckedFieldByField) {
            [](P& p) { p.overlap = CDPREP_PROPER; });
     unused("options.layer_pairs[0].tolerance", CDPREP_ASK_COLLIDE,
            [](P& p) { p.tolerance = 0x1p-1060; });
+    cdprep_contact_options contacts;
+    cdprep_contact_options_init(&contacts, sizeof contacts);
+    unused("options.layer_pairs[0].contacts", kAll, [&](P& p) { p.contacts = &contacts; });
     unused("options.layer_pairs[0].max_distance", 0, [](P& p) { p.max_distance = 1; });
     expect_refused(pair_, all, [&](const P* given) {
         cdprep_plan_options changed = options();
         changed.layer_pairs = given;
         return outcome_of(&changed);
+    });
+}
+
+TEST_F(CSceneHostile, OptionsOfContactsAreCheckedFieldByField) {
+    using C = cdprep_contact_options;
+    std::vector<Mistake<C>> all = struct_mistakes<C>("options.layer_pairs[0].contacts");
+    const auto word = [&](const char* name, std::uint32_t C::*field, std::uint32_t value) {
+        all.push_back({name, [=](C& c) { c.*field = value; }, CDPREP_WHY_OUT_OF_RANGE, name});
+    };
+    for (const std::uint32_t number : {1U, 3U, 5U, UINT32_MAX}) {
+        word("options.layer_pairs[0].contacts.manifold", &C::manifold, number);
+    }
+    for (const std::uint32_t number : {0U, 257U, UINT32_MAX}) {
+        word("options.layer_pairs[0].contacts.most", &C::most, number);
+    }
+    std::vector<std::pair<double, int>> numbers = bad_numbers();
+    numbers.emplace_back(kInfinity, CDPREP_WHY_NOT_FINITE);
+    numbers.emplace_back(-1, CDPREP_WHY_OUT_OF_RANGE);
+    for (const auto& [number, why] : numbers) {
+        const double bad = number;
+        all.push_back({"tolerance", [bad](C& c) { c.tolerance = bad; }, why,
+                       "options.layer_pairs[0].contacts.tolerance"});
+        all.push_back({"angle", [bad](C& c) { c.cluster_angle = bad; }, why,
+                       "options.layer_pairs[0].contacts.cluster_angle"});
+    }
+    C right;
+    cdprep_contact_options_init(&right, sizeof right);
+    right.work = UINT64_MAX;
+    right.manifold = 4;
+    expect_refused(right, all, [&](const C* given) {
+        cdprep_layer_pair pair = pair_of(1, 1, CDPREP_ASK_CONTACTS);
+        pair.body = CDPREP_SOLID;
+        pair.contacts = given;
+        cdprep_plan_options changed = options();
+        changed.layer_pairs = &pair;
+        Outcome result = outcome_of(&changed);
+        if (given == nullptr) result.why = CDPREP_WHY_NULL;  // null stands for the defaults
+        return result;
     });
 }
 
@@ -255,6 +296,18 @@ TEST_F(CSceneHostile, PlanOptionsAreCheckedFieldByField) {
     word("options.lanes", &O::lanes, 0);
     word("options.lanes", &O::lanes, 257);
     static const cdprep_allocator none = {nullptr, nullptr, nullptr};
+    for (const std::uint32_t many : {33U, UINT32_MAX}) {
+        word("options.layer_name_count", &O::layer_name_count, many);
+    }
+    static const std::array<const char*, 2> names = {"floor", nullptr};
+    all.push_back(
+        {"no names", [](O& o) { o.layer_name_count = 1; }, CDPREP_WHY_NULL, "options.layer_names"});
+    all.push_back({"a name that is null",
+                   [](O& o) {
+                       o.layer_names = names.data();
+                       o.layer_name_count = 2;
+                   },
+                   CDPREP_WHY_NULL, "options.layer_names[1]"});
     all.push_back({"no pairs", [](O& o) { o.layer_pairs = nullptr; }, CDPREP_WHY_NULL,
                    "options.layer_pairs"});
     all.push_back(
@@ -268,7 +321,7 @@ TEST_F(CSceneHostile, PlanOptionsAreCheckedFieldByField) {
 TEST_F(CSceneHostile, APlanTellsEveryReason) {
     std::vector<cdprep_layer_pair> pairs = {
         pair_of(0, 1, CDPREP_ASK_COLLIDE), pair_of(40, 1, CDPREP_ASK_COLLIDE),
-        pair_of(1, 0, CDPREP_ASK_WITHIN), pair_of(2, 2, CDPREP_ASK_CONTACTS)};
+        pair_of(1, 0, CDPREP_ASK_WITHIN), pair_of(2, 2, CDPREP_ASK_RAY)};
     std::vector<cdprep_model_use> models = {use_of(rays_only_.get(), 1), use_of(cube_.get(), 3),
                                             use_of(nullptr, 2)};
     models[2].name = "bolt.cdp.h5";
@@ -288,7 +341,7 @@ TEST_F(CSceneHostile, APlanTellsEveryReason) {
     EXPECT_EQ(told.sentences[1],
               "options.layer_pairs[2] is of layers 1 and 0, and so is options.layer_pairs[0].");
     EXPECT_EQ(told.sentences[2],
-              "options.layer_pairs[3].effects is 0x10; a scene computes only the bits 0xf.");
+              "options.layer_pairs[3].effects is 0x1000; a scene computes only the bits 0x1f.");
     EXPECT_EQ(told.sentences[4],
               "options.models[2].serves is 0x0, but its layers ask for collide. Bake bolt.cdp.h5 "
               "with --effects collide.");
@@ -297,6 +350,37 @@ TEST_F(CSceneHostile, APlanTellsEveryReason) {
     EXPECT_EQ(cdprep_plan_compile(&changed, Told::take, &two, &plan, nullptr), CDPREP_BAD_ARGUMENT);
     EXPECT_EQ(two.sentences.size(), 2u);
     EXPECT_EQ(cdprep_plan_compile(&changed, nullptr, nullptr, &plan, nullptr), CDPREP_BAD_ARGUMENT);
+}
+
+// By hand: the third layer has an empty name.
+TEST_F(CSceneHostile, MessagesAndTextsNameTheLayers) {
+    const std::vector<cdprep_layer_pair> pairs = {pair_of(0, 2, CDPREP_ASK_COLLIDE),
+                                                  pair_of(1, 0, CDPREP_ASK_COLLIDE),
+                                                  pair_of(0, 1, CDPREP_ASK_COLLIDE)};
+    const std::array<const char*, 3> names = {"floor", "crates", ""};
+    cdprep_plan_options changed = options();
+    changed.layer_pairs = pairs.data();
+    changed.layer_pair_count = 3;
+    changed.layer_names = names.data();
+    changed.layer_name_count = 3;
+    cdprep_plan* plan = nullptr;
+    cdprep_error error;
+    EXPECT_EQ(cdprep_plan_compile(&changed, nullptr, nullptr, &plan, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.message,
+                 "options.layer_pairs[2] is of layers 'floor' and 'crates', and so is "
+                 "options.layer_pairs[1].");
+    changed.layer_pair_count = 2;
+    plan = compiled(changed);
+    std::array<char, 400> text{};
+    std::size_t length = 0;
+    EXPECT_EQ(cdprep_plan_text(plan, text.data(), text.size(), &length, nullptr), CDPREP_OK);
+    EXPECT_STREQ(text.data(),
+                 "layers 'floor' and 2: collide\n"
+                 "layers 'crates' and 'floor': collide\n"
+                 "not computed, for no pair of layers asks: overlap, within, distance, contacts\n"
+                 "layers that are never looked at together: 'floor' and 'floor', 'crates' and "
+                 "'crates', 'crates' and 2, 2 and 2\n");
+    cdprep_plan_end(plan);
 }
 
 // An element of another size, or one that is not initialised, is named; the others are checked.
@@ -499,13 +583,17 @@ TEST_F(CSceneHostile, ALayerNeedsAModelThatServesIt) {
 
 TEST_F(CSceneHostile, NullIsRefusedByName) {
     cdprep_error error;
-    cdprep_step step = {7, 7, 7, {}};
+    cdprep_step step = {7, 7, 7, 7, {}};
     std::size_t size = 9, count = 9;
     std::uint64_t hash = 9;
     cdprep_counts counts{};
     const cdprep_scene_hit* hits = nullptr;
+    const cdprep_scene_overlap* overlaps = nullptr;
     const cdprep_scene_distance* distances = nullptr;
+    const cdprep_scene_contact* contacts = nullptr;
     const cdprep_event* events = nullptr;
+    const cdprep_world_box* boxes = nullptr;
+    const cdprep_box_pair candidate = {0, 1};
     const auto expect = [&](int code, const char* argument) {
         EXPECT_EQ(code, CDPREP_BAD_ARGUMENT) << argument;
         EXPECT_EQ(error.why, CDPREP_WHY_NULL) << argument;
@@ -532,6 +620,19 @@ TEST_F(CSceneHostile, NullIsRefusedByName) {
     EXPECT_EQ(step.needed_pairs, 0u);
     expect(cdprep_scene_step(scene_, nullptr, &step, &error), "workspace");
     expect(cdprep_scene_step(scene_, workspace_.get(), nullptr, &error), "step");
+    cdprep_workspace* const workspace = workspace_.get();
+    expect(cdprep_scene_step_with(nullptr, nullptr, 0, workspace, &step, &error), "scene");
+    expect(cdprep_scene_step_with(scene_, nullptr, 1, workspace, &step, &error), "candidates");
+    expect(cdprep_scene_step_with(scene_, &candidate, 1, nullptr, &step, &error), "workspace");
+    expect(cdprep_scene_step_with(scene_, &candidate, 1, workspace, nullptr, &error), "step");
+    expect(cdprep_scene_boxes(nullptr, &boxes, &count, &error), "scene");
+    expect(cdprep_scene_boxes(scene_, nullptr, &count, &error), "boxes");
+    expect(cdprep_scene_boxes(scene_, &boxes, nullptr, &error), "count");
+    expect(cdprep_scene_overlaps(nullptr, &overlaps, &count, &error), "scene");
+    expect(cdprep_scene_overlaps(scene_, nullptr, &count, &error), "overlaps");
+    expect(cdprep_scene_contacts(nullptr, &contacts, &count, &error), "scene");
+    expect(cdprep_scene_contacts(scene_, nullptr, &count, &error), "contacts");
+    expect(cdprep_scene_contacts(scene_, &contacts, nullptr, &error), "count");
     expect(cdprep_scene_hits(nullptr, &hits, &count, &error), "scene");
     EXPECT_EQ(count, 0u);
     expect(cdprep_scene_hits(scene_, nullptr, &count, &error), "hits");
@@ -548,6 +649,71 @@ TEST_F(CSceneHostile, NullIsRefusedByName) {
     EXPECT_EQ(cdprep_scene_step(nullptr, nullptr, nullptr, nullptr), CDPREP_BAD_ARGUMENT);
     cdprep_scene_end(nullptr);
     cdprep_object_options_init(nullptr, sizeof right);
+}
+
+/// What a step says about candidates that are wrong.
+struct WrongCandidates {
+    std::vector<cdprep_box_pair> pairs;
+    int why;
+    const char* message;
+};
+
+// Slots 0, 1 and 3 have objects. What is refused changes nothing: the next step sees all objects.
+TEST_F(CSceneHostile, CandidatesAreChecked) {
+    const std::array<cdprep_object, 4> ids = {added(), added(0.5), added(1), added(1.5)};
+    ASSERT_EQ(cdprep_scene_remove(scene_, &ids[2], 1, nullptr), CDPREP_OK);
+    const std::vector<WrongCandidates> all = {
+        {{{0, 4}},
+         CDPREP_WHY_OUT_OF_RANGE,
+         "candidates[0] is slots 0 and 4; the first must be less than the second, and that less "
+         "than 4."},
+        {{{0, 1}, {1, UINT32_MAX}}, CDPREP_WHY_OUT_OF_RANGE, nullptr},
+        {{{1, 1}}, CDPREP_WHY_OUT_OF_RANGE, nullptr},
+        {{{0, 1}, {3, 1}}, CDPREP_WHY_OUT_OF_RANGE, nullptr},
+        {{{0, 1}, {0, 1}},
+         CDPREP_WHY_OUT_OF_RANGE,
+         "candidates[1] is slots 0 and 1 after 0 and 1; candidates must be sorted, and each occur "
+         "once."},
+        {{{0, 3}, {0, 1}}, CDPREP_WHY_OUT_OF_RANGE, nullptr},
+        {{{1, 3}, {0, 3}}, CDPREP_WHY_OUT_OF_RANGE, nullptr},
+        {{{0, 1}, {1, 2}}, CDPREP_WHY_STALE, "candidates[1] names slot 2, which has no object."},
+        {{{2, 3}}, CDPREP_WHY_STALE, "candidates[0] names slot 2, which has no object."}};
+    cdprep_step step;
+    cdprep_error error;
+    for (const WrongCandidates& wrong : all) {
+        step.complete = CDPREP_YES;
+        EXPECT_EQ(cdprep_scene_step_with(scene_, wrong.pairs.data(), wrong.pairs.size(),
+                                         workspace_.get(), &step, &error),
+                  CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error.why, wrong.why) << error.message;
+        const char* const message = wrong.message != nullptr ? wrong.message : error.message;
+        EXPECT_STREQ(error.message, message);
+        EXPECT_EQ(step.complete, std::uint32_t{CDPREP_NO});
+        std::size_t events = 9;
+        const cdprep_event* first = nullptr;
+        ASSERT_EQ(cdprep_scene_events(scene_, &first, &events, nullptr), CDPREP_OK);
+        EXPECT_EQ(events, 0u);
+    }
+    const cdprep_box_pair one = {0, 1};
+    EXPECT_EQ(cdprep_scene_step_with(scene_, &one, SIZE_MAX / 4, workspace_.get(), &step, &error),
+              CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "count");
+    // A pair that is missing is not asked, and one that is too far apart is ignored.
+    const std::vector<cdprep_box_pair> some = {{0, 1}, {0, 3}};
+    ASSERT_EQ(cdprep_scene_step_with(scene_, some.data(), 2, workspace_.get(), &step, &error),
+              CDPREP_OK);
+    EXPECT_EQ(step.complete, std::uint32_t{CDPREP_YES});
+    std::size_t hits = 0;
+    const cdprep_scene_hit* first = nullptr;
+    ASSERT_EQ(cdprep_scene_hits(scene_, &first, &hits, nullptr), CDPREP_OK);
+    EXPECT_EQ(hits, 1u);
+    ASSERT_EQ(cdprep_scene_step_with(scene_, nullptr, 0, workspace_.get(), &step, &error),
+              CDPREP_OK);
+    ASSERT_EQ(cdprep_scene_hits(scene_, &first, &hits, nullptr), CDPREP_OK);
+    EXPECT_EQ(hits, 0u);
+    EXPECT_EQ(this->step(), 0u);
+    ASSERT_EQ(cdprep_scene_hits(scene_, &first, &hits, nullptr), CDPREP_OK);
+    EXPECT_EQ(hits, 2u) << "the scene's own broad phase finds what was missing";
 }
 
 TEST_F(CSceneHostile, MemoryMustBeLargeEnoughAndAligned) {
@@ -622,8 +788,15 @@ struct Within {
         std::uint64_t hash = 0;
         cdprep_counts counts;
         const cdprep_scene_hit* hits = nullptr;
+        const cdprep_scene_overlap* overlaps = nullptr;
         const cdprep_scene_distance* distances = nullptr;
+        const cdprep_scene_contact* contacts = nullptr;
         const cdprep_event* events = nullptr;
+        const cdprep_world_box* boxes = nullptr;
+        note(cdprep_scene_step_with(scene, nullptr, 0, workspace, &step, &error));
+        note(cdprep_scene_boxes(scene, &boxes, &count, &error));
+        note(cdprep_scene_overlaps(scene, &overlaps, &count, &error));
+        note(cdprep_scene_contacts(scene, &contacts, &count, &error));
         note(cdprep_scene_step(scene, workspace, &step, &error));
         note(cdprep_scene_add(scene, nullptr, 0, nullptr, &error));
         note(cdprep_scene_remove(scene, nullptr, 0, &error));
@@ -659,7 +832,7 @@ TEST_F(CSceneHostile, ASceneInUseIsRefused) {
     ASSERT_EQ(cdprep_scene_add(scene, objects.data(), 4, ids.data(), nullptr), CDPREP_OK);
     cdprep_step step;
     ASSERT_EQ(cdprep_scene_step(scene, workspace, &step, nullptr), CDPREP_OK);
-    ASSERT_GE(within.why.size(), 10u);
+    ASSERT_GE(within.why.size(), 14u);
     for (const int why : within.why) EXPECT_EQ(why, CDPREP_WHY_BUSY);
     std::size_t count = 0;
     const cdprep_scene_hit* hits = nullptr;
@@ -678,7 +851,7 @@ struct Stepping {
     static int step(void* stepping, const cdprep_overlap* /*overlap*/) {
         auto* const self = static_cast<Stepping*>(stepping);
         cdprep_error error;
-        cdprep_step step = {7, 7, CDPREP_YES, {}};
+        cdprep_step step = {7, 7, 7, CDPREP_YES, {}};
         EXPECT_EQ(cdprep_scene_step(self->scene, self->workspace, &step, &error),
                   CDPREP_BAD_ARGUMENT);
         EXPECT_EQ(error.why, CDPREP_WHY_BUSY);

@@ -10,13 +10,15 @@
 #include "support/c_models.h"
 #include "support/counted_memory.h"
 #include "support/meshes.h"
+#include "support/more_sections.h"
 #include "support/tiny_baker.h"
 
 namespace cdprep::test {
 namespace {
 
 struct Fixture {
-    AlignedBytes file = bake_tiny(unit_cube().positions, unit_cube().triangles);
+    AlignedBytes file =
+        with_contacts(with_one_piece(bake_tiny(unit_cube().positions, unit_cube().triangles)));
     CModel cube{file};
     CWorkspace workspace;
     cdprep_plan* plan = nullptr;
@@ -24,8 +26,8 @@ struct Fixture {
     Fixture() {
         cdprep_layer_pair pair;
         cdprep_layer_pair_init(&pair, sizeof pair);
-        pair.effects =
-            CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP | CDPREP_ASK_WITHIN | CDPREP_ASK_DISTANCE;
+        pair.effects = CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP | CDPREP_ASK_WITHIN |
+                       CDPREP_ASK_DISTANCE | CDPREP_ASK_CONTACTS;
         pair.tolerance = 0.1;
         pair.max_distance = 0.5;
         pair.body = CDPREP_SOLID;
@@ -36,6 +38,7 @@ struct Fixture {
         options.max_objects = 20;
         options.max_pairs = 200;
         options.max_triangle_pairs = 20000;
+        options.max_contacts = 200;
         EXPECT_EQ(cdprep_plan_compile(&options, nullptr, nullptr, &plan, nullptr), CDPREP_OK);
     }
     Fixture(const Fixture&) = delete;
@@ -53,7 +56,8 @@ TEST(CSceneMemory, NoFunctionOfASceneAllocates) {
     AlignedBytes memory(size);
     std::mt19937 random(3);
     std::array<cdprep_object, 20> ids{};
-    std::size_t all = 0;
+    std::array<cdprep_box_pair, 190> candidates{};
+    std::size_t all = 0, all_contacts = 0;
     const std::size_t before = most = used;
     cdprep_scene* scene = nullptr;
     ASSERT_EQ(cdprep_scene_make(given.plan, memory.span().data(), size, &scene, nullptr),
@@ -74,18 +78,32 @@ TEST(CSceneMemory, NoFunctionOfASceneAllocates) {
             ASSERT_EQ(cdprep_scene_add(scene, &object, 1, &id, nullptr), CDPREP_OK);
         }
         cdprep_step step;
-        std::size_t count = 0;
+        std::size_t count = 0, contact_count = 0;
         const cdprep_event* events = nullptr;
+        const cdprep_scene_contact* contacts = nullptr;
         cdprep_counts counts;
-        ASSERT_EQ(cdprep_scene_step(scene, given.workspace.get(), &step, nullptr), CDPREP_OK);
+        if (frame % 2 == 0) {
+            ASSERT_EQ(cdprep_scene_step(scene, given.workspace.get(), &step, nullptr), CDPREP_OK);
+        } else {
+            std::size_t pairs = 0;
+            for (std::uint32_t a = 0; a < 20; ++a) {
+                for (std::uint32_t b = a + 1; b < 20; ++b) candidates[pairs++] = {a, b};
+            }
+            ASSERT_EQ(cdprep_scene_step_with(scene, candidates.data(), pairs, given.workspace.get(),
+                                             &step, nullptr),
+                      CDPREP_OK);
+        }
         ASSERT_EQ(step.complete, std::uint32_t{CDPREP_YES});
         ASSERT_EQ(cdprep_scene_events(scene, &events, &count, nullptr), CDPREP_OK);
+        ASSERT_EQ(cdprep_scene_contacts(scene, &contacts, &contact_count, nullptr), CDPREP_OK);
         ASSERT_EQ(cdprep_scene_counts(scene, &counts, nullptr), CDPREP_OK);
         all += count;
+        all_contacts += contact_count;
     }
     cdprep_scene_end(scene);
     EXPECT_EQ(most, before);
     EXPECT_GT(all, 100u);
+    EXPECT_GT(all_contacts, 100u);
 }
 
 // The memory that is said to be needed is used to its last part: a sanitizer sees one byte more.

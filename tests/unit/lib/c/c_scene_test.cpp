@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <random>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "cdprep/scene.h"
 #include "support/c_lanes.h"
 #include "support/c_models.h"
+#include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
@@ -22,6 +24,10 @@ namespace {
 
 AlignedBytes baked(const TestMesh& mesh) {
     return bake_tiny(mesh.positions, mesh.triangles);
+}
+
+AlignedBytes with_contacts_of(const AlignedBytes& file, bool is_convex) {
+    return with_contacts(is_convex ? with_one_piece(file) : with_pieces(file));
 }
 
 // By hand: cubes of side 1, and boxes.
@@ -37,8 +43,8 @@ TEST(CScene, AProgramInC99GetsTheResults) {
     EXPECT_EQ(wrong, nullptr) << wrong;
 }
 
-// Layers 0 and 1 collide and list triangles, 1 and 2 collide as solids, 2 and 2 have a tolerance
-// and a distance. The first
+// Layers 0 and 1 collide and list triangles, 1 and 2 collide as solids and list contacts, 2 and 2
+// have a tolerance and a distance, and the contacts of 0 and 0 are ended by their work. The first
 // pair is dropped, so numbers in C are one higher than in C++.
 const std::vector<LayerPair> kPairs = {
     {.a = 5, .b = 6},
@@ -47,10 +53,31 @@ const std::vector<LayerPair> kPairs = {
      .effects = Ask::collide | Ask::overlap,
      .overlap = Overlap::proper,
      .lists_stays = true},
-    {.a = 2, .b = 1, .effects = Ask::collide, .body = Body::solid},
-    {.a = 2, .b = 2, .effects = Ask::within | Ask::distance, .tolerance = 0.1, .max_distance = 1}};
+    {.a = 2,
+     .b = 1,
+     .effects = Ask::collide | Ask::contacts,
+     .body = Body::solid,
+     .contacts = {.tolerance = 0.05, .manifold = Manifold::four, .most = 5}},
+    {.a = 2, .b = 2, .effects = Ask::within | Ask::distance, .tolerance = 0.1, .max_distance = 1},
+    {.a = 0,
+     .b = 0,
+     .effects = Ask::contacts,
+     .contacts = {.most = 3, .work = 40, .cluster_angle = 0.2}},
+    {.a = 3, .b = 0, .effects = Ask::contacts}};
 
 constexpr std::uint32_t kMostTrianglePairs = 500;  // sometimes too few
+constexpr std::uint32_t kMostContacts = 60;        // likewise
+
+cdprep_contact_options in_c(const ContactOptions& contacts) {
+    cdprep_contact_options to;
+    cdprep_contact_options_init(&to, sizeof to);
+    to.tolerance = contacts.tolerance;
+    to.manifold = contacts.manifold == Manifold::four ? 4 : 0;
+    to.most = contacts.most;
+    to.work = contacts.work;
+    to.cluster_angle = contacts.cluster_angle;
+    return to;
+}
 
 cdprep_layer_pair in_c(const LayerPair& pair) {
     cdprep_layer_pair to;
@@ -65,6 +92,22 @@ cdprep_layer_pair in_c(const LayerPair& pair) {
     to.lists_stays = pair.lists_stays ? CDPREP_YES : CDPREP_NO;
     return to;
 }
+
+/// Pairs of layers in C, and the options of contacts to which they point.
+struct CPairs {
+    std::vector<cdprep_contact_options> contacts;
+    std::vector<cdprep_layer_pair> pairs;
+
+    explicit CPairs(const std::vector<LayerPair>& given) {
+        for (const LayerPair& pair : given) contacts.push_back(in_c(pair.contacts));
+        for (std::size_t i = 0; i < given.size(); ++i) {
+            pairs.push_back(in_c(given[i]));
+            // The last pair has the defaults.
+            const bool has_own = contains(given[i].effects, Ask::contacts) && i + 1 < given.size();
+            if (has_own) pairs.back().contacts = &contacts[i];
+        }
+    }
+};
 
 cdprep_pose in_c(const Pose& pose) {
     cdprep_pose to{};
@@ -85,28 +128,30 @@ public:
     Twins(std::uint32_t seed, std::uint32_t lanes, std::uint32_t plan_lanes,
           std::uint32_t max_pairs)
         : random_(seed),
-          files_{baked(icosphere(2)), baked(torus(0.7, 0.2, 12, 8)),
-                 baked(moved_by(unit_cube(), 0.5, {0, 0, 0}))},
+          files_{with_contacts_of(baked(icosphere(2)), true),
+                 with_contacts_of(baked(torus(0.7, 0.2, 12, 8)), false),
+                 with_contacts_of(baked(moved_by(unit_cube(), 0.5, {0, 0, 0})), true)},
           lanes_(lanes),
           plan_(*Plan::compile({.pairs = kPairs,
                                 .limits = {.objects = 24,
                                            .pairs = max_pairs,
-                                           .triangle_pairs = kMostTrianglePairs}})
+                                           .triangle_pairs = kMostTrianglePairs,
+                                           .contacts = kMostContacts}})
                      .plan),
           scene_(plan_) {
         for (const AlignedBytes& file : files_) {
             c_models_.push_back(std::make_unique<CModel>(file));
             models_.push_back(Model::open(file.span()).value());
         }
-        std::vector<cdprep_layer_pair> pairs;
-        for (const LayerPair& pair : kPairs) pairs.push_back(in_c(pair));
+        const CPairs given(kPairs);
         cdprep_plan_options options;
         cdprep_plan_options_init(&options, sizeof options);
-        options.layer_pairs = pairs.data();
-        options.layer_pair_count = static_cast<std::uint32_t>(pairs.size());
+        options.layer_pairs = given.pairs.data();
+        options.layer_pair_count = static_cast<std::uint32_t>(given.pairs.size());
         options.max_objects = 24;
         options.max_pairs = max_pairs;
         options.max_triangle_pairs = kMostTrianglePairs;
+        options.max_contacts = kMostContacts;
         options.lanes = plan_lanes;
         cdprep_plan* plan = nullptr;
         EXPECT_EQ(cdprep_plan_compile(&options, nullptr, nullptr, &plan, nullptr), CDPREP_OK);
@@ -157,23 +202,34 @@ public:
     }
     /// Pauses or resumes some effects.
     void pause() {
-        const std::uint32_t effects = any(16) & static_cast<std::uint32_t>(plan_.effects());
+        const std::uint32_t effects = any(32) & static_cast<std::uint32_t>(plan_.effects());
         EXPECT_EQ(cdprep_scene_set_paused(c_scene_, effects, nullptr), CDPREP_OK);
         scene_.set_paused(static_cast<Ask>(effects));
     }
-    /// Steps both, and expects equal results.
+    /// Steps both, and expects equal results. In C, some steps get their candidates here.
     void step() {
         cdprep_step step;
-        ASSERT_EQ(cdprep_scene_step(c_scene_, lanes_.get(), &step, nullptr), CDPREP_OK);
+        if (any(3) == 0) {
+            const std::vector<cdprep_box_pair> pairs = candidates();
+            ASSERT_EQ(cdprep_scene_step_with(c_scene_, pairs.data(), pairs.size(), lanes_.get(),
+                                             &step, nullptr),
+                      CDPREP_OK);
+            ++of_caller;
+        } else {
+            ASSERT_EQ(cdprep_scene_step(c_scene_, lanes_.get(), &step, nullptr), CDPREP_OK);
+        }
         const SceneStep expected = scene_.step(workspaces_);
         EXPECT_EQ(step.complete == CDPREP_YES, expected.complete);
         EXPECT_EQ(step.needed_pairs, expected.needed_pairs);
         EXPECT_EQ(step.needed_triangle_pairs, expected.needed_triangle_pairs);
+        EXPECT_EQ(step.needed_contacts, expected.needed_contacts);
         without_room += expected.needed_triangle_pairs > 0 ? 1 : 0;
+        without_contact_room += expected.needed_contacts > 0 ? 1 : 0;
         incomplete += expected.complete ? 0 : 1;
         expect_equal_hits();
         expect_equal_overlaps();
         expect_equal_distances();
+        expect_equal_contacts();
         expect_equal_events();
         expect_equal_numbers();
     }
@@ -185,10 +241,32 @@ public:
     }
 
     /// Of all steps.
-    std::size_t hits = 0, overlaps = 0, distances = 0, events = 0, stays = 0;
-    std::size_t incomplete = 0, without_room = 0;
+    std::size_t hits = 0, overlaps = 0, distances = 0, contacts = 0, points = 0, events = 0;
+    std::size_t stays = 0, incomplete = 0, without_room = 0, without_contact_room = 0;
+    std::size_t of_caller = 0, unsearched = 0;
 
 private:
+    /// Pairs of slots whose boxes meet, by brute force, and some that do not.
+    std::vector<cdprep_box_pair> candidates() {
+        const cdprep_world_box* boxes = nullptr;
+        std::size_t count = 0;
+        EXPECT_EQ(cdprep_scene_boxes(c_scene_, &boxes, &count, nullptr), CDPREP_OK);
+        EXPECT_EQ(count, 24u);
+        std::set<std::uint32_t> slots;
+        for (const cdprep_object& id : ids_) slots.insert(id.slot);
+        std::vector<cdprep_box_pair> pairs;
+        for (const std::uint32_t a : slots) {
+            for (const std::uint32_t b : slots) {
+                bool meets = true;
+                for (int axis = 0; axis < 3; ++axis) {
+                    meets = meets && boxes[a].lower[axis] <= boxes[b].upper[axis] &&
+                            boxes[b].lower[axis] <= boxes[a].upper[axis];
+                }
+                if (a < b && (meets || any(8) == 0)) pairs.push_back({a, b});
+            }
+        }
+        return pairs;
+    }
     void expect_equal_hits() {
         const cdprep_scene_hit* found = nullptr;
         std::size_t count = 0;
@@ -242,6 +320,62 @@ private:
             EXPECT_EQ(found[i].nearest.on_b[2], distance.distance.witness_b.z);
         }
     }
+    void expect_equal_contacts() {
+        const cdprep_scene_contact* found = nullptr;
+        std::size_t count = 0;
+        ASSERT_EQ(cdprep_scene_contacts(c_scene_, &found, &count, nullptr), CDPREP_OK);
+        ASSERT_EQ(count, scene_.contacts().size());
+        contacts += count;
+        for (std::size_t i = 0; i < count; ++i) {
+            const SceneContacts& expected = scene_.contacts()[i];
+            EXPECT_EQ(in_cpp(found[i].a), expected.a);
+            EXPECT_EQ(in_cpp(found[i].b), expected.b);
+            EXPECT_EQ(found[i].layer_pair, expected.pair + 1);
+            EXPECT_EQ(found[i].complete == CDPREP_YES, expected.verdict.complete);
+            EXPECT_EQ(found[i].searched == CDPREP_YES, expected.verdict.searched);
+            EXPECT_EQ(found[i].found, expected.verdict.found);
+            EXPECT_EQ(found[i].computed, expected.verdict.computed);
+            EXPECT_EQ(found[i].work, expected.verdict.work);
+            unsearched += expected.verdict.searched ? 0 : 1;
+            ASSERT_EQ(found[i].count, expected.contacts.size());
+            for (std::size_t k = 0; k < found[i].count; ++k) {
+                expect_equal(found[i].items[k], expected.contacts[k]);
+                points += found[i].items[k].point_count;
+            }
+        }
+    }
+    static void expect_equal(const double* point, const Double3& expected) {
+        EXPECT_EQ(point[0], expected.x);
+        EXPECT_EQ(point[1], expected.y);
+        EXPECT_EQ(point[2], expected.z);
+    }
+    static void expect_equal(const cdprep_feature& feature, const ContactFeature& expected) {
+        EXPECT_EQ(feature.kind, static_cast<std::uint32_t>(expected.kind));
+        EXPECT_EQ(feature.edge, expected.edge);
+        EXPECT_EQ(feature.triangle, expected.triangle);
+        EXPECT_EQ(feature.vertex[0], expected.vertex);
+    }
+    static void expect_equal(const cdprep_contact& found, const Contact& expected) {
+        EXPECT_EQ(found.piece_a, expected.piece_a);
+        EXPECT_EQ(found.piece_b, expected.piece_b);
+        EXPECT_EQ(found.id, expected.id);
+        EXPECT_EQ(found.flags, expected.flags);
+        EXPECT_EQ(found.members, expected.members);
+        EXPECT_EQ(found.lower, expected.lower);
+        EXPECT_EQ(found.upper, expected.upper);
+        expect_equal(found.feature_a, expected.feature_a);
+        expect_equal(found.feature_b, expected.feature_b);
+        expect_equal(found.on_a, expected.point_a);
+        expect_equal(found.on_b, expected.point_b);
+        expect_equal(found.normal, expected.normal);
+        ASSERT_EQ(found.point_count, expected.point_count);
+        for (std::uint32_t i = 0; i < found.point_count; ++i) {
+            EXPECT_EQ(found.points[i].id, expected.points[i].id);
+            EXPECT_EQ(found.points[i].distance, expected.points[i].distance);
+            expect_equal(found.points[i].on_a, expected.points[i].on_a);
+            expect_equal(found.points[i].on_b, expected.points[i].on_b);
+        }
+    }
     void expect_equal_events() {
         const cdprep_event* found = nullptr;
         std::size_t count = 0;
@@ -267,7 +401,7 @@ private:
         cdprep_counts counts;
         ASSERT_EQ(cdprep_scene_counts(c_scene_, &counts, nullptr), CDPREP_OK);
         const SceneCounts& all = scene_.counts();
-        const std::array<std::uint64_t, 11> expected = {scene_.object_count(),
+        const std::array<std::uint64_t, 13> expected = {scene_.object_count(),
                                                         all.moved,
                                                         all.candidates,
                                                         all.kept,
@@ -277,6 +411,8 @@ private:
                                                         all.calls_of(Ask::distance),
                                                         all.calls_of(Ask::overlap),
                                                         all.triangle_pairs,
+                                                        all.calls_of(Ask::contacts),
+                                                        all.contacts,
                                                         0};
         for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(counts.n[i], expected[i]) << i;
     }
@@ -301,7 +437,8 @@ struct Setting {
 
 // The law of this layer: the results of C are those of C++, step by step, on any lanes.
 TEST(CScene, TheResultsAreThoseOfCpp) {
-    std::size_t incomplete = 0, without_room = 0, steps = 0;
+    std::size_t incomplete = 0, without_room = 0, without_contact_room = 0, steps = 0;
+    std::size_t unsearched = 0;
     for (const Setting& setting :
          std::vector<Setting>{{1, 1, 200}, {3, 3, 200}, {2, 7, 200}, {5, 2, 200}, {2, 2, 40}}) {
         Twins twins(20261126 + setting.lanes, setting.lanes, setting.plan_lanes, setting.max_pairs);
@@ -315,6 +452,11 @@ TEST(CScene, TheResultsAreThoseOfCpp) {
         }
         incomplete += twins.incomplete;
         without_room += twins.without_room;
+        without_contact_room += twins.without_contact_room;
+        unsearched += twins.unsearched;
+        EXPECT_GT(twins.contacts, 50u);
+        EXPECT_GT(twins.points, 50u);
+        EXPECT_GT(twins.of_caller, 20u);
         EXPECT_GT(twins.overlaps, 50u);
         EXPECT_GT(twins.stays, 50u);
         EXPECT_GT(twins.hits, 300u);
@@ -325,6 +467,8 @@ TEST(CScene, TheResultsAreThoseOfCpp) {
     }
     EXPECT_GT(incomplete, steps / 50);
     EXPECT_GT(without_room, 0u);
+    EXPECT_GT(without_contact_room, 0u);
+    EXPECT_GT(unsearched, 0u);
     EXPECT_LT(incomplete, steps / 5);
 }
 

@@ -139,6 +139,40 @@ TEST(Plan, NamesEveryRefusal) {
                          "Pair 5 of layers: contacts.most is 257; it must be 1 to 256."}));
 }
 
+// By hand: the third layer has no name.
+TEST(Plan, NamesLayers) {
+    const std::vector<std::string_view> names = {"floor", "crates"};
+    const std::vector<LayerPair> pairs = {
+        {.a = 0, .b = 1, .effects = Ask::collide},
+        {.a = 1, .b = 2, .effects = Ask::within, .tolerance = 0.5}};
+    const auto made = Plan::compile({.pairs = pairs, .limits = kLimits, .layer_names = names});
+    ASSERT_TRUE(made.plan);
+    EXPECT_EQ(made.plan->describe(),
+              "layers 'floor' and 'crates': collide\n"
+              "layers 'crates' and 2: within 0.5\n"
+              "not computed, for no pair of layers asks: overlap, distance, contacts\n"
+              "layers that are never looked at together: 'floor' and 'floor', 'floor' and 2, "
+              "'crates' and 'crates', 2 and 2\n");
+    const std::vector<LayerPair> wrong = {{.a = 0, .b = 1, .effects = Ask::collide},
+                                          {.a = 1, .b = 0, .effects = Ask::within},
+                                          {.a = 2, .b = 2, .effects = Ask::ray}};
+    const std::vector<ModelUse> models = {
+        {.name = "arm.cdp.h5", .serves = Ask::collide, .layers = 6},
+        {.name = "cup.cdp.h5", .serves = Ask::within, .layers = 3}};
+    EXPECT_EQ(
+        Plan::compile({.pairs = wrong, .models = models, .limits = kLimits, .layer_names = names})
+            .refusals,
+        Sentences({"Pair 1 of layers, 'crates' and 'floor': layers 'crates' and 'floor' are "
+                   "also those of pair 0.",
+                   "Pair 2 of layers, 2 and 2: " + unbuilt_effect("ray"),
+                   "arm.cdp.h5: its layer 'crates' asks for within, which the model does not "
+                   "serve. Bake it with --effects within.",
+                   "arm.cdp.h5: its layer 2 asks for ray, which the model does not serve. "
+                   "Bake it with --effects ray.",
+                   "cup.cdp.h5: its layers 'floor' and 'crates' ask for collide, which the "
+                   "model does not serve. Bake it with --effects collide."}));
+}
+
 TEST(Plan, SaysHowToBakeWhatAModelLacks) {
     const std::vector<LayerPair> pairs = {
         {.a = 0, .b = 1, .effects = Ask::distance, .max_distance = 1}};

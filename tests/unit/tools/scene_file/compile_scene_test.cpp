@@ -55,7 +55,7 @@ TEST(CompileScene, ListsAllRefusals) {
     const std::string words = " is not built in a scene. Built are ";
     const std::string built =
         compiled.refusals[0].substr(compiled.refusals[0].find(words) + words.size());
-    const std::string place = "s.json: Pair 0 of layers: ";
+    const std::string place = "s.json: Pair 0 of layers, 'a' and 'b': ";
     EXPECT_EQ(compiled.refusals[0], place + "response" + words + built);
     EXPECT_EQ(compiled.refusals[1], place + "tear" + words + built);
     EXPECT_EQ(compiled.refusals[2], place + "haptic" + words + built);
@@ -68,8 +68,8 @@ TEST(CompileScene, RefusesModelsThatDoNotServe) {
     const Plan::Compiled compiled = compile_scene(scene, kLimits, uses);
     ASSERT_EQ(compiled.refusals.size(), 1u);
     EXPECT_EQ(compiled.refusals[0],
-              "s.json: m.cdp.h5: its layers ask for within, which the model does not serve. Bake "
-              "it with --effects within.");
+              "s.json: m.cdp.h5: its layers 'a' and 'b' ask for within, which the model does not "
+              "serve. Bake it with --effects within.");
 }
 
 // A scene file may ask for every effect that scenes compute.

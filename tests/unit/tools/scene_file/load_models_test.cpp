@@ -31,10 +31,17 @@ SceneFile scene_of(const std::filesystem::path& model, Ask effects) {
     return scene;
 }
 
-Result<std::vector<SceneModel>> load(const SceneFile& scene, const LoadOptions& options = {}) {
+LoadedModels load_all(const SceneFile& scene, const LoadOptions& options = {}) {
     const cli::Threads threads(1);
     const auto compiled = compile_scene(scene, {.objects = 3, .pairs = 3});
     return load_models(scene, *compiled.plan, options, threads);
+}
+
+/// The models, or the first error.
+Result<std::vector<SceneModel>> load(const SceneFile& scene, const LoadOptions& options = {}) {
+    LoadedModels all = load_all(scene, options);
+    if (!all.errors.empty()) return all.errors.front();
+    return std::move(all.models);
 }
 
 TEST(LoadModels, BakesAMeshForExactlyThePlan) {
@@ -148,6 +155,22 @@ TEST(LoadModels, NamesAMeshThatCannotBeRead) {
     ASSERT_FALSE(models);
     EXPECT_EQ(models.error().code, ErrorCode::unreadable);
     EXPECT_NE(models.error().message.find("m.off"), std::string::npos);
+}
+
+// The third model is one that nobody asks for, and the last one can be read.
+TEST(LoadModels, NamesEveryModelThatCannotBeRead) {
+    const test::ScratchFolder folder;
+    SceneFile scene =
+        scene_of(folder.write("m.off", std::string_view("OFF 1 1 0\n")), Ask::collide);
+    scene.models.push_back(folder.write("n.off", std::string_view("OFF 2\n")));
+    scene.models.push_back(folder.write("good.off", std::string_view(kTetrahedron)));
+    scene.objects.push_back({.name = "v", .model = 2, .layer = 0});
+    scene.objects.push_back({.name = "w", .model = 3, .layer = 0});
+    const LoadedModels all = load_all(scene);
+    ASSERT_EQ(all.errors.size(), 2u);
+    EXPECT_NE(all.errors[0].message.find("m.off"), std::string::npos);
+    EXPECT_NE(all.errors[1].message.find("n.off"), std::string::npos);
+    EXPECT_EQ(all.models.size(), 2u);
 }
 
 }  // namespace

@@ -165,16 +165,19 @@ TEST(ReadAssembly, ModelsAreBakedOnce) {
     options.cache = folder.scratch().path() / "cache";
     const auto cached = load_models(read.scene, *compiled.plan, options, threads);
     const auto again = load_models(read.scene, *compiled.plan, options, threads);
-    ASSERT_TRUE(in_memory && cached && again) << cached.error().message;
-    ASSERT_EQ(cached->size(), 2u);
-    for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_EQ((*cached)[i].needs.objects, i == 0 ? 2u : 1u);
-        EXPECT_EQ((*cached)[i].origin, ModelOrigin::cached);
-        const std::uint64_t hash = (*in_memory)[i].model->header().content_hash;
-        EXPECT_EQ((*cached)[i].model->header().content_hash, hash);
-        EXPECT_EQ((*again)[i].model->header().content_hash, hash);
+    for (const LoadedModels* loaded : {&in_memory, &cached, &again}) {
+        ASSERT_TRUE(loaded->errors.empty()) << loaded->errors[0].message;
+        ASSERT_EQ(loaded->models.size(), 2u);
     }
-    EXPECT_NE((*cached)[0].model->header().content_hash, (*cached)[1].model->header().content_hash);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(cached.models[i].needs.objects, i == 0 ? 2u : 1u);
+        EXPECT_EQ(cached.models[i].origin, ModelOrigin::cached);
+        const std::uint64_t hash = in_memory.models[i].model->header().content_hash;
+        EXPECT_EQ(cached.models[i].model->header().content_hash, hash);
+        EXPECT_EQ(again.models[i].model->header().content_hash, hash);
+    }
+    EXPECT_NE(cached.models[0].model->header().content_hash,
+              cached.models[1].model->header().content_hash);
     std::size_t files = 0;
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(options.cache)) {
         ++files;
