@@ -15,11 +15,6 @@
 namespace cdprep::test {
 namespace {
 
-Placement shifted(const Double3& by) {
-    return Placement::b_moves(
-        Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, by.x, by.y, by.z}).value());
-}
-
 struct List {
     std::vector<Contact> contacts;
     ContactsVerdict verdict;
