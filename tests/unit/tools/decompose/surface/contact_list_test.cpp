@@ -10,6 +10,7 @@
 #include "cdprep/pairs.h"
 #include "support/brute_force.h"
 #include "support/concave_solids.h"
+#include "support/placements.h"
 #include "unit/tools/with_pieces.h"
 
 namespace cdprep::test {

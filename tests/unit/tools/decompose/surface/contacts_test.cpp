@@ -13,6 +13,7 @@
 #include "exact/vectors.h"
 #include "support/brute_force.h"
 #include "support/concave_solids.h"
+#include "support/placements.h"
 #include "support/random_pose.h"
 #include "unit/tools/with_pieces.h"
 
@@ -473,7 +474,9 @@ TEST(Contacts, ALargePieceLeavesAlongItsBestFace) {
         ASSERT_EQ(listed.found, all.size());
         double deepest = 1;
         for (const Contact& contact : all) deepest = std::min(deepest, contact.upper);
-        if (!all.empty()) EXPECT_EQ(first[0].upper, deepest);
+        if (!all.empty()) {
+            EXPECT_EQ(first[0].upper, deepest);
+        }
     }
     EXPECT_GT(seen, 30U);
 }
