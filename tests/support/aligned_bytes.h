@@ -6,6 +6,8 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "cdprep/format/file_header.h"
 
@@ -44,5 +46,15 @@ private:
     std::unique_ptr<std::byte[], Free> data_;
     std::size_t size_ = 0;
 };
+
+inline std::span<const std::byte> bytes_of(const std::string& text) {
+    return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
 
 }  // namespace cdprep::test

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cmath>
-#include <cstring>
 #include <vector>
 
+#include "support/aligned_bytes.h"
 #include "support/exact_rational.h"
 #include "support/meshes.h"
 
@@ -51,12 +51,6 @@ inline bool boxes_hold_all(const TestMesh& mesh, const build::Bvh& bvh) {
         }
     }
     return true;
-}
-
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 inline bool same_bytes(const build::Bvh& a, const build::Bvh& b) {

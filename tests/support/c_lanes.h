@@ -25,6 +25,13 @@ struct CThreads {
     }
 };
 
+/// Runs some tasks twice, some never, and one number past the last.
+inline void run_badly(void* /*context*/, std::size_t count, cdprep_task task, const void* work) {
+    for (std::size_t i = 0; i < count; i += 2) task(work, i);
+    for (std::size_t i = 0; i < count; i += 2) task(work, i);
+    task(work, count + 1000);
+}
+
 /// A workspace of several lanes.
 class CLanes {
 public:

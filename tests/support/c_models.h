@@ -41,6 +41,25 @@ private:
     cdprep_model* model_ = nullptr;
 };
 
+/// Blocks that a caller gives and takes back. The library gets none while `is_empty` is true.
+struct Blocks {
+    std::size_t given = 0;
+    std::size_t taken = 0;
+    bool is_empty = false;
+
+    static void* give(void* blocks, std::size_t size, std::size_t alignment) {
+        auto* const self = static_cast<Blocks*>(blocks);
+        if (self->is_empty) return nullptr;
+        ++self->given;
+        return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    }
+    static void take(void* blocks, void* memory, std::size_t /*size*/) {
+        ++static_cast<Blocks*>(blocks)->taken;
+        std::free(memory);
+    }
+    cdprep_allocator allocator = {give, take, this};
+};
+
 /// Returns options for building this mesh. They point to the mesh's arrays.
 inline cdprep_build_options build_options_of(const TestMesh& mesh) {
     cdprep_build_options options;

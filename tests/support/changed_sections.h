@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstring>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
 #include "support/aligned_bytes.h"
 #include "support/reseal.h"
@@ -13,6 +15,11 @@
 namespace cdprep::test {
 
 // Files with one changed section that are otherwise sound.
+
+[[nodiscard]] inline std::optional<format::Damage> damage_of(
+    const AlignedBytes& file, format::SectionSet wanted = format::SectionSet::all()) {
+    return format::find_damage(file.span(), wanted);
+}
 
 [[nodiscard]] inline format::SectionEntry entry_of(const AlignedBytes& file, format::SectionId id) {
     return format::find_section(file.span(), id).value();
@@ -27,14 +34,20 @@ template <class T>
     return value;
 }
 
-/// Returns the file with other bytes at a place of a section, and with correct checksums.
+/// Returns the file with other bytes at a place, and with correct checksums.
+template <class T>
+[[nodiscard]] AlignedBytes with(const AlignedBytes& file, std::uint64_t at, const T& value) {
+    AlignedBytes changed(file.span());
+    std::memcpy(changed.span().data() + at, &value, sizeof value);
+    reseal(changed.span());
+    return changed;
+}
+
+/// The same at a place of a section.
 template <class T>
 [[nodiscard]] AlignedBytes with(const AlignedBytes& file, format::SectionId id, std::uint64_t at,
                                 const T& value) {
-    AlignedBytes changed(file.span());
-    std::memcpy(changed.span().data() + entry_of(file, id).offset + at, &value, sizeof value);
-    reseal(changed.span());
-    return changed;
+    return with(file, entry_of(file, id).offset + at, value);
 }
 
 /// Returns the file with two elements of a section exchanged, and with correct checksums.

@@ -69,4 +69,8 @@ private:
     ExactNumber denominator_;  ///< > 0
 };
 
+inline ExactRational exact_square(double x) {
+    return {ExactNumber(x) * ExactNumber(x), 1.0};
+}
+
 }  // namespace cdprep::test

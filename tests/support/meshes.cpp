@@ -78,6 +78,10 @@ TestMesh unit_cube() {
     return mesh;
 }
 
+TestMesh right_triangle() {
+    return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}}};
+}
+
 TestMesh grid_sheet(int n, int m) {
     TestMesh mesh;
     for (int x = 0; x <= n; ++x) {

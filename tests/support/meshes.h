@@ -19,6 +19,8 @@ struct TestMesh {
 
 /// Returns the cube [0, 1]^3, closed, with outward normals: 8 vertices, 12 triangles.
 [[nodiscard]] TestMesh unit_cube();
+/// Returns one triangle with the corners (0, 0, 0), (4, 0, 0) and (0, 4, 0).
+[[nodiscard]] TestMesh right_triangle();
 /// Returns an n x m sheet of unit squares in the plane z = 0, two triangles each.
 [[nodiscard]] TestMesh grid_sheet(int n, int m);
 /// Returns the icosahedron with every triangle split into four `level` times, on the

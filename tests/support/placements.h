@@ -5,6 +5,12 @@
 
 namespace cdprep::test {
 
+/// B moves by this vector.
+inline Placement shifted(const Double3& by) {
+    return Placement::b_moves(
+        Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, by.x, by.y, by.z}).value());
+}
+
 /// Returns one of the four kinds of placement, by `kind` modulo 4. Kinds with one pose use `pose`.
 inline Placement placement_of_kind(unsigned kind, const Pose& pose, const Pose& other) {
     switch (kind % 4) {

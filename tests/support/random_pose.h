@@ -7,6 +7,13 @@
 
 namespace cdprep::test {
 
+/// Returns a uniformly distributed point in [-reach, reach]^3.
+inline Double3 fine_point(std::mt19937& random, double reach) {
+    std::uniform_real_distribution<double> place(-reach, reach);
+    const double x = place(random), y = place(random), z = place(random);
+    return {x, y, z};
+}
+
 /// Returns a uniformly distributed rotation with a translation in [-reach, reach]^3.
 inline Pose random_pose(std::mt19937& random, double reach) {
     std::normal_distribution<double> normal;

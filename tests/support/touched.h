@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -13,6 +14,8 @@
 namespace cdprep::test {
 
 using Numbers = std::vector<std::uint32_t>;
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Returns all triangles of the mesh that the shape touches.
 template <class Shape>

@@ -7,6 +7,7 @@
 
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
+#include "support/changed_sections.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
@@ -16,6 +17,8 @@ namespace cdprep::format {
 namespace {
 
 using test::AlignedBytes;
+using test::entry_of;
+using test::with;
 
 constexpr std::array<SectionId, 3> kSections = {SectionId::adaptive_octree,
                                                 SectionId::adaptive_octree_nodes,
@@ -30,22 +33,9 @@ AlignedBytes soup_file() {
     return file_of(test::random_soup(11, 60, 0.5), {.level = 2, .threshold = 4});
 }
 
-SectionEntry entry_of(const AlignedBytes& file, SectionId id) {
-    return find_section(file.span(), id).value();
-}
-
 DamageKind kind_of(const AlignedBytes& file, SectionSet wanted = SectionSet::all()) {
-    const auto damage = find_damage(file.span(), wanted);
+    const auto damage = test::damage_of(file, wanted);
     return damage ? damage->kind : DamageKind{0};
-}
-
-/// Overwrites some bytes and seals the file again, so that only the content can be wrong.
-template <class T>
-AlignedBytes with(const AlignedBytes& file, std::uint64_t at, const T& value) {
-    AlignedBytes changed(file.span());
-    std::memcpy(changed.span().data() + at, &value, sizeof value);
-    test::reseal(changed.span());
-    return changed;
 }
 
 template <class T>

@@ -9,6 +9,7 @@
 
 #include "cdprep/format/sections.h"
 #include "cdprep/format/verdict.h"
+#include "support/changed_sections.h"
 #include "support/open_tiny.h"
 #include "support/reseal.h"
 
@@ -16,6 +17,8 @@ namespace cdprep::format {
 namespace {
 
 using test::AlignedBytes;
+using test::damage_of;
+using test::with;
 
 AlignedBytes baked_cube() {
     const test::TestMesh cube = test::unit_cube();
@@ -24,20 +27,6 @@ AlignedBytes baked_cube() {
 
 AlignedBytes copy_of(const AlignedBytes& file) {
     return AlignedBytes(file.span());
-}
-
-std::optional<Damage> check(const AlignedBytes& file, SectionSet wanted = SectionSet::all()) {
-    return find_damage(file.span(), wanted);
-}
-
-/// Overwrites some bytes and seals the file again, so that only the content can
-/// be wrong.
-template <class T>
-AlignedBytes with(const AlignedBytes& file, std::uint64_t at, const T& value) {
-    AlignedBytes changed = copy_of(file);
-    std::memcpy(changed.span().data() + at, &value, sizeof value);
-    test::reseal(changed.span());
-    return changed;
 }
 
 std::uint64_t start_of(const AlignedBytes& file, SectionId id) {
@@ -49,9 +38,9 @@ DamageKind kind_of(const std::optional<Damage>& damage) {
 }
 
 TEST(FindDamage, AcceptsWhatTheBakerMakes) {
-    EXPECT_FALSE(check(baked_cube()));
+    EXPECT_FALSE(damage_of(baked_cube()));
     const test::TestMesh empty;
-    EXPECT_FALSE(check(test::bake_tiny(empty.positions, empty.triangles)));
+    EXPECT_FALSE(damage_of(test::bake_tiny(empty.positions, empty.triangles)));
     EXPECT_FALSE(find_deep_damage(baked_cube().span()));
 }
 
@@ -60,7 +49,7 @@ TEST(FindDamage, RejectsEveryTruncation) {
     for (std::size_t size = 0; size < file.size(); ++size) {
         // An allocation of exactly that size: a sanitizer sees one byte too many.
         const AlignedBytes cut(std::span(std::as_const(file).span()).first(size));
-        ASSERT_TRUE(check(cut)) << "accepted " << size << " bytes";
+        ASSERT_TRUE(damage_of(cut)) << "accepted " << size << " bytes";
     }
 }
 
@@ -88,7 +77,7 @@ TEST(FindDamage, RejectsEveryFlippedBitThatIsNotPadding) {
     for (std::size_t i = 0; i < file.size(); ++i) {
         for (unsigned bit = 0; bit < 8; ++bit) {
             file.span()[i] ^= std::byte(1U << bit);
-            ASSERT_EQ(check(file).has_value(), covered[i]) << "byte " << i << ", bit " << bit;
+            ASSERT_EQ(damage_of(file).has_value(), covered[i]) << "byte " << i << ", bit " << bit;
             file.span()[i] ^= std::byte(1U << bit);
         }
     }
@@ -96,17 +85,17 @@ TEST(FindDamage, RejectsEveryFlippedBitThatIsNotPadding) {
 
 TEST(FindDamage, NamesWhatIsForeign) {
     const AlignedBytes file = baked_cube();
-    EXPECT_EQ(kind_of(check(AlignedBytes())), DamageKind::too_short);
-    EXPECT_EQ(kind_of(check(with(file, 0, 'x'))), DamageKind::bad_magic);
-    EXPECT_EQ(kind_of(check(with(file, offsetof(FileHeader, version), kVersion + 1))),
+    EXPECT_EQ(kind_of(damage_of(AlignedBytes())), DamageKind::too_short);
+    EXPECT_EQ(kind_of(damage_of(with(file, 0, 'x'))), DamageKind::bad_magic);
+    EXPECT_EQ(kind_of(damage_of(with(file, offsetof(FileHeader, version), kVersion + 1))),
               DamageKind::bad_version);
-    EXPECT_EQ(kind_of(check(with(file, offsetof(FileHeader, endian_mark), 0x04030201U))),
+    EXPECT_EQ(kind_of(damage_of(with(file, offsetof(FileHeader, endian_mark), 0x04030201U))),
               DamageKind::bad_byte_order);
-    EXPECT_EQ(kind_of(check(with(file, offsetof(FileHeader, required_features), 1U))),
+    EXPECT_EQ(kind_of(damage_of(with(file, offsetof(FileHeader, required_features), 1U))),
               DamageKind::unknown_feature);
     AlignedBytes moved = copy_of(file);
     moved.span()[kUserBlockSize + 20] = std::byte{1};
-    EXPECT_EQ(kind_of(check(moved)), DamageKind::rewritten);
+    EXPECT_EQ(kind_of(damage_of(moved)), DamageKind::rewritten);
 }
 
 // Every 32-bit word of header and table at 0, 1, the maximum and off by one: an
@@ -122,7 +111,7 @@ TEST(FindDamage, SurvivesEveryHeaderFieldAtItsLimits) {
         for (const std::uint32_t value : {0U, 1U, 0x7fffffffU, 0xffffffffU, now - 1, now + 1}) {
             if (value == now) continue;
             ++tried;
-            refused += check(with(file, at, value)) ? 1 : 0;
+            refused += damage_of(with(file, at, value)) ? 1 : 0;
         }
     }
     EXPECT_GT(refused, tried / 2);
@@ -134,11 +123,11 @@ TEST(FindDamage, CountsCannotWrapAround) {
     const std::uint64_t offset_at = kSectionTableOffset + offsetof(SectionEntry, offset);
     for (const std::uint64_t count :
          {~std::uint64_t{0}, std::uint64_t{1} << 62, (~std::uint64_t{0}) / sizeof(Float3) + 2}) {
-        EXPECT_EQ(kind_of(check(with(file, count_at, count))), DamageKind::bad_section);
+        EXPECT_EQ(kind_of(damage_of(with(file, count_at, count))), DamageKind::bad_section);
     }
     for (const std::uint64_t offset :
          {~std::uint64_t{63}, std::uint64_t{64}, std::uint64_t{4097}}) {
-        EXPECT_EQ(kind_of(check(with(file, offset_at, offset))), DamageKind::bad_section);
+        EXPECT_EQ(kind_of(damage_of(with(file, offset_at, offset))), DamageKind::bad_section);
     }
 }
 
@@ -146,14 +135,14 @@ TEST(FindDamage, SectionsMayNotShareBytes) {
     const AlignedBytes file = baked_cube();
     const std::uint64_t second = kSectionTableOffset + sizeof(SectionEntry);
     const std::uint64_t first_offset = start_of(file, SectionId::positions_f32);
-    EXPECT_EQ(kind_of(check(with(file, second + offsetof(SectionEntry, offset), first_offset))),
+    EXPECT_EQ(kind_of(damage_of(with(file, second + offsetof(SectionEntry, offset), first_offset))),
               DamageKind::bad_section);
 }
 
 TEST(FindDamage, IndicesMustLieInRange) {
     const AlignedBytes file = baked_cube();
     const auto bad = [&](SectionId id) {
-        return kind_of(check(with(file, start_of(file, id), 99U)));
+        return kind_of(damage_of(with(file, start_of(file, id), 99U)));
     };
     EXPECT_EQ(bad(SectionId::triangles), DamageKind::bad_index);
     EXPECT_EQ(bad(SectionId::source_triangle), DamageKind::bad_index);
@@ -164,9 +153,9 @@ TEST(FindDamage, NumbersMustBeFinite) {
     const AlignedBytes file = baked_cube();
     for (const float value :
          {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-        EXPECT_EQ(kind_of(check(with(file, start_of(file, SectionId::positions_f32), value))),
+        EXPECT_EQ(kind_of(damage_of(with(file, start_of(file, SectionId::positions_f32), value))),
                   DamageKind::bad_number);
-        EXPECT_EQ(kind_of(check(with(file, start_of(file, SectionId::bvh_nodes), value))),
+        EXPECT_EQ(kind_of(damage_of(with(file, start_of(file, SectionId::bvh_nodes), value))),
                   DamageKind::bad_number);
     }
 }
@@ -181,7 +170,7 @@ TEST(FindDamage, CountsMustMatchTheHeader) {
         std::memcpy(&count, file.span().data() + at, sizeof count);
         if (count < 2) continue;
         ++asked;
-        const DamageKind kind = kind_of(check(with(file, at, count - 1)));
+        const DamageKind kind = kind_of(damage_of(with(file, at, count - 1)));
         EXPECT_TRUE(kind == DamageKind::bad_count) << "entry " << i;
     }
     EXPECT_GE(asked, 5);
@@ -191,10 +180,10 @@ TEST(FindDamage, PositionsAndTrianglesNeedEachOther) {
     const test::TestMesh cube = test::unit_cube();
     const AlignedBytes file =
         test::bake_tiny(cube.positions, cube.triangles, {.leave_out = {SectionId::positions_f32}});
-    EXPECT_EQ(kind_of(check(file)), DamageKind::missing_section);
+    EXPECT_EQ(kind_of(damage_of(file)), DamageKind::missing_section);
     const AlignedBytes no_triangles =
         test::bake_tiny(cube.positions, cube.triangles, {.leave_out = {SectionId::triangles}});
-    EXPECT_EQ(kind_of(check(no_triangles)), DamageKind::missing_section);
+    EXPECT_EQ(kind_of(damage_of(no_triangles)), DamageKind::missing_section);
 }
 
 std::vector<test::TinySection> names_and_runs(std::uint32_t first, std::uint32_t count, char end) {
@@ -218,13 +207,13 @@ TEST(FindDamage, VerdictsAreOfAllTrianglesAndThenOfParts) {
         return Verdict{verdict_closed, promise_surface, triangles, first, 0, 2, 0, 0, area, 1};
     };
     const auto kind = [&](const std::vector<Verdict>& verdicts) {
-        return kind_of(check(test::assemble(facts, verdicts_of(verdicts))));
+        return kind_of(damage_of(test::assemble(facts, verdicts_of(verdicts))));
     };
-    EXPECT_FALSE(check(test::assemble(facts, verdicts_of({of(12, 0, 6)}))));
+    EXPECT_FALSE(damage_of(test::assemble(facts, verdicts_of({of(12, 0, 6)}))));
     EXPECT_FALSE(
-        check(test::assemble(facts, verdicts_of({of(12, 0, 6), of(8, 0, 4), of(4, 8, 2)}))));
+        damage_of(test::assemble(facts, verdicts_of({of(12, 0, 6), of(8, 0, 4), of(4, 8, 2)}))));
     // Triangles that repeat a corner belong to no component.
-    EXPECT_FALSE(check(test::assemble(facts, verdicts_of({of(12, 0, 6), of(8, 0, 4)}))));
+    EXPECT_FALSE(damage_of(test::assemble(facts, verdicts_of({of(12, 0, 6), of(8, 0, 4)}))));
     EXPECT_EQ(kind({}), DamageKind::bad_count);
     EXPECT_EQ(kind({of(11, 0, 6)}), DamageKind::bad_count);
     EXPECT_EQ(kind({of(12, 0, 6), of(8, 0, 4), of(5, 8, 2)}), DamageKind::bad_count);
@@ -235,20 +224,20 @@ TEST(FindDamage, VerdictsAreOfAllTrianglesAndThenOfParts) {
 TEST(FindDamage, RunsCoverAllTrianglesAndNamesEnd) {
     FileHeader facts{};
     facts.triangle_count = 12;
-    EXPECT_FALSE(check(test::assemble(facts, names_and_runs(0, 12, '\0'))));
-    EXPECT_EQ(kind_of(check(test::assemble(facts, names_and_runs(1, 11, '\0')))),
+    EXPECT_FALSE(damage_of(test::assemble(facts, names_and_runs(0, 12, '\0'))));
+    EXPECT_EQ(kind_of(damage_of(test::assemble(facts, names_and_runs(1, 11, '\0')))),
               DamageKind::bad_order);
-    EXPECT_EQ(kind_of(check(test::assemble(facts, names_and_runs(0, 11, '\0')))),
+    EXPECT_EQ(kind_of(damage_of(test::assemble(facts, names_and_runs(0, 11, '\0')))),
               DamageKind::bad_order);
-    EXPECT_EQ(kind_of(check(test::assemble(facts, names_and_runs(0, 12, 'x')))),
+    EXPECT_EQ(kind_of(damage_of(test::assemble(facts, names_and_runs(0, 12, 'x')))),
               DamageKind::bad_order);
 }
 
 TEST(FindDamage, LooksOnlyAtWhatIsWanted) {
     AlignedBytes file = baked_cube();
     file.span()[start_of(file, SectionId::source_vertex)] ^= std::byte{1};
-    EXPECT_EQ(kind_of(check(file)), DamageKind::bad_checksum);
-    EXPECT_FALSE(check(file, {SectionId::positions_f32, SectionId::triangles}));
+    EXPECT_EQ(kind_of(damage_of(file)), DamageKind::bad_checksum);
+    EXPECT_FALSE(damage_of(file, {SectionId::positions_f32, SectionId::triangles}));
 }
 
 TEST(FindDeepDamage, SeesABoxThatLostItsTriangle) {
@@ -324,13 +313,13 @@ TEST(FindDamage, SweptSpheresHaveUnitAxesAndTheSidesOfTheirKind) {
     const std::uint64_t radius = node + offsetof(SweptNode, radius);
     const std::uint64_t side = node + offsetof(SweptNode, side);
     const std::uint64_t half = side + offsetof(SweptSide, half);
-    EXPECT_FALSE(check(with(file, radius, 2.0F)));
-    EXPECT_FALSE(check(with(file, half, 2.0F)));
+    EXPECT_FALSE(damage_of(with(file, radius, 2.0F)));
+    EXPECT_FALSE(damage_of(with(file, half, 2.0F)));
     for (const auto& [at, wrong] :
          {std::pair{radius, -1.0F}, std::pair{radius, std::numeric_limits<float>::infinity()},
           std::pair{node, std::numeric_limits<float>::quiet_NaN()}, std::pair{side, 3.0F},
           std::pair{half, -1.0F}, std::pair{half + sizeof(SweptSide), 1.0F}}) {
-        EXPECT_EQ(kind_of(check(with(file, at, wrong))), DamageKind::bad_number) << at - node;
+        EXPECT_EQ(kind_of(damage_of(with(file, at, wrong))), DamageKind::bad_number) << at - node;
     }
 }
 
@@ -338,7 +327,7 @@ TEST(FindDamage, LeavesNameHowManyTrianglesTheyHold) {
     const AlignedBytes file = baked_cube();
     const std::uint64_t count = start_of(file, SectionId::bvh_leaves) + offsetof(BvhLeaf, count);
     for (const std::uint32_t wrong : {0u, 7u, 9u, 0xffffffffu}) {
-        EXPECT_EQ(kind_of(check(with(file, count, wrong))), DamageKind::bad_count);
+        EXPECT_EQ(kind_of(damage_of(with(file, count, wrong))), DamageKind::bad_count);
     }
 }
 

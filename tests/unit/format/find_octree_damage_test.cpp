@@ -18,15 +18,16 @@ namespace cdprep::format {
 namespace {
 
 using test::AlignedBytes;
+using test::damage_of;
 using test::element;
 using test::entry_of;
 using test::exchanged;
 using test::with;
 
-constexpr std::array kIds = {SectionId::octree_grid,          SectionId::octree_nodes,
-                             SectionId::octree_references,    SectionId::octree_leaf_codes,
-                             SectionId::octree_leaf_nodes,    SectionId::octree_top,
-                             SectionId::octree_modulus_table, SectionId::octree_mixed_table};
+constexpr std::array kOctreeSections = {
+    SectionId::octree_grid,          SectionId::octree_nodes,      SectionId::octree_references,
+    SectionId::octree_leaf_codes,    SectionId::octree_leaf_nodes, SectionId::octree_top,
+    SectionId::octree_modulus_table, SectionId::octree_mixed_table};
 
 AlignedBytes baked(const test::TestMesh& mesh, const build::OctreeOptions& options) {
     return test::with_octree(test::bake_tiny(mesh.positions, mesh.triangles), options);
@@ -34,10 +35,6 @@ AlignedBytes baked(const test::TestMesh& mesh, const build::OctreeOptions& optio
 
 AlignedBytes small_octree() {
     return baked(test::icosphere(1), {.level = 3, .threshold = 9});
-}
-
-std::optional<Damage> check(const AlignedBytes& file, SectionSet wanted = SectionSet::all()) {
-    return find_damage(file.span(), wanted);
 }
 
 TEST(FindOctreeDamage, AcceptsWhatTheBuilderMakes) {
@@ -51,7 +48,7 @@ TEST(FindOctreeDamage, AcceptsWhatTheBuilderMakes) {
             for (const bool hashed : {false, true}) {
                 const AlignedBytes plain =
                     test::bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true});
-                EXPECT_FALSE(check(
+                EXPECT_FALSE(damage_of(
                     test::with_octree(plain, {.level = level, .threshold = 12, .hashed = hashed})));
             }
         }
@@ -60,8 +57,8 @@ TEST(FindOctreeDamage, AcceptsWhatTheBuilderMakes) {
 
 TEST(FindOctreeDamage, RefusesATreeOfWhichAPartIsMissing) {
     const AlignedBytes whole = small_octree();
-    for (const SectionId missing : kIds) {
-        const auto damage = check(test::without(whole, missing));
+    for (const SectionId missing : kOctreeSections) {
+        const auto damage = damage_of(test::without(whole, missing));
         ASSERT_TRUE(damage) << section_name(missing);
         EXPECT_EQ(damage->kind, DamageKind::missing_section);
         EXPECT_EQ(damage->section, missing);
@@ -75,7 +72,7 @@ TEST(FindOctreeDamage, RefusesEveryOtherWordInNodesAndTables) {
     int asked = 0;
     const AlignedBytes file = small_octree();
     std::mt19937 random(5);
-    for (const SectionId id : kIds) {
+    for (const SectionId id : kOctreeSections) {
         if (id == SectionId::octree_grid || id == SectionId::octree_references) continue;
         const SectionEntry entry = entry_of(file, id);
         const std::uint64_t words = entry.count * entry.element_size / 4;
@@ -85,7 +82,7 @@ TEST(FindOctreeDamage, RefusesEveryOtherWordInNodesAndTables) {
                                               now ^ (1U << random() % 32)}) {
                 if (value == now) continue;
                 ++asked;
-                ASSERT_TRUE(check(with(file, id, 4 * i, value)))
+                ASSERT_TRUE(damage_of(with(file, id, 4 * i, value)))
                     << section_name(id) << " word " << i << ": " << value << " for " << now;
             }
         }
@@ -99,7 +96,7 @@ TEST(FindOctreeDamage, CodesOfLeavesRiseStrictly) {
     const std::uint64_t leaves = entry_of(file, SectionId::octree_leaf_codes).count;
     ASSERT_GT(leaves, 30U);
     const auto expect_refused = [](const AlignedBytes& changed, std::uint64_t i) {
-        const auto damage = check(changed);
+        const auto damage = damage_of(changed);
         ASSERT_TRUE(damage) << i;
         EXPECT_EQ(damage->kind, DamageKind::bad_order) << i;
         EXPECT_EQ(damage->section, SectionId::octree_leaf_codes) << i;
@@ -121,11 +118,11 @@ TEST(FindOctreeDamage, NodesAndReferencesHaveOneOrder) {
     ASSERT_GT(nodes, 30U);
     std::size_t lists = 0;
     for (std::uint64_t i = 1; i < nodes; ++i) {
-        EXPECT_TRUE(check(exchanged<OctreeNode>(file, SectionId::octree_nodes, i - 1, i))) << i;
+        EXPECT_TRUE(damage_of(exchanged<OctreeNode>(file, SectionId::octree_nodes, i - 1, i))) << i;
         const auto node = element<OctreeNode>(file, SectionId::octree_nodes, i);
         if ((node.count & kInnerNode) != 0 || node.count < 2) continue;
-        EXPECT_TRUE(check(exchanged<std::uint32_t>(file, SectionId::octree_references, node.first,
-                                                   node.first + 1)))
+        EXPECT_TRUE(damage_of(exchanged<std::uint32_t>(file, SectionId::octree_references,
+                                                       node.first, node.first + 1)))
             << i;
         ++lists;
     }
@@ -140,7 +137,7 @@ TEST(FindOctreeDamage, ReferencesAreOfTrianglesAndRise) {
         node = element<OctreeNode>(file, SectionId::octree_nodes, leaf++);
     } while ((node.count & kInnerNode) != 0 || node.count < 2);
     const auto refused = [&](std::uint32_t triangle) {
-        const auto damage = check(
+        const auto damage = damage_of(
             with(file, SectionId::octree_references, 4 * std::uint64_t{node.first}, triangle));
         return damage ? damage->kind : DamageKind{0};
     };
@@ -157,7 +154,7 @@ TEST(FindOctreeDamage, PlanesOfTheGridRiseStrictlyAndAreFinite) {
     const auto refused = [&](auto change) {
         OctreeGrid changed = grid;
         change(changed);
-        return check(with(file, SectionId::octree_grid, 0, changed)).has_value();
+        return damage_of(with(file, SectionId::octree_grid, 0, changed)).has_value();
     };
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     EXPECT_FALSE(refused([](OctreeGrid&) {}));
@@ -184,11 +181,11 @@ TEST(FindOctreeDamage, LooksOnlyAtWhatIsWanted) {
     const AlignedBytes bad_top = with(file, SectionId::octree_top, 0, 7U);
     const SectionSet tree = {SectionId::octree_grid, SectionId::octree_nodes,
                              SectionId::octree_references};
-    EXPECT_FALSE(check(bad_top, tree));
-    EXPECT_TRUE(check(bad_top));
+    EXPECT_FALSE(damage_of(bad_top, tree));
+    EXPECT_TRUE(damage_of(bad_top));
     const AlignedBytes bad_node = with(file, SectionId::octree_nodes, 0, std::uint64_t{2});
-    EXPECT_TRUE(check(bad_node, tree));
-    EXPECT_FALSE(check(bad_node, {SectionId::positions_f32}));
+    EXPECT_TRUE(damage_of(bad_node, tree));
+    EXPECT_FALSE(damage_of(bad_node, {SectionId::positions_f32}));
 }
 
 }  // namespace

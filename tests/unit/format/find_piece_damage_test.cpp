@@ -16,8 +16,8 @@ namespace {
 
 using test::AlignedBytes;
 
-constexpr std::array kIds = {SectionId::pieces, SectionId::piece_triangles,
-                             SectionId::piece_vertices, SectionId::piece_facets};
+constexpr std::array kPieceSections = {SectionId::pieces, SectionId::piece_triangles,
+                                       SectionId::piece_vertices, SectionId::piece_facets};
 
 struct Arrays {
     std::vector<Piece> pieces;
@@ -88,7 +88,7 @@ TEST(FindPieceDamage, AcceptsSoundPieces) {
 
 TEST(FindPieceDamage, RefusesPiecesOfWhichAPartIsMissing) {
     const AlignedBytes whole = file_of(two_pieces());
-    for (const SectionId missing : kIds) {
+    for (const SectionId missing : kPieceSections) {
         const AlignedBytes file = test::without(whole, missing);
         const auto damage = find_damage(file.span(), SectionSet::all());
         ASSERT_TRUE(damage) << section_name(missing);

@@ -17,8 +17,8 @@ namespace {
 
 using test::AlignedBytes;
 
-constexpr std::array kIds = {SectionId::piece_nodes, SectionId::piece_leaves,
-                             SectionId::piece_node_hulls, SectionId::piece_swept};
+constexpr std::array kPieceTreeSections = {SectionId::piece_nodes, SectionId::piece_leaves,
+                                           SectionId::piece_node_hulls, SectionId::piece_swept};
 
 /// A ball with several pieces, leaves and hulls.
 AlignedBytes baked() {
@@ -53,7 +53,7 @@ TEST(FindPieceTreeDamage, AcceptsASoundHierarchy) {
 }
 
 TEST(FindPieceTreeDamage, RefusesAHierarchyOfWhichAPartIsMissing) {
-    for (const SectionId missing : kIds) {
+    for (const SectionId missing : kPieceTreeSections) {
         const AlignedBytes file = test::without(baked(), missing);
         const auto damage = find_damage(file.span(), SectionSet::all());
         ASSERT_TRUE(damage) << section_name(missing);
@@ -63,7 +63,7 @@ TEST(FindPieceTreeDamage, RefusesAHierarchyOfWhichAPartIsMissing) {
 }
 
 TEST(FindPieceTreeDamage, RefusesSectionsOfAnotherLength) {
-    for (const SectionId id : kIds) {
+    for (const SectionId id : kPieceTreeSections) {
         const AlignedBytes file =
             test::with_changed(baked(), id, [&](std::vector<std::byte>& bytes) {
                 bytes.resize(bytes.size() - element_size(id));

@@ -17,6 +17,7 @@ namespace cdprep::format {
 namespace {
 
 using test::AlignedBytes;
+using test::damage_of;
 using test::element;
 using test::entry_of;
 using test::exchanged;
@@ -39,10 +40,6 @@ AlignedBytes small_tree(TetraBounding bounding = TetraBounding::caps) {
     return baked(mesh, {.level = 3, .threshold = 6, .bounding = bounding});
 }
 
-std::optional<Damage> check(const AlignedBytes& file, SectionSet wanted = SectionSet::all()) {
-    return find_damage(file.span(), wanted);
-}
-
 TEST(FindTetraDamage, AcceptsWhatTheBuilderMakes) {
     test::TestMesh point = test::copies_of_one_triangle(4);
     for (Double3& p : point.positions) p = {1, 2, 3};
@@ -56,7 +53,7 @@ TEST(FindTetraDamage, AcceptsWhatTheBuilderMakes) {
             for (const TetraBounding bounding :
                  {TetraBounding::tetra, TetraBounding::caps, TetraBounding::boxes}) {
                 const auto damage =
-                    check(baked(mesh, {.level = level, .threshold = 12, .bounding = bounding}));
+                    damage_of(baked(mesh, {.level = level, .threshold = 12, .bounding = bounding}));
                 EXPECT_FALSE(damage) << section_name(damage->section) << " " << damage->at;
             }
         }
@@ -68,7 +65,7 @@ TEST(FindTetraDamage, RefusesATreeOfWhichAPartIsMissing) {
     for (const SectionId missing :
          {SectionId::tetra_tree, SectionId::tetra_nodes, SectionId::tetra_references,
           SectionId::tetra_top, SectionId::tetra_boxes, SectionId::tetra_oriented}) {
-        const auto damage = check(test::without(whole, missing));
+        const auto damage = damage_of(test::without(whole, missing));
         ASSERT_TRUE(damage) << section_name(missing);
         EXPECT_EQ(damage->kind, DamageKind::missing_section);
         EXPECT_EQ(damage->section, missing);
@@ -94,7 +91,7 @@ TEST(FindTetraDamage, RefusesEveryOtherWordInNodesAndTable) {
                                               now ^ (1U << random() % 32)}) {
                 if (value == now) continue;
                 ++asked;
-                ASSERT_TRUE(check(with(file, id, 4 * i, value)))
+                ASSERT_TRUE(damage_of(with(file, id, 4 * i, value)))
                     << section_name(id) << " word " << i << ": " << value << " for " << now;
             }
         }
@@ -107,11 +104,11 @@ TEST(FindTetraDamage, NodesTableAndReferencesHaveOneOrder) {
     const std::uint64_t nodes = entry_of(file, SectionId::tetra_nodes).count;
     std::size_t lists = 0;
     for (std::uint64_t i = 1; i < nodes; ++i) {
-        EXPECT_TRUE(check(exchanged<TetraNode>(file, SectionId::tetra_nodes, i - 1, i))) << i;
+        EXPECT_TRUE(damage_of(exchanged<TetraNode>(file, SectionId::tetra_nodes, i - 1, i))) << i;
         const auto node = element<TetraNode>(file, SectionId::tetra_nodes, i);
         if (node.flags != 0 || node.count < 2) continue;
-        EXPECT_TRUE(check(exchanged<std::uint32_t>(file, SectionId::tetra_references, node.first,
-                                                   node.first + 1)))
+        EXPECT_TRUE(damage_of(exchanged<std::uint32_t>(file, SectionId::tetra_references,
+                                                       node.first, node.first + 1)))
             << i;
         ++lists;
     }
@@ -121,7 +118,7 @@ TEST(FindTetraDamage, NodesTableAndReferencesHaveOneOrder) {
     for (std::uint64_t i = 1; i < entry_of(file, SectionId::tetra_top).count; ++i) {
         const auto now = element<std::uint32_t>(file, SectionId::tetra_top, i);
         if (element<std::uint32_t>(file, SectionId::tetra_top, i - 1) == now) continue;
-        EXPECT_TRUE(check(exchanged<std::uint32_t>(file, SectionId::tetra_top, i - 1, i))) << i;
+        EXPECT_TRUE(damage_of(exchanged<std::uint32_t>(file, SectionId::tetra_top, i - 1, i))) << i;
         ++places;
     }
     EXPECT_GT(places, 10U);
@@ -134,7 +131,7 @@ TEST(FindTetraDamage, RadiiAreNumbersInOrder) {
         TetraNode changed = node;
         changed.radius_min = least;
         changed.radius_max = greatest;
-        return check(with(file, SectionId::tetra_nodes, 0, changed)).has_value();
+        return damage_of(with(file, SectionId::tetra_nodes, 0, changed)).has_value();
     };
     EXPECT_FALSE(refused(node.radius_min, node.radius_max));
     EXPECT_FALSE(refused(0, node.radius_max));
@@ -150,7 +147,7 @@ TEST(FindTetraDamage, FactsAreInTheirRanges) {
     const auto refused = [&](auto change) {
         TetraTree changed = tree;
         change(changed);
-        return check(with(file, SectionId::tetra_tree, 0, changed)).has_value();
+        return damage_of(with(file, SectionId::tetra_tree, 0, changed)).has_value();
     };
     EXPECT_FALSE(refused([](TetraTree&) {}));
     for (const double x : {HUGE_VAL, std::nan(""), 0x1p1001}) {
@@ -175,8 +172,8 @@ TEST(FindTetraDamage, ReferencesAreOfTrianglesAndRise) {
         node = element<TetraNode>(file, SectionId::tetra_nodes, leaf++);
     } while (node.flags != 0 || node.count < 2);
     const auto refused = [&](std::uint32_t triangle) {
-        const auto damage =
-            check(with(file, SectionId::tetra_references, 4 * std::uint64_t{node.first}, triangle));
+        const auto damage = damage_of(
+            with(file, SectionId::tetra_references, 4 * std::uint64_t{node.first}, triangle));
         return damage ? damage->kind : DamageKind{0};
     };
     EXPECT_EQ(refused(triangles), DamageKind::bad_index);
@@ -191,7 +188,7 @@ TEST(FindTetraDamage, RefusesBoxesThatNothingSpeaksOf) {
     auto tree = element<TetraTree>(file, SectionId::tetra_tree, 0);
     for (const TetraBounding other : {TetraBounding::tetra, TetraBounding::caps}) {
         tree.bounding = other;
-        const auto damage = check(with(file, SectionId::tetra_tree, 0, tree));
+        const auto damage = damage_of(with(file, SectionId::tetra_tree, 0, tree));
         ASSERT_TRUE(damage);
         EXPECT_EQ(damage->kind, DamageKind::bad_section);
         EXPECT_EQ(damage->section, SectionId::tetra_boxes);
@@ -216,7 +213,7 @@ TEST(FindTetraDamage, RefusesEveryOtherNumberInBoxes) {
                 const bool is_number = value == now + 0.125F;
                 if (is_once && is_used && is_number) continue;
                 ++asked;
-                ASSERT_TRUE(check(with(file, id, 4 * i, value)))
+                ASSERT_TRUE(damage_of(with(file, id, 4 * i, value)))
                     << section_name(id) << " number " << i << ": " << value << " for " << now;
             }
         }
@@ -231,7 +228,7 @@ TEST(FindTetraDamage, BoxesAreInTheFrameAndInOrder) {
         BvhNode changed = first;
         changed.lower[1][2] = lower;
         changed.upper[1][2] = upper;
-        return check(with(file, SectionId::tetra_boxes, 0, changed)).has_value();
+        return damage_of(with(file, SectionId::tetra_boxes, 0, changed)).has_value();
     };
     EXPECT_FALSE(refused(-1, 1));
     EXPECT_FALSE(refused(0.5F, 0.5F));
@@ -240,20 +237,20 @@ TEST(FindTetraDamage, BoxesAreInTheFrameAndInOrder) {
     EXPECT_TRUE(refused(0.5F, std::nextafter(0.5F, 0.0F)));
     auto oriented = element<OrientedNode>(file, SectionId::tetra_oriented, 0);
     oriented.half[1][2] = -1;
-    EXPECT_TRUE(check(with(file, SectionId::tetra_oriented, 0, oriented)));
+    EXPECT_TRUE(damage_of(with(file, SectionId::tetra_oriented, 0, oriented)));
 }
 
 // What is not wanted is not read.
 TEST(FindTetraDamage, LooksOnlyAtWhatIsWanted) {
     const AlignedBytes file = small_tree();
     const AlignedBytes bad = with(file, SectionId::tetra_nodes, 0, std::uint32_t{7});
-    EXPECT_TRUE(check(bad));
-    EXPECT_FALSE(check(bad, {SectionId::positions_f64, SectionId::triangles}));
+    EXPECT_TRUE(damage_of(bad));
+    EXPECT_FALSE(damage_of(bad, {SectionId::positions_f64, SectionId::triangles}));
     const AlignedBytes boxed = small_tree(TetraBounding::boxes);
     const AlignedBytes bad_box = with(boxed, SectionId::tetra_boxes, 0, std::nanf(""));
-    EXPECT_TRUE(check(bad_box));
-    EXPECT_FALSE(check(bad_box, {SectionId::tetra_tree, SectionId::tetra_nodes,
-                                 SectionId::tetra_references, SectionId::tetra_top}));
+    EXPECT_TRUE(damage_of(bad_box));
+    EXPECT_FALSE(damage_of(bad_box, {SectionId::tetra_tree, SectionId::tetra_nodes,
+                                     SectionId::tetra_references, SectionId::tetra_top}));
 }
 
 }  // namespace

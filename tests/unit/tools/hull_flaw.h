@@ -15,6 +15,8 @@
 #include "hull/convex_hull.h"
 #include "support/exact_rational.h"
 
+#include "exact/predicates.h"
+
 namespace cdprep::test {
 
 using format::Double3;
@@ -93,6 +95,13 @@ private:
     Double3 normal_ = {};
     Double3 size_ = {};
 };
+
+/// Returns true if no facet of a solid hull has p in front of it.
+inline bool holds(const convex::ConvexHull& hull, const Double3& p) {
+    return std::all_of(hull.facets.begin(), hull.facets.end(), [&](const HullFacet& f) {
+        return orient3d(hull.points[f[0]], hull.points[f[1]], hull.points[f[2]], p) >= 0;
+    });
+}
 
 /// What a hull must be, checked with exact numbers and by nothing that it was made with.
 class HullJudge {

@@ -14,6 +14,10 @@
 
 namespace cdprep::test {
 
+inline constexpr std::array kPieceOrders = {
+    convex::PieceOrder::greedy, convex::PieceOrder::depth_first, convex::PieceOrder::breadth_first,
+    convex::PieceOrder::cresting};
+
 /// The vertices of a piece, ascending.
 inline std::vector<std::uint32_t> piece_vertices(const mesh::Mesh& mesh,
                                                  std::span<const std::uint32_t> triangles) {

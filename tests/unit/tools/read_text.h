@@ -12,26 +12,38 @@
 
 namespace cdprep::test {
 
-/// Reads from an allocation of exactly the text's size.
+inline const std::vector<mesh::Double3> kSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+
+/// Reads texts in one format.
 template <class Reader>
-Result<mesh::TriangleSoup> read_text(Reader reader, const char* name, const std::string& text,
-                                     const import::ImportOptions& options = {}) {
-    const std::vector<char> exact(text.begin(), text.end());
-    return reader(import::SourceFile(name, {exact.data(), exact.size()}), options);
-}
+class TextReader {
+public:
+    constexpr TextReader(Reader reader, const char* name) : reader_(reader), name_(name) {}
 
-/// What was read from `text`, which has to be sound.
-inline mesh::TriangleSoup sound(Result<mesh::TriangleSoup> result, const std::string& text) {
-    EXPECT_TRUE(result.ok()) << text << (result.ok() ? "" : result.error().message);
-    return result.ok() ? std::move(result).value() : mesh::TriangleSoup{};
-}
+    /// Reads from an allocation of exactly the text's size.
+    [[nodiscard]] Result<mesh::TriangleSoup> read(const std::string& text,
+                                                  const import::ImportOptions& options = {}) const {
+        const std::vector<char> exact(text.begin(), text.end());
+        return reader_(import::SourceFile(name_, {exact.data(), exact.size()}), options);
+    }
+    /// What is read from a text that has to be sound.
+    [[nodiscard]] mesh::TriangleSoup soup(const std::string& text) const {
+        Result<mesh::TriangleSoup> result = read(text);
+        EXPECT_TRUE(result.ok()) << text << (result.ok() ? "" : result.error().message);
+        return result.ok() ? std::move(result).value() : mesh::TriangleSoup{};
+    }
+    /// Why a text cannot be read.
+    [[nodiscard]] std::string refusal(const std::string& text) const {
+        const Result<mesh::TriangleSoup> result = read(text);
+        EXPECT_FALSE(result.ok());
+        if (result.ok()) return {};
+        EXPECT_EQ(result.error().code, ErrorCode::unreadable);
+        return result.error().message;
+    }
 
-/// Why it could not be read.
-inline std::string refusal(const Result<mesh::TriangleSoup>& result) {
-    EXPECT_FALSE(result.ok());
-    if (result.ok()) return {};
-    EXPECT_EQ(result.error().code, ErrorCode::unreadable);
-    return result.error().message;
-}
+private:
+    Reader reader_;
+    const char* name_;
+};
 
 }  // namespace cdprep::test

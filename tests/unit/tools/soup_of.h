@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "mesh/mesh.h"
+#include "mesh/weld.h"
 #include "support/meshes.h"
 
 namespace cdprep::test {
@@ -14,6 +15,10 @@ inline mesh::TriangleSoup soup_of(const TestMesh& mesh) {
     soup.positions = mesh.positions;
     soup.triangles = mesh.triangles;
     return soup;
+}
+
+inline mesh::Mesh welded(const TestMesh& mesh) {
+    return mesh::weld(soup_of(mesh)).mesh;
 }
 
 /// Every triangle with vertices of its own.

@@ -11,6 +11,7 @@
 
 #include "cdprep/cdprep.h"
 #include "cdprep/pairs.h"
+#include "support/c_lanes.h"
 #include "support/c_models.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
@@ -183,13 +184,6 @@ TEST(CApi, ManyLanesGetTheAnswersOfOne) {
     const char* wrong = ask_many(CModel(a).get(), CModel(b).get(), &options);
     EXPECT_EQ(wrong, nullptr) << wrong;
     EXPECT_GT(tasks, 8u * 7u);
-}
-
-/// Runs some tasks twice, some never, and one number past the last.
-void run_badly(void* /*context*/, std::size_t count, cdprep_task task, const void* work) {
-    for (std::size_t i = 0; i < count; i += 2) task(work, i);
-    for (std::size_t i = 0; i < count; i += 2) task(work, i);
-    task(work, count + 1000);
 }
 
 // The same law, whatever the caller's threads do.

@@ -134,13 +134,6 @@ TEST(CBuild, LanesAndMemoryChangeNoByte) {
     }
 }
 
-/// Runs some tasks twice, some never, and one number past the last.
-void run_badly(void* /*context*/, std::size_t count, cdprep_task task, const void* work) {
-    for (std::size_t i = 0; i < count; i += 2) task(work, i);
-    for (std::size_t i = 0; i < count; i += 2) task(work, i);
-    task(work, count + 1000);
-}
-
 // The same law, whatever the caller's threads do.
 TEST(CBuild, TasksThatAreLeftOutOrRepeatedChangeNothing) {
     const TestMesh ball = icosphere(4);
@@ -205,20 +198,20 @@ TEST(CBuild, FloatsAndRoundedDoublesMakeOneModel) {
     EXPECT_EQ(info.stores_f64, std::uint32_t{CDPREP_NO});
 }
 
-/// An allocator that counts.
-struct Blocks {
+/// An allocator that counts, for one block at a time.
+struct OneBlock {
     std::size_t given = 0;
     std::size_t taken = 0;
     std::size_t bytes = 0;
 
     static void* give(void* blocks, std::size_t size, std::size_t alignment) {
-        auto* const self = static_cast<Blocks*>(blocks);
+        auto* const self = static_cast<OneBlock*>(blocks);
         ++self->given;
         self->bytes = size;
         return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
     }
     static void take(void* blocks, void* memory, std::size_t size) {
-        auto* const self = static_cast<Blocks*>(blocks);
+        auto* const self = static_cast<OneBlock*>(blocks);
         ++self->taken;
         EXPECT_EQ(size, self->bytes);
         std::free(memory);
@@ -234,8 +227,8 @@ TEST(CBuild, TheSizeIsEnoughForAnyMesh) {
         for (const std::uint32_t ask : {0, int{CDPREP_ASK_COLLIDE}, int{CDPREP_ASK_RAY}}) {
             for (const std::uint32_t precision : {CDPREP_AS_GIVEN, CDPREP_SINGLE}) {
                 cdprep_build_options options = build_options_of(mesh);
-                Blocks blocks;
-                const cdprep_allocator allocator = {Blocks::give, Blocks::take, &blocks};
+                OneBlock blocks;
+                const cdprep_allocator allocator = {OneBlock::give, OneBlock::take, &blocks};
                 options.ask = ask;
                 options.precision = precision;
                 options.allocator = &allocator;
@@ -266,8 +259,8 @@ TEST(CBuild, TheWorstMeshTakesAllOfTheSize) {
     TestMesh worst = random_soup(1, 100, 0.3);
     for (std::size_t i = 297; i < 300; ++i) worst.positions[i] = {1, 2, 3};
     cdprep_build_options options = build_options_of(worst);
-    Blocks blocks;
-    const cdprep_allocator allocator = {Blocks::give, Blocks::take, &blocks};
+    OneBlock blocks;
+    const cdprep_allocator allocator = {OneBlock::give, OneBlock::take, &blocks};
     options.allocator = &allocator;
     std::size_t size = 0;
     ASSERT_EQ(cdprep_model_build_size(&options, &size, nullptr), CDPREP_OK);

@@ -1057,37 +1057,18 @@ TEST(CInput, AnInitialiserWritesWhatTheCallerHas) {
     EXPECT_EQ(none.head.size, 0u) << "nothing is written where the size is none";
 }
 
-struct Blocks {
-    std::size_t given = 0;
-    std::size_t taken = 0;
-    bool is_empty = false;
-};
-
-void* give(void* blocks, std::size_t size, std::size_t alignment) {
-    auto* const b = static_cast<Blocks*>(blocks);
-    if (b->is_empty) return nullptr;
-    ++b->given;
-    return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-}
-
-void take_back(void* blocks, void* memory, std::size_t /*size*/) {
-    ++static_cast<Blocks*>(blocks)->taken;
-    std::free(memory);
-}
-
 TEST_F(CHostile, AllocatorsGetBackWhatTheyGave) {
     Blocks blocks;
-    const cdprep_allocator allocator = {give, take_back, &blocks};
     cdprep_open_options open;
     cdprep_open_options_init(&open, sizeof open);
-    open.allocator = &allocator;
+    open.allocator = &blocks.allocator;
     open.mode = CDPREP_COPY;
     cdprep_model* model = nullptr;
     ASSERT_EQ(cdprep_model_open_memory(file_.span().data(), file_.size(), &open, &model, nullptr),
               CDPREP_OK);
     cdprep_workspace_options options;
     cdprep_workspace_options_init(&options, sizeof options);
-    options.allocator = &allocator;
+    options.allocator = &blocks.allocator;
     cdprep_workspace* workspace = nullptr;
     ASSERT_EQ(cdprep_workspace_make(&options, nullptr, 0, &workspace, nullptr), CDPREP_OK);
     EXPECT_GE(blocks.given, 3u);
@@ -1104,10 +1085,9 @@ TEST_F(CHostile, AllocatorsGetBackWhatTheyGave) {
 // Opening a copy fails at each of the library's own allocations in turn.
 TEST_F(CHostile, FailedOpeningsGiveBackTheirCopy) {
     Blocks blocks;
-    const cdprep_allocator allocator = {give, take_back, &blocks};
     cdprep_open_options open;
     cdprep_open_options_init(&open, sizeof open);
-    open.allocator = &allocator;
+    open.allocator = &blocks.allocator;
     open.mode = CDPREP_COPY;
     const ScratchFolder folder;
     const std::filesystem::path path = folder.path() / "cube.cdprep";
@@ -1147,9 +1127,8 @@ void run_here(void* /*context*/, std::size_t count, cdprep_task task, const void
 TEST_F(CHostile, FailedBuildsGiveEverythingBack) {
     const TestMesh ball = icosphere(4);
     Blocks blocks;
-    const cdprep_allocator allocator = {give, take_back, &blocks};
     cdprep_build_options options = build_options_of(ball);
-    options.allocator = &allocator;
+    options.allocator = &blocks.allocator;
     cdprep_workspace_options lanes;
     cdprep_workspace_options_init(&lanes, sizeof lanes);
     lanes.lanes = 4;

@@ -54,25 +54,6 @@ struct Told {
     }
 };
 
-/// Blocks that a caller gives and takes back.
-struct Blocks {
-    std::size_t given = 0;
-    std::size_t taken = 0;
-    bool is_empty = false;
-
-    static void* give(void* blocks, std::size_t size, std::size_t alignment) {
-        auto* const self = static_cast<Blocks*>(blocks);
-        if (self->is_empty) return nullptr;
-        ++self->given;
-        return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-    }
-    static void take(void* blocks, void* memory, std::size_t /*size*/) {
-        ++static_cast<Blocks*>(blocks)->taken;
-        std::free(memory);
-    }
-    cdprep_allocator allocator = {give, take, this};
-};
-
 class CSceneHostile : public testing::Test {
 protected:
     static AlignedBytes baked() {

@@ -7,6 +7,7 @@
 
 #include "cells/cell_storage.h"
 #include "support/brute_force.h"
+#include "support/every_structure.h"
 #include "support/hard_placements.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
@@ -18,24 +19,8 @@
 namespace cdprep::test {
 namespace {
 
-constexpr std::array<CellSearch, 3> kSearches = {CellSearch::sorted, CellSearch::modulus,
-                                                 CellSearch::mixed};
-
 StructureOptions hashed(CellSearch search, LeafTest leaf_test = LeafTest::guigue_devillers) {
     return {.structure = Structure::hashed_octree, .leaf_test = leaf_test, .search = search};
-}
-OpenModel open_with_octree(const TestMesh& mesh, const build::OctreeOptions& octree,
-                           const TinyOptions& options = {}) {
-    return open_tiny(with_octree(bake_tiny(mesh.positions, mesh.triangles, options), octree));
-}
-
-std::vector<TrianglePair> pairs_through(const StructureOptions& through, const Model& a,
-                                        const Model& b, const Placement& placement,
-                                        Workspace& workspace, const PairOptions& options = {}) {
-    std::vector<TrianglePair> pairs(
-        overlaps_through({a, b, placement, options}, through, workspace, {}));
-    pairs.resize(overlaps_through({a, b, placement, options}, through, workspace, pairs));
-    return pairs;
 }
 
 /// Both tests by every search give these pairs, and yes or no says the same.

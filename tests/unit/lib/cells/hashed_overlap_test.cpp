@@ -8,6 +8,7 @@
 
 #include "cells/octree_cells.h"
 #include "support/brute_force.h"
+#include "support/every_structure.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
@@ -18,9 +19,6 @@
 
 namespace cdprep::test {
 namespace {
-
-constexpr std::array<CellSearch, 3> kSearches = {CellSearch::sorted, CellSearch::modulus,
-                                                 CellSearch::mixed};
 
 /// Two models with octrees.
 struct TwoModels {

@@ -10,15 +10,11 @@
 
 #include "cdprep/cells/overlap_through.h"
 #include "cells/octree_codes.h"
-#include "support/more_sections.h"
+#include "support/every_structure.h"
 #include "support/open_tiny.h"
 
 namespace cdprep::test {
 namespace {
-
-OpenModel open_with_octree(const TestMesh& mesh, const build::OctreeOptions& octree) {
-    return open_tiny(with_octree(bake_tiny(mesh.positions, mesh.triangles), octree));
-}
 
 /// Triangles that a part lists, followed down to its leaves.
 void add_triangles(const OctreeParts& parts, const OctreePart& part, const CellPlace& first,

@@ -12,6 +12,7 @@
 
 #include "cdprep/cells/overlap_through.h"
 #include "cells/octree_codes.h"
+#include "support/every_structure.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
@@ -22,7 +23,6 @@ namespace {
 using build::Octree;
 using format::OctreeNode;
 
-constexpr std::array kSearches = {CellSearch::sorted, CellSearch::modulus, CellSearch::mixed};
 constexpr std::uint64_t kAllCodes = std::uint64_t{1} << 63;
 
 /// How a random tree is shaped.

@@ -11,6 +11,7 @@
 
 #include "cells/cell_storage.h"
 #include "support/brute_force.h"
+#include "support/every_structure.h"
 #include "support/guarded_pages.h"
 #include "support/hard_meshes.h"
 #include "support/hard_placements.h"
@@ -57,14 +58,6 @@ OpenModel open_all(const TestMesh& mesh, const Limits& limits, const TinyOptions
 }
 
 using Pairs = std::vector<TrianglePair>;
-
-Pairs pairs_through(const StructureOptions& through, const Model& a, const Model& b,
-                    const Placement& placement, Workspace& workspace,
-                    const PairOptions& options = {}) {
-    Pairs pairs(overlaps_through({a, b, placement, options}, through, workspace, {}));
-    pairs.resize(overlaps_through({a, b, placement, options}, through, workspace, pairs));
-    return pairs;
-}
 
 std::string name_of(const StructureOptions& through) {
     return "structure " + std::to_string(static_cast<int>(through.structure)) + ", descent " +

@@ -12,10 +12,6 @@
 namespace cdprep::test {
 namespace {
 
-ExactRational square(double x) {
-    return {ExactNumber(x) * ExactNumber(x), 1.0};
-}
-
 /// Corners of a point, segment or triangle as a triangle.
 Corners filled(const std::vector<Double3>& points) {
     return {points.front(), points[points.size() / 2], points.back()};
@@ -25,7 +21,7 @@ Corners filled(const std::vector<Double3>& points) {
 bool truth_of(const std::vector<Double3>& points, const Corners& t, double distance) {
     const ExactRational squared = points.size() == 1 ? exact_squared_distance(points[0], t)
                                                      : exact_squared_distance(filled(points), t);
-    return squared <= square(distance);
+    return squared <= exact_square(distance);
 }
 
 Double3 grid_point(std::mt19937& random, int reach) {

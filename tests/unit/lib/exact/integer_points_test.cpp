@@ -12,7 +12,7 @@
 namespace cdprep::test {
 namespace {
 
-ExactNumber exact(std::int64_t i) {
+ExactNumber exact_number(std::int64_t i) {
     const double high = static_cast<double>(i / (1 << 20)) * (1 << 20);
     return ExactNumber(high) +
            ExactNumber(static_cast<double>(i - static_cast<std::int64_t>(high)));
@@ -21,10 +21,10 @@ ExactNumber exact(std::int64_t i) {
 template <class Row>
 int determinant_sign(const Row& r) {
     const auto minor = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
-        return exact(r[a]) * exact(r[d]) - exact(r[b]) * exact(r[c]);
+        return exact_number(r[a]) * exact_number(r[d]) - exact_number(r[b]) * exact_number(r[c]);
     };
-    return (exact(r[0]) * minor(4, 5, 7, 8) - exact(r[1]) * minor(3, 5, 6, 8) +
-            exact(r[2]) * minor(3, 4, 6, 7))
+    return (exact_number(r[0]) * minor(4, 5, 7, 8) - exact_number(r[1]) * minor(3, 5, 6, 8) +
+            exact_number(r[2]) * minor(3, 4, 6, 7))
         .sign();
 }
 
@@ -53,10 +53,11 @@ TEST(ScaledAxis, HoldsTheDifferencesTimesOneNumber) {
         const std::int64_t most = std::abs(scaled.at[largest]);
         EXPECT_GE(most, (std::int64_t{1} << 61) - (1 << 9)) << "seed " << kSeed;
         EXPECT_LE(most, (std::int64_t{1} << 62) + (1 << 9)) << "seed " << kSeed;
-        EXPECT_EQ(exact(most).sign(), 1);
-        EXPECT_EQ(exact(scaled.at[largest]).sign(), d[largest].sign());
+        EXPECT_EQ(exact_number(most).sign(), 1);
+        EXPECT_EQ(exact_number(scaled.at[largest]).sign(), d[largest].sign());
         for (std::size_t i = 0; i < x.size(); ++i) {
-            ASSERT_EQ(exact(scaled.at[i]) * d[largest], exact(scaled.at[largest]) * d[i])
+            ASSERT_EQ(exact_number(scaled.at[i]) * d[largest],
+                      exact_number(scaled.at[largest]) * d[i])
                 << "seed " << kSeed << ", round " << round;
         }
     }
@@ -104,8 +105,9 @@ TEST(IntegerPoints, SignsAreExactUpToTheLimit) {
         ASSERT_EQ(signs[0], sign) << "seed " << kSeed << ", round " << round;
         ASSERT_EQ(signs[1], 0);
         ASSERT_EQ(signs[2], sign);
-        const auto exact_2d = exact(rows[0]) * exact(rows[4]) - exact(rows[1]) * exact(rows[3]);
-        ASSERT_EQ(orient2d({a.x, a.y}, {b.x, b.y}, {d.x, d.y}), exact_2d.sign());
+        const auto exact_2d = exact_number(rows[0]) * exact_number(rows[4]) -
+                              exact_number(rows[1]) * exact_number(rows[3]);
+        ASSERT_EQ(orient2d(Integer2{a.x, a.y}, {b.x, b.y}, {d.x, d.y}), exact_2d.sign());
     }
     for (const int count : seen) EXPECT_GT(count, 500);
 }

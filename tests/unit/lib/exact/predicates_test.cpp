@@ -28,9 +28,9 @@ int exact_orient3d(const Double3& a, const Double3& b, const Double3& c, const D
 }
 
 TEST(Orient2d, IsPositiveForCounterClockwiseTurns) {
-    EXPECT_EQ(orient2d({0, 0}, {1, 0}, {0, 1}), 1);
-    EXPECT_EQ(orient2d({0, 0}, {0, 1}, {1, 0}), -1);
-    EXPECT_EQ(orient2d({0, 0}, {1, 1}, {2, 2}), 0);
+    EXPECT_EQ(orient2d(Double2{0, 0}, {1, 0}, {0, 1}), 1);
+    EXPECT_EQ(orient2d(Double2{0, 0}, {0, 1}, {1, 0}), -1);
+    EXPECT_EQ(orient2d(Double2{0, 0}, {1, 1}, {2, 2}), 0);
 }
 
 TEST(Orient3d, IsPositiveForPointsBehindACounterClockwiseTriangle) {
@@ -45,9 +45,9 @@ TEST(Orient3d, IsPositiveForPointsBehindACounterClockwiseTriangle) {
 // 0.1 = 3602879701896397 2^-55, 0.2 twice that, 0.3 = 10808639105689190 2^-55,
 // one less than three times the first.
 TEST(Orient2d, SeesTheLastBit) {
-    EXPECT_EQ(orient2d({0.1, 0.1}, {0.2, 0.2}, {0.3, 0.3}), 0);
-    EXPECT_EQ(orient2d({0.1, 1}, {0.2, 2}, {0.3, 3}), 1);
-    EXPECT_EQ(orient3d({0.1, 1, 0}, {0.2, 2, 0}, {0.1, 1, 1}, {0.3, 3, 0}), 1);
+    EXPECT_EQ(orient2d(Double2{0.1, 0.1}, {0.2, 0.2}, {0.3, 0.3}), 0);
+    EXPECT_EQ(orient2d(Double2{0.1, 1}, {0.2, 2}, {0.3, 3}), 1);
+    EXPECT_EQ(orient3d(Double3{0.1, 1, 0}, {0.2, 2, 0}, {0.1, 1, 1}, {0.3, 3, 0}), 1);
 }
 
 // A point one ulp off a plane: the filter must pass it on, and the rest decide it.
@@ -145,7 +145,7 @@ TEST_P(Predicates, AgreeWithExactNumbers) {
         const int truth = exact_orient3d(a, b, c, d);
         ASSERT_EQ(orient3d(a, b, c, d), truth) << "seed " << kSeed << ", round " << round;
         ASSERT_EQ(plane_signs({a, b, c}, {d, c, d})[2], truth) << round;
-        ASSERT_EQ(orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y}),
+        ASSERT_EQ(orient2d(Double2{a.x, a.y}, {b.x, b.y}, {c.x, c.y}),
                   exact_orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y}))
             << "seed " << kSeed << ", round " << round;
         ++seen[static_cast<std::size_t>(truth + 1)];

@@ -56,17 +56,6 @@ std::optional<int> twice_published(const Surface& surface, const Double3& o, con
     return twice + 2 * (static_cast<int>(positive.size()) - static_cast<int>(negative.size()));
 }
 
-/// The sum of all terms; nothing when q is on the surface.
-std::optional<int> winding(const Surface& surface, const Double3& o, const Double3& q) {
-    int sum = 0;
-    for (const Corners& t : surface) {
-        const WindingTerm term = winding_term(o, q, t);
-        if (term.on_surface) return std::nullopt;
-        sum += term.crossings;
-    }
-    return sum;
-}
-
 /// Exact for small integers.
 Double3 mean(const std::array<Double3, 4>& p) {
     return {(p[0].x + p[1].x + p[2].x + p[3].x) / 4, (p[0].y + p[1].y + p[2].y + p[3].y) / 4,
@@ -108,7 +97,7 @@ TEST(PublishedVertexRule, CancelsAtAFoldedVertex) {
     for (const double z : {-0.5, -0.25, -1.0}) {
         const Double3 q{0, 0, z};
         EXPECT_EQ(exact_winding(surface, q), 1) << z;
-        EXPECT_EQ(winding(surface, o, q), 1) << z;
+        EXPECT_EQ(sum_of_terms(surface, o, q), 1) << z;
         EXPECT_EQ(twice_published(surface, o, q), 0) << z;
     }
 }
@@ -166,7 +155,7 @@ TEST(WindingLaws, AreRightBehindEveryVertexWhereThePublishedRuleIsNot) {
             const Double3 q{v.x - near * way.x, v.y - near * way.y, v.z - near * way.z};
             const std::optional<int> truth = exact_winding(surface, q);
             if (o == q || !truth || asked == kQueries) continue;
-            ASSERT_EQ(winding(surface, o, q), truth) << kSeed << ", query " << asked;
+            ASSERT_EQ(sum_of_terms(surface, o, q), truth) << kSeed << ", query " << asked;
             published_wrong += twice_published(surface, o, q) != 2 * *truth ? 1 : 0;
             inside += *truth != 0 ? 1 : 0;
             ++asked;

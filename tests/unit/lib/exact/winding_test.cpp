@@ -18,18 +18,6 @@
 namespace cdprep::test {
 namespace {
 
-/// The sum of all terms; nothing when q is on a triangle.
-std::optional<int> winding(const std::vector<Corners>& surface, const Double3& o,
-                           const Double3& q) {
-    int sum = 0;
-    for (const Corners& t : surface) {
-        const WindingTerm term = winding_term(o, q, t);
-        if (term.on_surface) return std::nullopt;
-        sum += term.crossings;
-    }
-    return sum;
-}
-
 // By hand: a triangle in the plane z = 1, counter-clockwise from above.
 TEST(WindingTerm, CountsLeavingAsOneAndEnteringAsMinusOne) {
     const Corners t = {{{-1, -1, 1}, {2, -1, 1}, {-1, 2, 1}}};
@@ -81,7 +69,8 @@ TEST(WindingLaws, AgreesWithRandomRaysInExactNumbers) {
         for (int i = 0; i < 6; ++i) {
             const Double3 o{0.5 * step(random), 0.5 * step(random), 0.5 * step(random)};
             if (o == q) continue;
-            ASSERT_EQ(winding(surface, o, q), truth) << "seed " << kSeed << ", round " << round;
+            ASSERT_EQ(sum_of_terms(surface, o, q), truth)
+                << "seed " << kSeed << ", round " << round;
         }
         ++(!truth ? on_surface : *truth == 0 ? outside : inside);
     }
@@ -96,11 +85,11 @@ TEST(WindingLaws, DoesNotDependOnOrderOrFirstCorner) {
     int inside = 0;
     for (int round = 0; round < 500; ++round) {
         std::vector<Corners> surface = tetrahedra(random, 4, 3);
-        const std::optional<int> before = winding(surface, {0, 0, -7}, {0, 0, 0});
+        const std::optional<int> before = sum_of_terms(surface, {0, 0, -7}, {0, 0, 0});
         inside += before && *before != 0 ? 1 : 0;
         std::shuffle(surface.begin(), surface.end(), random);
         for (Corners& t : surface) std::rotate(t.begin(), t.begin() + round % 3, t.end());
-        ASSERT_EQ(winding(surface, {0, 0, -7}, {0, 0, 0}), before) << kSeed << ' ' << round;
+        ASSERT_EQ(sum_of_terms(surface, {0, 0, -7}, {0, 0, 0}), before) << kSeed << ' ' << round;
     }
     EXPECT_GT(inside, 30);
 }
@@ -109,7 +98,8 @@ TEST(WindingLaws, DoesNotDependOnOrderOrFirstCorner) {
 TEST(WindingLaws, AFoldedVertexIsCountedOnce) {
     const std::vector<Corners> surface = surface_of(folded_corner());
     for (const double z : {-0.5, -0.25, -1.0, -2.0, 0.5, 3.0, -10.0}) {
-        ASSERT_EQ(winding(surface, {0, 0, -20}, {0, 0, z}), exact_winding(surface, {0, 0, z})) << z;
+        ASSERT_EQ(sum_of_terms(surface, {0, 0, -20}, {0, 0, z}), exact_winding(surface, {0, 0, z}))
+            << z;
     }
     EXPECT_EQ(exact_winding(surface, {0, 0, -0.5}), 1);  // where once per sign says 0
 }
@@ -121,7 +111,7 @@ TEST(WindingLaws, ACubeAmongHalfIntegersFromItsCentre) {
         const Double3 q{(i % 9 - 4) / 2.0, (i / 9 % 9 - 4) / 2.0, (i / 81 - 4) / 2.0};
         const double far = std::max({std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
         const auto found =
-            winding(cube, q == Double3{0, 0, 0} ? Double3{1, 1, 1} : Double3{0, 0, 0}, q);
+            sum_of_terms(cube, q == Double3{0, 0, 0} ? Double3{1, 1, 1} : Double3{0, 0, 0}, q);
         ASSERT_EQ(found, far == 1 ? std::nullopt : std::optional(far < 1 ? 1 : 0)) << i;
     }
 }
@@ -131,14 +121,14 @@ TEST(WindingLaws, ShellsAddUp) {
     const TestMesh small = moved_by(unit_cube(), 1, {1, 1, 1});
     const TestMesh large = moved_by(unit_cube(), 3, {0, 0, 0});
     const Double3 core{1.5, 1.5, 1.5}, o{1.5, 1.5, -4};
-    EXPECT_EQ(winding(surface_of(joined(small, large)), o, core), 2);
-    EXPECT_EQ(winding(surface_of(joined(reversed(small), large)), o, core), 0);
-    EXPECT_EQ(winding(surface_of(reversed(small)), o, core), -1);
+    EXPECT_EQ(sum_of_terms(surface_of(joined(small, large)), o, core), 2);
+    EXPECT_EQ(sum_of_terms(surface_of(joined(reversed(small), large)), o, core), 0);
+    EXPECT_EQ(sum_of_terms(surface_of(reversed(small)), o, core), -1);
     const TestMesh beside = joined(unit_cube(), moved_by(unit_cube(), 1, {1, 1, 0}));
-    EXPECT_EQ(winding(surface_of(beside), {0.5, 0.5, -4}, {0.5, 0.5, 0.5}), 1);
-    EXPECT_EQ(winding(surface_of(beside), {1.5, 0.5, -4}, {1.5, 0.5, 0.5}), 0);
+    EXPECT_EQ(sum_of_terms(surface_of(beside), {0.5, 0.5, -4}, {0.5, 0.5, 0.5}), 1);
+    EXPECT_EQ(sum_of_terms(surface_of(beside), {1.5, 0.5, -4}, {1.5, 0.5, 0.5}), 0);
     const TestMesh shifted = joined(unit_cube(), moved_by(unit_cube(), 1, {0.5, 0.5, 0.5}));
-    EXPECT_EQ(winding(surface_of(shifted), {0.75, 0.75, -4}, {0.75, 0.75, 0.75}), 2);
+    EXPECT_EQ(sum_of_terms(surface_of(shifted), {0.75, 0.75, -4}, {0.75, 0.75, 0.75}), 2);
 }
 
 // The definition of the winding number by angles, away from the surface.
@@ -158,7 +148,7 @@ TEST(SolidAngle, AddsUpToTheWindingNumber) {
             const Double3 q{scale * x, scale * y, scale * z};
             double angle = 0;
             for (const Corners& t : surface) angle += solid_angle(q, t);
-            const auto exact = winding(surface, {scale * 9, scale * 8, scale * 7}, q);
+            const auto exact = sum_of_terms(surface, {scale * 9, scale * 8, scale * 7}, q);
             ASSERT_TRUE(exact);
             ASSERT_NEAR(angle / (4 * std::numbers::pi), *exact, 1e-9) << kSeed << ' ' << round;
             inside += *exact != 0 ? 1 : 0;

@@ -13,14 +13,11 @@
 #include "support/hard_hulls.h"
 #include "support/hull_pairs.h"
 #include "support/meshes.h"
+#include "support/placements.h"
 #include "support/small_hull.h"
 
 namespace cdprep::test {
 namespace {
-
-Placement shifted(const Double3& t) {
-    return Placement::b_moves(pose_of({1, 0, 0, 0, 1, 0, 0, 0, 1}, t));
-}
 
 /// What the four questions answer about two hulls.
 struct Answered {

@@ -7,14 +7,11 @@
 #include <random>
 
 #include "support/hull_pairs.h"
+#include "support/placements.h"
 #include "support/small_hull.h"
 
 namespace cdprep::test {
 namespace {
-
-Placement shifted(const Double3& t) {
-    return Placement::b_moves(pose_of({1, 0, 0, 0, 1, 0, 0, 0, 1}, t));
-}
 
 // By hand: half a unit of two boxes in common along x; B leaves along +x.
 TEST(ConvexPenetration, TakesBOutOfA) {

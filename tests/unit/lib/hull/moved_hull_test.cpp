@@ -40,16 +40,16 @@ TEST(MovedHull, TheProvenPointHasTheProvenValue) {
         const Double3 origin = moved.point(0);
         for (const auto& t : hull.triangles()) {
             const Double3 a = moved.point(t[0]);
-            const Double3 direction = cross(moved.point(t[1]) - a, moved.point(t[2]) - a);
+            const Double3 direction = cdprep::cross(moved.point(t[1]) - a, moved.point(t[2]) - a);
             const std::uint32_t near = moved.farthest(direction, 0);
             const kernels::FarthestPoint found = moved.proven(direction, origin, near);
-            ASSERT_EQ(found.value, dot(moved.point(found.number) - origin, direction));
+            ASSERT_EQ(found.value, cdprep::dot(moved.point(found.number) - origin, direction));
             const double along = moved.bound_along(direction, origin);
             ASSERT_LE(along, found.bound + 1e-12);
             moved.each_point([&](std::uint32_t, const Double3& p) {
-                ASSERT_LE(dot(p - origin, direction), found.bound);
-                ASSERT_LE(dot(p - origin, direction), found.value);
-                ASSERT_LE(dot(p - origin, direction), along);
+                ASSERT_LE(cdprep::dot(p - origin, direction), found.bound);
+                ASSERT_LE(cdprep::dot(p - origin, direction), found.value);
+                ASSERT_LE(cdprep::dot(p - origin, direction), along);
             });
             others += found.number != near ? 1 : 0;
             ++asked;

@@ -11,6 +11,7 @@
 #include "support/exact_contact.h"
 #include "support/exact_rational.h"
 #include "support/open_tiny.h"
+#include "support/random_pose.h"
 
 namespace cdprep::test {
 namespace {
@@ -19,10 +20,6 @@ std::optional<RayHit> cast(const TestMesh& mesh, const Ray& ray, const RayOption
     const OpenModel model = open_tiny(mesh, {.double_precision = true});
     Workspace workspace;
     return cast_ray(model.model, ray, workspace, options);
-}
-
-TestMesh one_triangle() {
-    return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}}};
 }
 
 // By hand: the bottom of the unit cube, one unit above the origin of the ray.
@@ -53,13 +50,13 @@ TEST(CastRay, EdgesAndCornersHitAndTheLowestTriangleAnswers) {
 // By hand, in the plane of the triangle: enters at x = 0, starts inside, runs
 // along an edge, passes by, points away.
 TEST(CastRay, RaysInTheTrianglesPlaneHitWhereTheyEnter) {
-    EXPECT_EQ(cast(one_triangle(), {{-1, 1, 0}, {1, 0, 0}})->t, 1.0);
-    EXPECT_EQ(cast(one_triangle(), {{1, 1, 0}, {1, 0, 0}})->t, 0.0);
-    EXPECT_EQ(cast(one_triangle(), {{-2, 0, 0}, {1, 0, 0}})->t, 2.0);
-    EXPECT_EQ(cast(one_triangle(), {{-1, 5, 0}, {1, -1, 0}})->t, 1.0);
-    EXPECT_FALSE(cast(one_triangle(), {{-1, 6, 0}, {1, -1, 0}}));
-    EXPECT_FALSE(cast(one_triangle(), {{-1, 1, 0}, {-1, 0, 0}}));
-    EXPECT_FALSE(cast(one_triangle(), {{5, 1, 0}, {1, 0, 0}}));
+    EXPECT_EQ(cast(right_triangle(), {{-1, 1, 0}, {1, 0, 0}})->t, 1.0);
+    EXPECT_EQ(cast(right_triangle(), {{1, 1, 0}, {1, 0, 0}})->t, 0.0);
+    EXPECT_EQ(cast(right_triangle(), {{-2, 0, 0}, {1, 0, 0}})->t, 2.0);
+    EXPECT_EQ(cast(right_triangle(), {{-1, 5, 0}, {1, -1, 0}})->t, 1.0);
+    EXPECT_FALSE(cast(right_triangle(), {{-1, 6, 0}, {1, -1, 0}}));
+    EXPECT_FALSE(cast(right_triangle(), {{-1, 1, 0}, {-1, 0, 0}}));
+    EXPECT_FALSE(cast(right_triangle(), {{5, 1, 0}, {1, 0, 0}}));
 }
 
 TEST(CastRay, TrianglesWithoutAreaAnswerAsSegments) {
@@ -85,7 +82,7 @@ TEST(CastRay, ScaleDoesNotMatter) {
 }
 
 /// Exact for small integers: where line and plane cross, as a fraction.
-struct Crossing {
+struct RayCrossing {
     long long numerator;
     long long denominator;  ///< > 0
 };
@@ -107,7 +104,7 @@ Integers integers(const Double3& p) {
 
 /// The textbook test in integers: plane, then three half-planes. Nothing when the
 /// ray is parallel to the plane.
-std::optional<Crossing> exact_crossing(const Ray& ray, const std::array<Double3, 3>& t) {
+std::optional<RayCrossing> exact_crossing(const Ray& ray, const std::array<Double3, 3>& t) {
     const Integers o = integers(ray.origin), d = integers(ray.direction);
     const Integers a = integers(t[0]), b = integers(t[1]), c = integers(t[2]);
     const Integers n = cross(minus(b, a), minus(c, a));
@@ -125,7 +122,7 @@ std::optional<Crossing> exact_crossing(const Ray& ray, const std::array<Double3,
         return dot(n, cross(minus(v, u), at)) >= 0;
     };
     if (!inside(a, b) || !inside(b, c) || !inside(c, a)) return std::nullopt;
-    return Crossing{num, den};
+    return RayCrossing{num, den};
 }
 
 bool is_parallel(const Ray& ray, const std::array<Double3, 3>& t) {
@@ -150,7 +147,7 @@ TEST(CastRayLaws, AgreesWithIntegersOnACoarseGrid) {
             const Ray ray{{ox, oy, oz}, {dx, dy, dz}};
             if (dx == 0 && dy == 0 && dz == 0) continue;
             bool parallel = false;
-            std::optional<Crossing> nearest;
+            std::optional<RayCrossing> nearest;
             for (const Triangle& triangle : mesh.triangles) {
                 const std::array<Double3, 3> t = {mesh.positions[triangle.vertex[0]],
                                                   mesh.positions[triangle.vertex[1]],
@@ -260,12 +257,6 @@ bool truly_hits(const Ray& ray, const std::array<Double3, 3>& corners) {
         if (dot(d, cross(t[i], t[(i + 1) % 3])).sign() * along < 0) return false;
     }
     return true;
-}
-
-Double3 fine_point(std::mt19937& random, double size) {
-    std::uniform_real_distribution<double> place(-size, size);
-    const double x = place(random), y = place(random), z = place(random);
-    return {x, y, z};
 }
 
 // The oracle: exact numbers. Rays aimed at points of edges, from near and from far beyond

@@ -24,21 +24,17 @@ ExactRational exact_nearest(const TestMesh& mesh, const Double3& q) {
     return best;
 }
 
-ExactRational square(double x) {
-    return {ExactNumber(x) * ExactNumber(x), 1.0};
-}
-
 /// Interval, triangle and limit, all against exact numbers.
 void expect_truth(const TestMesh& mesh, const OpenModel& model, const Double3& q,
                   Workspace& workspace, int round) {
     const ExactRational truth = exact_nearest(mesh, q);
     const auto hit = closest_point(model.model, q, workspace);
     ASSERT_TRUE(hit) << round;
-    ASSERT_LE(square(hit->lower), truth) << round;
-    ASSERT_GE(square(hit->upper), truth) << round;
+    ASSERT_LE(exact_square(hit->lower), truth) << round;
+    ASSERT_GE(exact_square(hit->upper), truth) << round;
     const auto of_triangle = exact_squared_distance(q, corners_of(mesh, hit->triangle, nullptr));
     const double width = hit->upper - hit->lower;
-    ASSERT_LE(of_triangle, square(hit->upper + 2 * width + 0x1p-1060)) << round;
+    ASSERT_LE(of_triangle, exact_square(hit->upper + 2 * width + 0x1p-1060)) << round;
     // The limit: nothing within is missed, nothing beyond is found.
     ASSERT_TRUE(closest_point(model.model, q, workspace, hit->upper)) << round;
     if (const double less = hit->lower * (1 - 1e-6); less < hit->lower) {

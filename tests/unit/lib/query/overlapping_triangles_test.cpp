@@ -5,13 +5,10 @@
 
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
+#include "support/placements.h"
 
 namespace cdprep::test {
 namespace {
-
-Placement shifted(double x, double y, double z) {
-    return Placement::b_moves(Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, x, y, z}).value());
-}
 
 std::vector<TrianglePair> ask(const TestMesh& a, const TestMesh& b, const Placement& placement,
                               const PairOptions& options = {}) {
@@ -23,22 +20,22 @@ std::vector<TrianglePair> ask(const TestMesh& a, const TestMesh& b, const Placem
 
 // By hand: the face x = 1 of one cube lies on the face x = 0 of the other.
 TEST(OverlappingTriangles, TouchingFacesCount) {
-    const auto pairs = ask(unit_cube(), unit_cube(), shifted(1, 0, 0));
+    const auto pairs = ask(unit_cube(), unit_cube(), shifted({1, 0, 0}));
     EXPECT_FALSE(pairs.empty());
-    EXPECT_TRUE(ask(unit_cube(), unit_cube(), shifted(1.0000001, 0, 0)).empty());
+    EXPECT_TRUE(ask(unit_cube(), unit_cube(), shifted({1.0000001, 0, 0})).empty());
 }
 
 // By hand: touching cubes share area on the common face alone, and both diagonals
 // run alike there, so each half face lies on one half of the other.
 TEST(OverlappingTriangles, ProperLeavesOutWhatOnlyTouches) {
     const auto pairs =
-        ask(unit_cube(), unit_cube(), shifted(1, 0, 0), {.overlap = Overlap::proper});
+        ask(unit_cube(), unit_cube(), shifted({1, 0, 0}), {.overlap = Overlap::proper});
     for (const TrianglePair& pair : pairs) {
         EXPECT_TRUE(pair.a >= 10 && (pair.b == 8 || pair.b == 9)) << pair.a << " " << pair.b;
     }
     EXPECT_EQ(pairs.size(), 2u);
     EXPECT_TRUE(
-        ask(unit_cube(), unit_cube(), shifted(1, 1, 0), {.overlap = Overlap::proper}).empty());
+        ask(unit_cube(), unit_cube(), shifted({1, 1, 0}), {.overlap = Overlap::proper}).empty());
 }
 
 // A law: the pairs come in rising order, and a short span gets the first of them.
@@ -68,9 +65,9 @@ TEST(OverlappingTriangles, NestedShellsStayApart) {
     const OpenModel inside = open_tiny(moved_by(outer, 0.997, {}), {.double_precision = true});
     const OpenModel outside = open_tiny(outer, {.double_precision = true});
     Workspace workspace;
-    EXPECT_EQ(overlaps({outside.model, inside.model, shifted(0, 0, 0)}, workspace, {}), 0u);
+    EXPECT_EQ(overlaps({outside.model, inside.model, shifted({0, 0, 0})}, workspace, {}), 0u);
     const PairOptions solid = {.body = Body::solid};
-    EXPECT_TRUE(collide({outside.model, inside.model, shifted(0, 0, 0), solid}, workspace).hit ==
+    EXPECT_TRUE(collide({outside.model, inside.model, shifted({0, 0, 0}), solid}, workspace).hit ==
                 Answer::yes);
 }
 
@@ -79,7 +76,7 @@ TEST(OverlappingTriangles, ParallelSheetsMeetOnlyWhenTheyCoincide) {
     const OpenModel sheet = open_tiny(grid_sheet(150, 150));
     Workspace workspace;
     const auto count = [&](double z) {
-        return overlaps({sheet.model, sheet.model, shifted(0.25, 0.25, z)}, workspace, {});
+        return overlaps({sheet.model, sheet.model, shifted({0.25, 0.25, z})}, workspace, {});
     };
     EXPECT_EQ(count(0x1p-20), 0u);
     EXPECT_EQ(count(-0x1p-1000), 0u);
@@ -90,7 +87,7 @@ TEST(OverlappingTriangles, ParallelSheetsMeetOnlyWhenTheyCoincide) {
 TEST(OverlappingTriangles, OneTriangleMeetsMany) {
     const TestMesh sphere = icosphere(5);
     const TestMesh slice{{{-9, -9, 0.25}, {9, -9, 0.5}, {0, 9, 0.75}}, {{{0, 1, 2}}}};
-    const Placement same = shifted(0, 0, 0);
+    const Placement same = shifted({0, 0, 0});
     const auto pairs = ask(sphere, slice, same);
     EXPECT_EQ(pairs, brute_force_pairs(in_floats(sphere), slice, same));
     EXPECT_GT(pairs.size(), 200u);
@@ -99,18 +96,18 @@ TEST(OverlappingTriangles, OneTriangleMeetsMany) {
 // B06: by construction every triangle of the fan holds the origin.
 TEST(OverlappingTriangles, ProbeAtTheHubMeetsTheWholeFan) {
     const TestMesh probe{{{0, 0, 0}, {1, 0, -1}, {0, 1, -1}}, {{{0, 1, 2}}}};
-    EXPECT_EQ(ask(fan(20000), probe, shifted(0, 0, 0)).size(), 20000u);
+    EXPECT_EQ(ask(fan(20000), probe, shifted({0, 0, 0})).size(), 20000u);
 }
 
 // B11: an empty model overlaps nothing, a point answers as the point that it is.
 TEST(OverlappingTriangles, TrivialMeshesHaveDefinedAnswers) {
-    EXPECT_TRUE(ask({}, unit_cube(), shifted(0, 0, 0)).empty());
-    EXPECT_TRUE(ask({}, {}, shifted(0, 0, 0)).empty());
+    EXPECT_TRUE(ask({}, unit_cube(), shifted({0, 0, 0})).empty());
+    EXPECT_TRUE(ask({}, {}, shifted({0, 0, 0})).empty());
     const TestMesh point{{{0.5, 0.5, 0}}, {{{0, 0, 0}}}};
-    EXPECT_EQ(ask(unit_cube(), point, shifted(0, 0, 0)).size(), 2u);  // on a face's diagonal
-    EXPECT_TRUE(ask(unit_cube(), point, shifted(0, 0, 0.5)).empty());
+    EXPECT_EQ(ask(unit_cube(), point, shifted({0, 0, 0})).size(), 2u);  // on a face's diagonal
+    EXPECT_TRUE(ask(unit_cube(), point, shifted({0, 0, 0.5})).empty());
     EXPECT_TRUE(
-        ask(unit_cube(), point, shifted(0, 0, 0), {.degenerate = Degenerate::skip}).empty());
+        ask(unit_cube(), point, shifted({0, 0, 0}), {.degenerate = Degenerate::skip}).empty());
 }
 
 // B10, B09: boxes of extreme shapes still hold their triangles.
@@ -124,8 +121,9 @@ TEST(OverlappingTriangles, MeetsItselfAtExtremeScales) {
                   brute_force_pairs(torus_mesh, torus_mesh, same))
             << "scale " << scale;
     }
-    EXPECT_EQ(ask(geometric_progression(100), geometric_progression(100), shifted(0, 0, 0)).size(),
-              100u);
+    EXPECT_EQ(
+        ask(geometric_progression(100), geometric_progression(100), shifted({0, 0, 0})).size(),
+        100u);
 }
 
 // A small model inside the coordinate range of one 2^300 times as large.

@@ -6,13 +6,10 @@
 #include "cdprep/pairs.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
+#include "support/placements.h"
 
 namespace cdprep::test {
 namespace {
-
-Placement shifted(double x, double y, double z) {
-    return Placement::b_moves(Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, x, y, z}).value());
-}
 
 std::uint64_t decided(const QueryCounts& counts) {
     return counts.by_kernel + counts.by_corner + counts.by_filter + counts.by_exact;
@@ -27,7 +24,7 @@ TEST(QueryCounts, SayWhatOnePairOfTrianglesTakes) {
     Workspace workspace;
     QueryCounts counts;
     workspace.count_into(&counts);
-    EXPECT_EQ(overlaps({a.model, b.model, shifted(0, 0, 0)}, workspace, {}), 1u);
+    EXPECT_EQ(overlaps({a.model, b.model, shifted({0, 0, 0})}, workspace, {}), 1u);
     EXPECT_EQ(counts.box_pairs, 1u);
     EXPECT_EQ(counts.node_pairs, 1u);
     EXPECT_EQ(counts.leaf_pairs, 1u);
@@ -36,7 +33,7 @@ TEST(QueryCounts, SayWhatOnePairOfTrianglesTakes) {
     EXPECT_EQ(decided(counts), 1u);
 
     workspace.count_into(nullptr);
-    EXPECT_EQ(overlaps({a.model, b.model, shifted(0, 0, 0)}, workspace, {}), 1u);
+    EXPECT_EQ(overlaps({a.model, b.model, shifted({0, 0, 0})}, workspace, {}), 1u);
     EXPECT_EQ(counts.box_pairs, 1u);
 }
 
@@ -47,14 +44,15 @@ TEST(QueryCounts, SayWhichStageDecided) {
     Workspace workspace;
     QueryCounts itself;
     workspace.count_into(&itself);
-    const std::size_t pairs = overlaps({sheet.model, sheet.model, shifted(0, 0, 0)}, workspace, {});
+    const std::size_t pairs =
+        overlaps({sheet.model, sheet.model, shifted({0, 0, 0})}, workspace, {});
     EXPECT_EQ(itself.by_corner, pairs);
     EXPECT_EQ(itself.by_kernel, 0u);
 
     QueryCounts aside;
     workspace.count_into(&aside);
     const std::size_t covered =
-        overlaps({sheet.model, sheet.model, shifted(0.3125, 0.1875, 0)}, workspace, {});
+        overlaps({sheet.model, sheet.model, shifted({0.3125, 0.1875, 0})}, workspace, {});
     EXPECT_EQ(aside.by_corner, 0u);
     EXPECT_GE(aside.by_exact, covered);
     EXPECT_GT(covered, 500u);
@@ -71,7 +69,7 @@ TEST(QueryCounts, AreTakenForEveryQuestionAboutTwoModels) {
         workspace.count_into(nullptr);
         return counts;
     };
-    const Placement near = shifted(2.01, 0, 0), crossing = shifted(1, 0, 0);
+    const Placement near = shifted({2.01, 0, 0}), crossing = shifted({1, 0, 0});
     const QueryCounts hit = taken([&] {
         EXPECT_TRUE(collide({ball.model, ball.model, crossing}, workspace).hit == Answer::yes);
     });
@@ -90,7 +88,8 @@ TEST(QueryCounts, AreTakenForEveryQuestionAboutTwoModels) {
     // A gap so narrow that double tells it too widely.
     const OpenModel cube = open_tiny(unit_cube());
     const QueryCounts narrow = taken([&] {
-        EXPECT_TRUE(distance({cube.model, cube.model, shifted(1 + 1e-9, 0.25, 0.125)}, workspace));
+        EXPECT_TRUE(
+            distance({cube.model, cube.model, shifted({1 + 1e-9, 0.25, 0.125})}, workspace));
     });
     EXPECT_GT(narrow.measured_again, 0u);
     const QueryCounts near_enough = taken([&] {

@@ -36,22 +36,22 @@ test::TestMesh welded(test::TestMesh mesh) {
     return mesh;
 }
 
-struct Pair {
+struct VisitedPair {
     std::uint32_t a, b;  ///< of the mesh, a < b
     bool certain;
-    auto operator<=>(const Pair&) const = default;
+    auto operator<=>(const VisitedPair&) const = default;
 };
 
 constexpr std::size_t kNoEnd = std::numeric_limits<std::size_t>::max();
 
 /// Interrupts each part every so many steps.
-std::vector<Pair> walk(const test::TestMesh& mesh, build::Quality quality,
-                       std::size_t steps = kNoEnd) {
+std::vector<VisitedPair> walk(const test::TestMesh& mesh, build::Quality quality,
+                              std::size_t steps = kNoEnd) {
     const build::Bvh bvh = build::build_bvh(
         mesh.positions, mesh.triangles, {.bounds = build::BvhBounds::aligned, .quality = quality});
     const SelfWalk walk(bvh, mesh.triangles, serial_for);
     Workspace workspace;
-    std::vector<Pair> pairs;
+    std::vector<VisitedPair> pairs;
     for (std::size_t part = 0; part < walk.part_count(); ++part) {
         SelfWalk::Rest rest = walk.part(part);
         const auto found = [&](const SelfPair& pair) {
@@ -75,7 +75,7 @@ struct Tally {
 /// The oracle: the exact test on every pair.
 void expect_all_contacts(const test::TestMesh& mesh, Tally& tally) {
     for (const build::Quality quality : {build::Quality::fast, build::Quality::best}) {
-        const std::vector<Pair> pairs = walk(mesh, quality);
+        const std::vector<VisitedPair> pairs = walk(mesh, quality);
         auto next = pairs.begin();
         for (std::uint32_t a = 0; a < mesh.triangles.size(); ++a) {
             for (std::uint32_t b = a + 1; b < mesh.triangles.size(); ++b) {
@@ -140,7 +140,7 @@ TEST(SelfWalk, FewPairsAreLeftOpenOnASmoothSurface) {
 // A part goes on where it was interrupted: by definition the pairs are those of one run.
 TEST(SelfWalk, InterruptedAnywhereItFindsTheSamePairs) {
     const test::TestMesh mesh = test::random_soup(5, 3000, 1.2);
-    const std::vector<Pair> whole = walk(mesh, build::Quality::fast);
+    const std::vector<VisitedPair> whole = walk(mesh, build::Quality::fast);
     EXPECT_GT(whole.size(), 1000u);
     for (const std::size_t steps : {1, 2, 7}) {
         EXPECT_EQ(walk(mesh, build::Quality::fast, steps), whole) << steps;

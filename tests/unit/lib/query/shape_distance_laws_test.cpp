@@ -12,13 +12,10 @@
 #include "support/exact_distance.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
+#include "support/touched.h"
 
 namespace cdprep::test {
 namespace {
-
-ExactRational square(double x) {
-    return {ExactNumber(x) * ExactNumber(x), 1.0};
-}
 
 /// The square of the distance to the surface, by all triangles in exact numbers.
 ExactRational nearest(const TestMesh& mesh, const Pose& pose, const Corners& shape) {
@@ -45,8 +42,8 @@ void expect_truth(const TestMesh& mesh, const Model& model, const TriangleShape&
     const ExactRational truth = nearest(mesh, pose, shape.corner);
     const auto found = shape_distance(model, shape, workspace, {.world_from_model = pose});
     ASSERT_TRUE(found);
-    ASSERT_LE(square(found->lower), truth);
-    ASSERT_GE(square(found->upper), truth);
+    ASSERT_LE(exact_square(found->lower), truth);
+    ASSERT_GE(exact_square(found->upper), truth);
     ASSERT_EQ(found->upper == 0, truth.sign() == 0);
     const double size = largest(mesh, pose, shape.corner);
     ASSERT_LE(found->upper - found->lower, 1e-12 * found->lower + 1e-15 * size);
@@ -56,7 +53,7 @@ void expect_truth(const TestMesh& mesh, const Model& model, const TriangleShape&
     ASSERT_NEAR(apart, found->upper, 1e-12 * size);
     const ExactRational of_triangle =
         exact_squared_distance(shape.corner, corners_of(mesh, found->triangle, &pose));
-    ASSERT_LE(of_triangle, square(found->upper));
+    ASSERT_LE(of_triangle, exact_square(found->upper));
     const auto found_within = [&](double limit) {
         const ShapeOptions options = {.world_from_model = pose, .max_distance = limit};
         return shape_distance(model, shape, workspace, options).has_value();
@@ -75,7 +72,7 @@ void expect_truth_around_edge(const TestMesh& mesh, const Model& model, const Tr
     const Capsule capsule = {segment[0], segment[1], radius};
     const auto found = shape_distance(model, capsule, workspace, {.world_from_model = pose});
     ASSERT_TRUE(found);
-    ASSERT_EQ(found->upper == 0, truth <= square(radius));
+    ASSERT_EQ(found->upper == 0, truth <= exact_square(radius));
     if (found->upper == 0) return;
     const auto below = ExactRational(found->lower) + ExactRational(radius);
     const auto above = ExactRational(found->upper) + ExactRational(radius);
@@ -181,13 +178,13 @@ TEST(ShapeDistanceLaws, TheIntervalHoldsTheExactDistanceToABox) {
             for (std::uint32_t t = 1; t < mesh.triangles.size(); ++t) {
                 truth = std::min(truth, truth_of(t));
             }
-            ASSERT_LE(square(found->lower), truth);
-            ASSERT_GE(square(found->upper), truth);
+            ASSERT_LE(exact_square(found->lower), truth);
+            ASSERT_GE(exact_square(found->upper), truth);
             ASSERT_EQ(found->upper == 0, truth.sign() == 0);
-            ASSERT_LE(truth_of(found->triangle), square(found->upper));
+            ASSERT_LE(truth_of(found->triangle), exact_square(found->upper));
             const double size = std::max(8.0, largest(mesh, pose, {}));
             ASSERT_LE(found->upper - found->lower, 1e-12 * found->lower + 1e-15 * size);
-            ASSERT_LE(to_box(box, found->on_shape), square(1e-15 * size));
+            ASSERT_LE(to_box(box, found->on_shape), exact_square(1e-15 * size));
             const Double3 &p = found->on_model, &q = found->on_shape;
             ASSERT_NEAR(std::hypot(p.x - q.x, p.y - q.y, p.z - q.z), found->upper, 1e-12 * size);
             apart += found->lower > 0 ? 1 : 0;
@@ -200,7 +197,6 @@ TEST(ShapeDistanceLaws, TheIntervalHoldsTheExactDistanceToABox) {
 
 // By hand: infinite limits make half-spaces and wedges. An empty box has no distance.
 TEST(ShapeDistanceLaws, BoxesMayBeOpen) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const OpenModel model =
         open_tiny({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}}}, {.double_precision = true});
     Workspace workspace;

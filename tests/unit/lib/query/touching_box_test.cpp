@@ -13,17 +13,10 @@
 namespace cdprep::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Corners (0, 0, 0), (4, 0, 0), (0, 4, 0).
-TestMesh one_triangle() {
-    return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}}};
-}
-
 // By hand: faces, edges and corners of the box meet the triangle, and just do not.
 TEST(TouchingBox, TouchingCounts) {
     const auto hits = [](const Double3& lower, const Double3& upper) {
-        return !touched(one_triangle(), Box{lower, upper}).empty();
+        return !touched(right_triangle(), Box{lower, upper}).empty();
     };
     EXPECT_TRUE(hits({1, 1, 0}, {2, 2, 1}));  // its face in the triangle's plane
     EXPECT_FALSE(hits({1, 1, 0x1p-1074}, {2, 2, 1}));
@@ -36,11 +29,12 @@ TEST(TouchingBox, TouchingCounts) {
 }
 
 TEST(TouchingBox, FlatBoxesAreRectanglesSegmentsAndPoints) {
-    EXPECT_EQ(touched(one_triangle(), Box{{1, 1, 0}, {2, 2, 0}}).size(), 1u);
-    EXPECT_EQ(touched(one_triangle(), Box{{1, 1, -1}, {1, 1, 1}}).size(), 1u);
-    EXPECT_EQ(touched(one_triangle(), Box{{2, 2, 0}, {2, 2, 0}}).size(), 1u);
-    EXPECT_TRUE(touched(one_triangle(), Box{{2, 2, 1}, {3, 3, 1}}).empty());
-    EXPECT_TRUE(touched(one_triangle(), Box{{2, std::nextafter(2.0, 3.0), 0}, {2, 3, 0}}).empty());
+    EXPECT_EQ(touched(right_triangle(), Box{{1, 1, 0}, {2, 2, 0}}).size(), 1u);
+    EXPECT_EQ(touched(right_triangle(), Box{{1, 1, -1}, {1, 1, 1}}).size(), 1u);
+    EXPECT_EQ(touched(right_triangle(), Box{{2, 2, 0}, {2, 2, 0}}).size(), 1u);
+    EXPECT_TRUE(touched(right_triangle(), Box{{2, 2, 1}, {3, 3, 1}}).empty());
+    EXPECT_TRUE(
+        touched(right_triangle(), Box{{2, std::nextafter(2.0, 3.0), 0}, {2, 3, 0}}).empty());
 }
 
 TEST(TouchingBox, NoBoxTouchesNothing) {

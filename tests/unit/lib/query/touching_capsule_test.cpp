@@ -13,8 +13,6 @@
 namespace cdprep::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Corners (3, 4, -9), (3, 4, 9), (9, 9, 0).
 TestMesh upright() {
     return {{{3, 4, -9}, {3, 4, 9}, {9, 9, 0}}, {{{0, 1, 2}}}};

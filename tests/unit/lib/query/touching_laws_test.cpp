@@ -13,15 +13,10 @@
 #include "support/exact_distance.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
+#include "support/touched.h"
 
 namespace cdprep::test {
 namespace {
-
-using Numbers = std::vector<std::uint32_t>;
-
-ExactRational square(double x) {
-    return {ExactNumber(x) * ExactNumber(x), 1.0};
-}
 
 // The oracles: by the definition, in exact numbers.
 
@@ -29,11 +24,11 @@ bool truly_touches(const Box& box, const Corners& t) {
     return touches_box_by_cutting(t, {box.lower, box.upper});
 }
 bool truly_touches(const Sphere& sphere, const Corners& t) {
-    return exact_squared_distance(sphere.centre, t) <= square(sphere.radius);
+    return exact_squared_distance(sphere.centre, t) <= exact_square(sphere.radius);
 }
 bool truly_touches(const Capsule& capsule, const Corners& t) {
     return exact_squared_distance({capsule.from, capsule.to, capsule.to}, t) <=
-           square(capsule.radius);
+           exact_square(capsule.radius);
 }
 bool truly_touches(const TriangleShape& triangle, const Corners& t) {
     return triangles_touch_by_segments(triangle.corner, t);
@@ -94,12 +89,6 @@ void expect_truth(const TestMesh& mesh, const Model& model, const Shape& shape,
 Double3 whole_point(std::mt19937& random, int reach) {
     std::uniform_int_distribution<int> grid(-reach, reach);
     const double x = grid(random), y = grid(random), z = grid(random);
-    return {x, y, z};
-}
-
-Double3 fine_point(std::mt19937& random, double reach) {
-    std::uniform_real_distribution<double> place(-reach, reach);
-    const double x = place(random), y = place(random), z = place(random);
     return {x, y, z};
 }
 

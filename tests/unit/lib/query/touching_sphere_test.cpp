@@ -13,8 +13,6 @@
 namespace cdprep::test {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // By hand, 3-4-5: the nearest corner of the triangle is five away, its plane, an edge.
 TEST(TouchingSphere, TangentTouches) {
     const TestMesh corner{{{3, 4, 0}, {9, 9, 0}, {9, 4, 0}}, {{{0, 1, 2}}}};

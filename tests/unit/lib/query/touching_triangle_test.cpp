@@ -13,12 +13,8 @@ namespace cdprep::test {
 namespace {
 
 /// Corners (0, 0, 0), (4, 0, 0), (0, 4, 0).
-TestMesh one_triangle() {
-    return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}}};
-}
-
 bool hits(const Double3& a, const Double3& b, const Double3& c) {
-    return !touched(one_triangle(), TriangleShape{{{a, b, c}}}).empty();
+    return !touched(right_triangle(), TriangleShape{{{a, b, c}}}).empty();
 }
 
 // By hand: crossing, an edge in common, a corner in common, in one plane, just beside.

@@ -17,10 +17,6 @@
 namespace cdprep::test {
 namespace {
 
-ExactRational square(double x) {
-    return {ExactNumber(x) * ExactNumber(x), 1.0};
-}
-
 std::vector<TrianglePair> all_within(const Model& a, const Model& b, const Placement& placement,
                                      double tolerance, Workspace& workspace,
                                      const PairOptions& options = {}) {
@@ -55,7 +51,7 @@ std::vector<TrianglePair> brute_force_within(const TestMesh& b,
                                              const std::vector<ExactRational>& squares,
                                              double tolerance) {
     std::vector<TrianglePair> pairs;
-    const ExactRational limit = square(tolerance);
+    const ExactRational limit = exact_square(tolerance);
     for (std::size_t i = 0; i < squares.size(); ++i) {
         const auto of_b = static_cast<std::uint32_t>(b.triangles.size());
         const auto at = static_cast<std::uint32_t>(i);

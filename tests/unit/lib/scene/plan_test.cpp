@@ -101,7 +101,7 @@ TEST(Plan, DecidesEveryEffect) {
 }
 
 TEST(Plan, NamesEveryRefusal) {
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
     const auto made =
         compiled({{.a = 32, .b = 0, .effects = Ask::collide},
                   {.a = 1, .b = 2, .effects = Ask::collide, .tolerance = 1},
@@ -109,12 +109,12 @@ TEST(Plan, NamesEveryRefusal) {
                   {.a = 3,
                    .b = 3,
                    .effects = Ask::distance,
-                   .max_distance = kNan,
+                   .max_distance = kNoNumber,
                    .overlap = Overlap::proper,
                    .contacts = {.tolerance = 2, .most = 8}},
                   {.a = 4,
                    .effects = Ask::contacts,
-                   .contacts = {.tolerance = kNan, .most = 0, .cluster_angle = -1}},
+                   .contacts = {.tolerance = kNoNumber, .most = 0, .cluster_angle = -1}},
                   {.a = 5, .effects = Ask::contacts, .contacts = {.most = 257}}},
                  {}, {.objects = 1U << 30, .pairs = 1, .threads = 0});
     EXPECT_FALSE(made.plan);

@@ -51,11 +51,11 @@ struct Asked {
     }
 };
 
-using Question = std::function<void(Asked&)>;
+using Query = std::function<void(Asked&)>;
 
 /// Asks in every mode: the bytes are those of the default environment, the caller's is what it
 /// was, and visitors ran in it.
-void expect_same_in_every_mode(const std::string& name, const Question& question) {
+void expect_same_in_every_mode(const std::string& name, const Query& question) {
     Asked expected;
     question(expected);
     ASSERT_GT(expected.bytes.size(), 0U) << name;
@@ -72,7 +72,7 @@ void expect_same_in_every_mode(const std::string& name, const Question& question
 }
 
 /// Two models with every structure at one scale, and what is asked of them.
-struct Scene {
+struct ScaledPair {
     std::string name;
     double scale;
     OpenModel a;
@@ -87,7 +87,7 @@ OpenModel open_scaled(TestMesh mesh, double scale) {
     return open_tiny(with_piece_tree(with_every_structure(file, {.boxes = true})));
 }
 
-Scene scene(double scale, double apart) {
+ScaledPair scene(double scale, double apart) {
     const TestMesh ball = icosphere(2);
     const TestMesh ring = turned(torus(1, 0.25, 24, 12), 0.3);
     const Double3 shift = {apart * scale, 0.125 * scale, 0.0625 * scale};
@@ -103,8 +103,8 @@ Scene scene(double scale, double apart) {
 }
 
 /// From all but the largest coordinates to subnormal ones; crossing, nested and apart.
-std::vector<Scene> scenes() {
-    std::vector<Scene> scenes;
+std::vector<ScaledPair> scenes() {
+    std::vector<ScaledPair> scenes;
     for (const double scale : {1.0, 0x1p-1000, 0x1p-1040, 0x1p990}) {
         for (const double apart : {0.2, 2.75}) scenes.push_back(scene(scale, apart));
     }
@@ -112,7 +112,7 @@ std::vector<Scene> scenes() {
 }
 
 TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
-    for (const Scene& s : scenes()) {
+    for (const ScaledPair& s : scenes()) {
         const Model &a = s.a.model, &b = s.b.model;
         Workspace workspace(cells());
         std::vector<Workspace> workspaces(3);
@@ -120,7 +120,7 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
         std::vector<std::uint64_t> bits_a(a.triangle_count() / 64 + 1);
         std::vector<std::uint64_t> bits_b(b.triangle_count() / 64 + 1);
         const double near = 0.125 * s.scale, exactly = 0;
-        const auto each = [&](const char* name, const Question& question) {
+        const auto each = [&](const char* name, const Query& question) {
             expect_same_in_every_mode(s.name + ": " + name, question);
         };
         each("collide", [&](Asked& out) {
@@ -237,10 +237,10 @@ void ask_touching(const Model& model, const Shape& shape, const ShapeOptions& op
 }
 
 TEST(FloatModes, ChangeNoAnswerAboutOneModel) {
-    for (const Scene& s : scenes()) {
+    for (const ScaledPair& s : scenes()) {
         const Model& model = s.b.model;
         Workspace workspace(cells());
-        const auto each = [&](const char* name, const Question& question) {
+        const auto each = [&](const char* name, const Query& question) {
             expect_same_in_every_mode(s.name + ": " + name, question);
         };
         const ShapeOptions turned = {.world_from_model = s.placement.pose_b()};

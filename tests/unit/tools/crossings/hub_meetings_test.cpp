@@ -16,10 +16,10 @@
 namespace cdprep::mesh {
 namespace {
 
-using Pair = std::pair<std::uint32_t, std::uint32_t>;
+using Pair = std::array<std::uint32_t, 2>;
 
 constexpr std::uint32_t kMany = 700;  ///< triangles around a vertex
-constexpr std::uint32_t kSeed = 20261122;
+constexpr std::uint32_t kHubSeed = 20261122;
 
 bool share_a_vertex(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
     const auto& v = mesh.triangles[a].vertex;
@@ -78,7 +78,7 @@ TEST(HubMeetings, OfConesThroughEachOtherNoneIsLeftOut) {
 
 TEST(HubMeetings, OfAStarAndASoupNoneIsLeftOut) {
     const test::TestMesh mesh =
-        test::joined(test::random_star(kSeed, kMany), test::random_soup(kSeed, 300, 0.3));
+        test::joined(test::random_star(kHubSeed, kMany), test::random_soup(kHubSeed, 300, 0.3));
     for (const double scale : {1.0, 0x1p-500, 0x1p500, 0x1p1000}) {
         EXPECT_GT(expect_all_apart(test::moved_by(mesh, scale, {0, 0, 0})), 3000U) << scale;
     }
@@ -86,7 +86,7 @@ TEST(HubMeetings, OfAStarAndASoupNoneIsLeftOut) {
 
 // On a grid much lies in one plane or in line with the hub, or touches it.
 TEST(HubMeetings, OfStarsOnAGridNoneIsLeftOut) {
-    std::mt19937 random(kSeed);
+    std::mt19937 random(kHubSeed);
     const auto number = [&random](std::uint32_t below) {
         return static_cast<std::uint32_t>(random() % below);
     };
@@ -123,7 +123,7 @@ TEST(HubMeetings, OfABookAndASoupNoneIsLeftOut) {
         book.positions.push_back({std::cos(angle), std::sin(angle), 0.5});
         book.triangles.push_back({{0, 1, i + 2}});
     }
-    EXPECT_GT(expect_all_apart(test::joined(book, test::random_soup(kSeed, 300, 0.3))), 1000U);
+    EXPECT_GT(expect_all_apart(test::joined(book, test::random_soup(kHubSeed, 300, 0.3))), 1000U);
 }
 
 /// Counted, so that no machine is too slow: 64 steps a triangle are some 2 us.

@@ -16,7 +16,7 @@
 namespace cdprep::mesh {
 namespace {
 
-constexpr std::uint32_t kSeed = 20261122;
+constexpr std::uint32_t kSearchSeed = 20261122;
 
 struct Outcome {
     std::vector<TriangleMeeting> found;  ///< sorted
@@ -36,10 +36,10 @@ Outcome search(const Mesh& mesh, const SearchLimits& limits, ParallelFor paralle
 
 /// One mesh for each way of searching: a walk, a large star, and both with a hub between.
 std::vector<Mesh> meshes() {
-    const test::TestMesh flat = test::coplanar_soup(kSeed, 1000);
-    const test::TestMesh star = test::random_star(kSeed, 511);
+    const test::TestMesh flat = test::coplanar_soup(kSearchSeed, 1000);
+    const test::TestMesh star = test::random_star(kSearchSeed, 511);
     const test::TestMesh hub =
-        test::joined(test::random_star(kSeed, 600), test::random_soup(kSeed, 500, 0.5));
+        test::joined(test::random_star(kSearchSeed, 600), test::random_soup(kSearchSeed, 500, 0.5));
     return {test::mesh_of(flat), test::mesh_of(star), test::mesh_of(hub)};
 }
 
@@ -146,7 +146,7 @@ bool is_about_pairs(Rule rule) {
 // By definition: fewer pairs than there are, and flagged so; nothing else changes.
 TEST(FindDefects, AtALimitOfPairsCountsAreLowerBounds) {
     const TriangleSoup soup = test::soup_of(test::joined(
-        test::coplanar_soup(kSeed, 1000), test::moved_by(test::unit_cube(), 1, {5, 5, 5})));
+        test::coplanar_soup(kSearchSeed, 1000), test::moved_by(test::unit_cube(), 1, {5, 5, 5})));
     DefectOptions options;
     const DefectReport all = find_defects(soup, options);
     EXPECT_TRUE(all.crossings_complete);
@@ -173,7 +173,7 @@ TEST(FindDefects, AtALimitOfPairsCountsAreLowerBounds) {
 // The cube is sound and nothing meets it, but not every pair was examined.
 TEST(FindDefects, AtALimitNoComponentIsCalledFreeOfCrossings) {
     const TriangleSoup soup = test::soup_of(test::joined(
-        test::moved_by(test::unit_cube(), 1, {5, 5, 5}), test::coplanar_soup(kSeed, 1000)));
+        test::moved_by(test::unit_cube(), 1, {5, 5, 5}), test::coplanar_soup(kSearchSeed, 1000)));
     const DefectReport all = find_defects(soup);
     ASSERT_TRUE(all.verdicts[1].promises & format::promise_simple_solid);
     DefectOptions options;
@@ -191,7 +191,7 @@ TEST(FindDefects, AtALimitNoComponentIsCalledNested) {
     const TriangleSoup soup =
         test::soup_of(test::joined(test::joined(test::moved_by(test::unit_cube(), 3, {9, 9, 9}),
                                                 test::moved_by(test::unit_cube(), 1, {10, 10, 10})),
-                                   test::coplanar_soup(kSeed, 1000)));
+                                   test::coplanar_soup(kSearchSeed, 1000)));
     DefectOptions options;
     EXPECT_EQ(find_defects(soup, options).counts.nested_components, 1U);
     options.max_pairs = 1000;

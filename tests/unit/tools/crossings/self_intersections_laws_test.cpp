@@ -180,10 +180,6 @@ Meeting kind_by_definition(const Mesh& mesh, const Triangle& a, const Triangle& 
                                                                       : Meeting::edge_crossing;
 }
 
-Mesh welded(const test::TestMesh& mesh) {
-    return weld(test::soup_of(mesh)).mesh;
-}
-
 /// A sheet of n x n squares of which some vertices are moved, on a grid where `coarse`.
 test::TestMesh crumpled_sheet(std::uint32_t seed, int n, double by, bool coarse) {
     test::TestMesh sheet = test::grid_sheet(n, n);
@@ -221,7 +217,7 @@ TEST(SelfIntersectionsAgainstCgal, CoarseSoupsHaveTheSamePairsOfTheDefinedKinds)
     std::set<Meeting> kinds;
     for (std::uint32_t seed = kSeed; seed < kSeed + 60; ++seed) {
         const int grid = 1 + static_cast<int>(seed % 3);
-        const Mesh mesh = welded(test::coarse_grid_soup(seed, 40, grid));
+        const Mesh mesh = test::welded(test::coarse_grid_soup(seed, 40, grid));
         const auto found = find_self_intersections(mesh);
         ASSERT_EQ(pairs_of(found), pairs_by_brute_force(mesh, asked)) << "seed " << seed;
         met += found.size();
@@ -239,7 +235,7 @@ TEST(SelfIntersectionsAgainstCgal, CoarseSoupsHaveTheSamePairsOfTheDefinedKinds)
 TEST(SelfIntersectionsAgainstCgal, FineSoupsHaveTheSamePairs) {
     std::size_t asked = 0, met = 0;
     for (std::uint32_t seed = kSeed; seed < kSeed + 20; ++seed) {
-        const Mesh mesh = welded(triangles_in_a_ball(seed, 60));
+        const Mesh mesh = test::welded(triangles_in_a_ball(seed, 60));
         const auto found = find_self_intersections(mesh);
         ASSERT_EQ(pairs_of(found), pairs_by_brute_force(mesh, asked)) << "seed " << seed;
         met += found.size();
@@ -267,7 +263,7 @@ TEST(SelfIntersectionsAgainstCgal, CrumpledSheetsHaveTheSamePairs) {
     for (std::uint32_t seed = kSeed; seed < kSeed + 10; ++seed) {
         for (const double by : {0.7, 0.9, 1.2}) {
             SCOPED_TRACE(testing::Message() << "seed " << seed << ", by " << by);
-            sum += expect_as_cgal(welded(crumpled_sheet(seed, 20, by, false)));
+            sum += expect_as_cgal(test::welded(crumpled_sheet(seed, 20, by, false)));
             ++rounds;
         }
     }
@@ -279,7 +275,7 @@ TEST(SelfIntersectionsAgainstCgal, CrumpledSheetsHaveTheSamePairs) {
 TEST(SelfIntersectionsAgainstCgal, CoarseSheetsHaveTheSamePairs) {
     std::size_t asked = 0, met = 0;
     for (std::uint32_t seed = kSeed; seed < kSeed + 10; ++seed) {
-        const Mesh mesh = welded(crumpled_sheet(seed, 12, 1.5, true));
+        const Mesh mesh = test::welded(crumpled_sheet(seed, 12, 1.5, true));
         const auto found = find_self_intersections(mesh);
         ASSERT_EQ(pairs_of(found), pairs_by_brute_force(mesh, asked)) << "seed " << seed;
         met += found.size();
@@ -291,8 +287,8 @@ TEST(SelfIntersectionsAgainstCgal, CoarseSheetsHaveTheSamePairs) {
 TEST(SelfIntersectionsAgainstCgal, BodiesThroughEachOtherHaveTheSamePairs) {
     const test::TestMesh ball = test::icosphere(3);
     const test::TestMesh ring = test::torus(1, 0.25, 40, 20);
-    EXPECT_GT(expect_as_cgal(welded(test::joined(ball, ring))), 0.03);
-    EXPECT_GT(expect_as_cgal(welded(test::joined(
+    EXPECT_GT(expect_as_cgal(test::welded(test::joined(ball, ring))), 0.03);
+    EXPECT_GT(expect_as_cgal(test::welded(test::joined(
                   test::unit_cube(), test::moved_by(test::unit_cube(), 1, {0.5, 0, 0})))),
               0.5);
 }
@@ -302,18 +298,19 @@ TEST(SelfIntersections, ScaleAndPlaceChangeNothing) {
     for (std::uint32_t seed = kSeed; seed < kSeed + 6; ++seed) {
         for (const test::TestMesh& mesh :
              {test::coarse_grid_soup(seed, 200, 6), crumpled_sheet(seed, 12, 1.5, true)}) {
-            const auto found = find_self_intersections(welded(mesh));
+            const auto found = find_self_intersections(test::welded(mesh));
             EXPECT_FALSE(found.empty());
             for (const double scale :
                  {0x1p-40, 0x1p40, 0x1p-300, 0x1p300, 0x1p-900, 0x1p900, 0x1p1019}) {
-                EXPECT_EQ(find_self_intersections(welded(test::moved_by(mesh, scale, {0, 0, 0}))),
-                          found)
+                EXPECT_EQ(
+                    find_self_intersections(test::welded(test::moved_by(mesh, scale, {0, 0, 0}))),
+                    found)
                     << scale;
             }
             for (const double away : {0x1p10, 0x1p30, 0x1p48}) {
-                EXPECT_EQ(
-                    find_self_intersections(welded(test::moved_by(mesh, 1, {away, -away, away}))),
-                    found)
+                EXPECT_EQ(find_self_intersections(
+                              test::welded(test::moved_by(mesh, 1, {away, -away, away}))),
+                          found)
                     << away;
             }
         }
@@ -323,13 +320,13 @@ TEST(SelfIntersections, ScaleAndPlaceChangeNothing) {
 TEST(SelfIntersections, FarFromTheOriginTheyAreCgals) {
     for (const double away : {1e3, 1e7, 1e12}) {
         const test::TestMesh sheet = crumpled_sheet(kSeed, 20, 0.9, false);
-        const Mesh mesh = welded(test::moved_by(sheet, 1, {away, away / 3, -away}));
+        const Mesh mesh = test::welded(test::moved_by(sheet, 1, {away, away / 3, -away}));
         EXPECT_GT(expect_as_cgal(mesh), 0.1);
     }
 }
 
 TEST(SelfIntersections, AnyNumberOfThreadsGivesTheSame) {
-    const Mesh mesh = welded(crumpled_sheet(kSeed, 150, 0.6, false));
+    const Mesh mesh = test::welded(crumpled_sheet(kSeed, 150, 0.6, false));
     const auto found = find_self_intersections(mesh);
     EXPECT_GT(found.size(), 1000u);
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end(), [](const auto& x, const auto& y) {
@@ -346,7 +343,7 @@ TEST(SelfIntersections, AnyNumberOfThreadsGivesTheSame) {
 TEST(SelfIntersections, TheOrderOfTrianglesChangesNumbersAlone) {
     std::mt19937 random(kSeed);
     for (std::uint32_t seed = kSeed; seed < kSeed + 10; ++seed) {
-        const Mesh mesh = welded(test::coarse_grid_soup(seed, 60, 3));
+        const Mesh mesh = test::welded(test::coarse_grid_soup(seed, 60, 3));
         Mesh mixed = mesh;
         std::vector<std::uint32_t> number(mesh.triangles.size());
         for (std::uint32_t i = 0; i < number.size(); ++i) number[i] = i;

@@ -209,7 +209,7 @@ TEST(SelfIntersections, AnEmptyMeshHasNone) {
 TEST(SelfIntersections, AClosedConvexSurfaceHasNone) {
     for (const test::TestMesh& mesh : {test::unit_cube(), test::icosphere(4),
                                        test::grid_sheet(9, 7), test::torus(3, 1, 40, 20)}) {
-        EXPECT_TRUE(find_self_intersections(weld(test::soup_of(mesh)).mesh).empty());
+        EXPECT_TRUE(find_self_intersections(test::welded(mesh)).empty());
     }
 }
 

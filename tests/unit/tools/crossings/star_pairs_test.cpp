@@ -20,7 +20,7 @@ namespace {
 using Pair = std::array<std::uint32_t, 2>;
 
 /// Triangles around vertex 0.
-struct Star {
+struct GrowingStar {
     Mesh mesh;
 
     std::uint32_t add_point(const Double3& p) {
@@ -89,7 +89,7 @@ TEST(StarPairs, OfRandomStarsNoneIsLeftOut) {
     std::uniform_real_distribution<double> around(-1, 1);
     for (const double scale : {1.0, 0x1p-500, 0x1p1022}) {
         for (const double away : {0.0, 0.5}) {
-            Star star;
+            GrowingStar star;
             const auto point = [&](const Double3& p) {
                 return star.add_point({scale * (p.x + away), scale * (p.y + away), scale * p.z});
             };
@@ -114,7 +114,7 @@ TEST(StarPairs, OfRandomStarsNoneIsLeftOut) {
 TEST(StarPairs, OfStarsOnAGridNoneIsLeftOut) {
     std::mt19937 random(8);
     for (const int grid : {1, 2, 3}) {
-        Star star;
+        GrowingStar star;
         star.add_point({0, 0, 0});
         std::vector<std::uint32_t> spokes;
         for (int x = -grid; x <= grid; ++x) {
@@ -143,7 +143,7 @@ TEST(StarPairs, OfBooksThoseAtOneAngleAreLeft) {
     std::mt19937 random(9);
     constexpr std::uint32_t kPages = 300;
     for (const std::uint32_t angles : {7U, 100U, 1000000U}) {
-        Star star;
+        GrowingStar star;
         star.add_point({0, 0, 0});
         for (const Double3& end : {Double3{0, 0, 1}, Double3{1, 0, 0}, Double3{-1, 0, 0}}) {
             const std::uint32_t spine = star.add_point(end);
@@ -166,26 +166,26 @@ TEST(StarPairs, OfBooksThoseAtOneAngleAreLeft) {
 /// What would take minutes pair by pair.
 TEST(StarPairs, OfManyTrianglesFewAreVisited) {
     std::mt19937 random(10);
-    constexpr std::uint32_t kMany = 20000;
-    Star stair, book;
+    constexpr std::uint32_t kSteps = 20000;
+    GrowingStar stair, book;
     stair.add_point({0, 0, 0});
     book.add_point({0, 0, 0});
     const std::uint32_t spine = book.add_point({0, 0, 1});
     const auto step = [](std::uint32_t i) {
-        return Double3{std::cos(0.25 * i), std::sin(0.25 * i), 2.0 * i / kMany - 1};
+        return Double3{std::cos(0.25 * i), std::sin(0.25 * i), 2.0 * i / kSteps - 1};
     };
-    for (std::uint32_t i = 0; i < kMany; ++i) {
+    for (std::uint32_t i = 0; i < kSteps; ++i) {
         const std::uint32_t first = stair.add_point(step(i));
         stair.add(first, stair.add_point(step(i + 1)), random);
-        const double t = 6.283185307179586 * i / kMany;
+        const double t = 6.283185307179586 * i / kSteps;
         book.add(spine, book.add_point({std::cos(t), std::sin(t), 0.5}), random);
     }
-    for (const Star* star : {&stair, &book}) {
+    for (const GrowingStar* star : {&stair, &book}) {
         std::uint64_t visited = 0;
         StarPairs search(star->mesh, 0, all_of(star->mesh));
         while (search.advance([&](std::uint32_t, std::uint32_t) { ++visited; })) {
         }
-        EXPECT_LT(visited, std::uint64_t{kMany} * kMany / 50);
+        EXPECT_LT(visited, std::uint64_t{kSteps} * kSteps / 50);
     }
 }
 

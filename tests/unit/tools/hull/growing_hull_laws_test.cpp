@@ -11,10 +11,10 @@
 namespace cdprep::convex {
 namespace {
 
-/// Points of a coarse grid, where much is coplanar and touches, or of a fine one.
-class Points {
+/// GridPoints of a coarse grid, where much is coplanar and touches, or of a fine one.
+class GridPoints {
 public:
-    Points(std::uint32_t seed, int grid) : random_(seed), grid_(grid) {}
+    GridPoints(std::uint32_t seed, int grid) : random_(seed), grid_(grid) {}
     Double3 one() {
         std::uniform_int_distribution<int> at(-grid_, grid_);
         const double scale = grid_ > 100 ? 1.0 / 3 : 1;
@@ -64,7 +64,7 @@ void expect_hull_of(const GrowingHull& hull, const std::vector<Double3>& points)
 
 TEST(GrowingHull, IsTheHullOfItsPoints) {
     for (const int grid : {2, 4, 1000}) {
-        Points points(grid, grid);
+        GridPoints points(grid, grid);
         for (int round = 0; round < 60; ++round) {
             const std::vector<Double3> all = points.distinct(4 + round % 20);
             GrowingHull hull;
@@ -77,7 +77,7 @@ TEST(GrowingHull, IsTheHullOfItsPoints) {
 
 // A hull that has been another before forgets all of it.
 TEST(GrowingHull, AdoptsAHullAndGrowsOn) {
-    Points points(31, 1000);
+    GridPoints points(31, 1000);
     GrowingHull hull;
     for (int round = 0; round < 60; ++round) {
         const std::vector<Double3> others = points.distinct(20);
@@ -98,7 +98,7 @@ TEST(GrowingHull, AdoptsAHullAndGrowsOn) {
 // The oracle clips the triangle with every facet's plane in exact rationals.
 TEST(GrowingHull, SaysWhetherATriangleHasAPointInside) {
     for (const int grid : {2, 3, 1000}) {
-        Points points(7 + grid, grid);
+        GridPoints points(7 + grid, grid);
         int inside = 0, asked = 0;
         for (int round = 0; round < 40; ++round) {
             const std::vector<Double3> all = points.distinct(4 + round % 5);

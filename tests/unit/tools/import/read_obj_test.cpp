@@ -18,23 +18,13 @@ using mesh::Double3;
 using mesh::Triangle;
 using mesh::TriangleSoup;
 
-Result<TriangleSoup> read(const std::string& text, const ImportOptions& options = {}) {
-    return test::read_text(read_obj, "t.obj", text, options);
-}
-
-TriangleSoup soup(const std::string& text) {
-    return test::sound(read(text), text);
-}
-
-std::string sentence(const std::string& text) {
-    return test::refusal(read(text));
-}
+constexpr test::TextReader kObjReader(read_obj, "t.obj");
 
 const std::string kFour = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const std::vector<Triangle> kOne = {{{0, 1, 2}}};
 
 TEST(ReadObj, ReadsVerticesAndFacesInFileOrder) {
-    const TriangleSoup s = soup("v 1 2.5 -3e1\nv .5 0 0\nv 7 8 9\nf 3 1 2\n");
+    const TriangleSoup s = kObjReader.soup("v 1 2.5 -3e1\nv .5 0 0\nv 7 8 9\nf 3 1 2\n");
     EXPECT_EQ(s.positions, (std::vector<Double3>{{1, 2.5, -30}, {0.5, 0, 0}, {7, 8, 9}}));
     EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{2, 0, 1}}}));
     EXPECT_TRUE(s.single_precision);
@@ -50,42 +40,45 @@ TEST(ReadObj, ReadsEverySpellingOfACorner) {
           "f 1// 2// 3//", "f -4 -3 -2", "f -4/-4/-1 -3/1 -2", "f +1 +2 +3", "f  1\t2   3  ",
           "\t f 1 2 3", "f 1 2 3\r", "f 1 2 3 # a triangle", "f 1 2 3#c", "f 1 \\\n2 3",
           "f 1 2\\\r\n 3", "f 1 2 3 \\\n", "f 01 002 3"}) {
-        EXPECT_EQ(soup(kFour + face + "\n").triangles, kOne) << face;
-        EXPECT_EQ(soup(kFour + face).triangles, kOne) << face << " at the end of the file";
+        EXPECT_EQ(kObjReader.soup(kFour + face + "\n").triangles, kOne) << face;
+        EXPECT_EQ(kObjReader.soup(kFour + face).triangles, kOne)
+            << face << " at the end of the file";
     }
 }
 
 TEST(ReadObj, SkipsWhatIsNoSurface) {
-    const TriangleSoup s =
-        soup("# v 9 9 9\nmtllib a b.mtl\n" + kFour +
-             "vt 0 0\nvn 0 0 1\nvp 1\np 1 2\nl 1 2 3\ns off\ncstype bezier\ncurv 0 1 1 2\nend\n"
-             "\n  \t \n\xff\xfe junk\nf 1 2 3\nf\nf 1\nf 1 2\n");
+    const TriangleSoup s = kObjReader.soup(
+        "# v 9 9 9\nmtllib a b.mtl\n" + kFour +
+        "vt 0 0\nvn 0 0 1\nvp 1\np 1 2\nl 1 2 3\ns off\ncstype bezier\ncurv 0 1 1 2\nend\n"
+        "\n  \t \n\xff\xfe junk\nf 1 2 3\nf\nf 1\nf 1 2\n");
     EXPECT_EQ(s.triangles, kOne);
     EXPECT_EQ(s.positions.size(), 4u);
 }
 
 TEST(ReadObj, IgnoresColoursAndWeights) {
-    const TriangleSoup s = soup("v 1 2 3 0.1 0.2 0.3\nv 4 5 6 1.0\nv 7 8 9 nonsense\nf 1 2 3");
+    const TriangleSoup s =
+        kObjReader.soup("v 1 2 3 0.1 0.2 0.3\nv 4 5 6 1.0\nv 7 8 9 nonsense\nf 1 2 3");
     EXPECT_EQ(s.positions, (std::vector<Double3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
 }
 
 TEST(ReadObj, JoinsContinuedVertexLines) {
-    EXPECT_EQ(soup("v 1 \\\n2 \\\r\n3\n").positions, (std::vector<Double3>{{1, 2, 3}}));
-    EXPECT_EQ(soup("v \\\n1 2 3 \\\n0.5\nv 4 5 6").positions,
+    EXPECT_EQ(kObjReader.soup("v 1 \\\n2 \\\r\n3\n").positions, (std::vector<Double3>{{1, 2, 3}}));
+    EXPECT_EQ(kObjReader.soup("v \\\n1 2 3 \\\n0.5\nv 4 5 6").positions,
               (std::vector<Double3>{{1, 2, 3}, {4, 5, 6}}));
 }
 
 TEST(ReadObj, RelativeIndicesCountFromTheLastVertexSoFar) {
-    const TriangleSoup s = soup("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -3\nv 5 5 5\nf -1 -2 -4\n");
+    const TriangleSoup s =
+        kObjReader.soup("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -3\nv 5 5 5\nf -1 -2 -4\n");
     EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{2, 1, 0}}, {{3, 2, 0}}}));
 }
 
 TEST(ReadObj, FacesMayUseVerticesThatFollow) {
-    EXPECT_EQ(soup("f 1 2 3\n" + kFour).triangles, kOne);
+    EXPECT_EQ(kObjReader.soup("f 1 2 3\n" + kFour).triangles, kOne);
 }
 
 TEST(ReadObj, NumbersFacesWhenOneIsNoTriangle) {
-    const TriangleSoup s = soup(kFour + "f 1 2 3\nf 1 2 3 4\nf 1 2\nf 2 3 4\n");
+    const TriangleSoup s = kObjReader.soup(kFour + "f 1 2 3\nf 1 2 3 4\nf 1 2\nf 2 3 4\n");
     EXPECT_EQ(s.triangles,
               (std::vector<Triangle>{{{0, 1, 2}}, {{0, 1, 2}}, {{0, 2, 3}}, {{1, 2, 3}}}));
     EXPECT_EQ(s.face, (std::vector<std::uint32_t>{0, 1, 1, 3}));
@@ -93,7 +86,7 @@ TEST(ReadObj, NumbersFacesWhenOneIsNoTriangle) {
 
 // An arrow head whose fan from its first corner would lie outside.
 TEST(ReadObj, CutsConcavePolygonsWhereTheyAre) {
-    const TriangleSoup s = soup("v 0 0 0\nv 2 1 0\nv 0 2 0\nv 1 1 0\nf 1 2 3 4\n");
+    const TriangleSoup s = kObjReader.soup("v 0 0 0\nv 2 1 0\nv 0 2 0\nv 1 1 0\nf 1 2 3 4\n");
     ASSERT_EQ(s.triangles.size(), 2u);
     for (const Triangle& t : s.triangles) {
         EXPECT_TRUE(t.vertex[0] == 3 || t.vertex[1] == 3 || t.vertex[2] == 3);
@@ -101,8 +94,8 @@ TEST(ReadObj, CutsConcavePolygonsWhereTheyAre) {
 }
 
 TEST(ReadObj, IndicesOutOfRangeAreDataWithTheirPlace) {
-    const TriangleSoup s =
-        soup(kFour + "f 1 2 5\nf 1 2 3\nf 0 1 2\nf -5 1 2\nf 1 2 99999999999\nf 1 2 4294967297\n");
+    const TriangleSoup s = kObjReader.soup(
+        kFour + "f 1 2 5\nf 1 2 3\nf 0 1 2\nf -5 1 2\nf 1 2 99999999999\nf 1 2 4294967297\n");
     EXPECT_EQ(s.triangles.size(), 6u);
     EXPECT_EQ(s.bad_number_count, 5u);
     ASSERT_EQ(s.bad_numbers.size(), 5u);
@@ -120,14 +113,14 @@ TEST(ReadObj, IndicesOutOfRangeAreDataWithTheirPlace) {
 
 // A bad corner of a polygon spoils the fan's triangles that use it, no others.
 TEST(ReadObj, APolygonWithABadCornerIsAFan) {
-    const TriangleSoup s = soup(kFour + "f 1 2 3 9 4\n");
+    const TriangleSoup s = kObjReader.soup(kFour + "f 1 2 3 9 4\n");
     EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{0, 1, 2}}, {{0, 0, 0}}, {{0, 0, 0}}}));
     EXPECT_EQ(s.bad_number_count, 2u);
 }
 
 TEST(ReadObj, NonFiniteCoordinatesAreDataWithTheirPlace) {
     const TriangleSoup s =
-        soup("v 0 0 0\nv nan 0 0\nv 0 -inf 0\nv 0 0 1e999\nv 0 0x1p3 0\nf 1 2 3");
+        kObjReader.soup("v 0 0 0\nv nan 0 0\nv 0 -inf 0\nv 0 0 1e999\nv 0 0x1p3 0\nf 1 2 3");
     EXPECT_EQ(s.bad_number_count, 4u);
     ASSERT_EQ(s.bad_numbers.size(), 4u);
     for (std::uint32_t i = 0; i < 4; ++i) {
@@ -142,7 +135,7 @@ TEST(ReadObj, ListsAThousandBadNumbersAndCountsAll) {
     std::string text = kFour;
     for (int i = 0; i < 700; ++i) text += "v nan 0 0\n";
     for (int i = 0; i < 900; ++i) text += "f 1 2 9999\n";
-    const TriangleSoup s = soup(text);
+    const TriangleSoup s = kObjReader.soup(text);
     EXPECT_EQ(s.bad_number_count, 1600u);
     ASSERT_EQ(s.bad_numbers.size(), 1000u);
     EXPECT_EQ(s.bad_numbers[699].kind, BadNumber::Kind::not_finite);
@@ -152,26 +145,27 @@ TEST(ReadObj, ListsAThousandBadNumbersAndCountsAll) {
 
 // 0.1 as a float is 0.100000001490116; as a double it is nearer.
 TEST(ReadObj, OneDoubleKeepsAllPositionsDouble) {
-    const TriangleSoup floats = soup("v 0.1 0.2 0.3\n");
+    const TriangleSoup floats = kObjReader.soup("v 0.1 0.2 0.3\n");
     EXPECT_TRUE(floats.single_precision);
     EXPECT_EQ(floats.positions[0].x, static_cast<double>(0.1f));
     for (int count = 1; count < 20; ++count) {
         std::string text;
         for (int i = 0; i < count; ++i) text += "v 0.1 0.2 0.3\n";
-        for (const Double3& p : soup(text).positions) {
+        for (const Double3& p : kObjReader.soup(text).positions) {
             EXPECT_EQ(p, (Double3{0.1f, 0.2f, 0.3f})) << count;
         }
     }
-    const TriangleSoup doubles = soup("v 0.1 0.2 0.3\nv 0 0 0.1234567890123\n");
+    const TriangleSoup doubles = kObjReader.soup("v 0.1 0.2 0.3\nv 0 0 0.1234567890123\n");
     EXPECT_FALSE(doubles.single_precision);
     EXPECT_EQ(doubles.positions[0].x, 0.1);
     EXPECT_EQ(doubles.positions[1].z, 0.1234567890123);
 }
 
 TEST(ReadObj, GroupsAndMaterialsAreRunsOverTriangles) {
-    const TriangleSoup s = soup(kFour +
-                                "f 1 2 3\no body\nusemtl red paint \r\nf 1 2 3 4\ng left  arm\n"
-                                "g right\nf 1 2 3\nusemtl red paint\nf 1 2 3\ng\nf 1 2 3\n");
+    const TriangleSoup s =
+        kObjReader.soup(kFour +
+                        "f 1 2 3\no body\nusemtl red paint \r\nf 1 2 3 4\ng left  arm\n"
+                        "g right\nf 1 2 3\nusemtl red paint\nf 1 2 3\ng\nf 1 2 3\n");
     const auto run = [](const format::NamedRun& r) {
         return std::vector<std::uint32_t>{r.first_triangle, r.triangle_count, r.name};
     };
@@ -184,30 +178,33 @@ TEST(ReadObj, GroupsAndMaterialsAreRunsOverTriangles) {
     EXPECT_EQ(s.materials.names, (std::vector<std::string>{"", "red paint"}));
     ASSERT_EQ(s.materials.runs.size(), 2u);
     EXPECT_EQ(run(s.materials.runs[1]), (std::vector<std::uint32_t>{1, 5, 1}));
-    EXPECT_TRUE(soup(kFour + "f 1 2 3").groups.runs.empty());
+    EXPECT_TRUE(kObjReader.soup(kFour + "f 1 2 3").groups.runs.empty());
 }
 
 TEST(ReadObj, NamesBecomeUtf8) {
-    const TriangleSoup s = soup(kFour + "g na\xc3\xafve \xff\x01\nf 1 2 3\n");
+    const TriangleSoup s = kObjReader.soup(kFour + "g na\xc3\xafve \xff\x01\nf 1 2 3\n");
     EXPECT_EQ(s.groups.names, (std::vector<std::string>{"na\xc3\xafve \xef\xbf\xbd\xef\xbf\xbd"}));
 }
 
 TEST(ReadObj, SaysWhichLineIsBroken) {
-    EXPECT_EQ(sentence("v 0 0 0\nv 1 2\n"),
+    EXPECT_EQ(kObjReader.refusal("v 0 0 0\nv 1 2\n"),
               "t.obj: line 2: a vertex has 2 coordinates; 3 are needed.");
-    EXPECT_EQ(sentence("v 0 0 0\r\n\r\nv 1 x 2\n"), "t.obj: line 3: 'x' is not a number.");
-    EXPECT_EQ(sentence(kFour + "f 1 2 three\n"),
+    EXPECT_EQ(kObjReader.refusal("v 0 0 0\r\n\r\nv 1 x 2\n"),
+              "t.obj: line 3: 'x' is not a number.");
+    EXPECT_EQ(kObjReader.refusal(kFour + "f 1 2 three\n"),
               "t.obj: line 5: 'three' is not a corner of a face.");
-    EXPECT_EQ(sentence(kFour + "f 1 2 3.5\n"), "t.obj: line 5: '3.5' is not a corner of a face.");
-    EXPECT_EQ(sentence(kFour + "f 1 2 /3\n"), "t.obj: line 5: '/3' is not a corner of a face.");
-    EXPECT_EQ(sentence("f 1 2 3\n"), "t.obj: has 1 triangles but no vertices.");
-    EXPECT_EQ(sentence(std::string("v 0 0 0\n\0\0", 10)),
+    EXPECT_EQ(kObjReader.refusal(kFour + "f 1 2 3.5\n"),
+              "t.obj: line 5: '3.5' is not a corner of a face.");
+    EXPECT_EQ(kObjReader.refusal(kFour + "f 1 2 /3\n"),
+              "t.obj: line 5: '/3' is not a corner of a face.");
+    EXPECT_EQ(kObjReader.refusal("f 1 2 3\n"), "t.obj: has 1 triangles but no vertices.");
+    EXPECT_EQ(kObjReader.refusal(std::string("v 0 0 0\n\0\0", 10)),
               "t.obj: byte 8 is zero: the file is not OBJ text.");
 }
 
 TEST(ReadObj, AFileWithoutTrianglesIsAnEmptySoup) {
     for (const char* text : {"# nothing\n", "\n", "v 1 2 3\n", "v 1 2 3\np 1\n"}) {
-        EXPECT_TRUE(soup(text).triangles.empty()) << text;
+        EXPECT_TRUE(kObjReader.soup(text).triangles.empty()) << text;
     }
 }
 
@@ -218,7 +215,7 @@ TEST(ReadObj, EveryTruncationIsASoupOrASentence) {
         "f -1 -2 -3\nl 1 2\nf 1/1/1 2/2/2 5/5/5\n";
     int soups = 0;
     for (std::size_t size = 0; size <= text.size(); ++size) {
-        const Result<TriangleSoup> result = read(text.substr(0, size));
+        const Result<TriangleSoup> result = kObjReader.read(text.substr(0, size));
         soups += result.ok();
         if (result.ok()) continue;
         EXPECT_EQ(result.error().message.back(), '.');
@@ -233,7 +230,7 @@ TEST(ReadObj, EveryFlippedBitIsASoupOrASentence) {
     for (std::size_t bit = 0; bit < 8 * text.size(); ++bit) {
         std::string flipped = text;
         flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
-        const Result<TriangleSoup> result = read(flipped);
+        const Result<TriangleSoup> result = kObjReader.read(flipped);
         if (!result.ok()) continue;
         ++asked;
         for (const Triangle& t : result.value().triangles) {
@@ -300,7 +297,7 @@ TEST(ReadObj, ChunksJoinToTheSameSoupInAnyOrder) {
     ImportOptions backwards;
     backwards.parallel_for = last_first;
     for (const ImportOptions& options : {ImportOptions{}, backwards}) {
-        const Result<TriangleSoup> result = read(expected.text, options);
+        const Result<TriangleSoup> result = kObjReader.read(expected.text, options);
         ASSERT_TRUE(result.ok()) << result.error().message;
         const TriangleSoup& s = result.value();
         EXPECT_EQ(s.positions, expected.positions);
@@ -317,7 +314,7 @@ TEST(ReadObj, ChunksJoinToTheSameSoupInAnyOrder) {
 TEST(ReadObj, NeverUsesMoreMemoryThanAllowed) {
     ImportOptions small;
     small.memory_bytes = 100;
-    const Result<TriangleSoup> result = read(kFour + "f 1 2 3\n", small);
+    const Result<TriangleSoup> result = kObjReader.read(kFour + "f 1 2 3\n", small);
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().code, ErrorCode::over_budget);
 }

@@ -17,18 +17,9 @@ namespace {
 using mesh::Double3;
 using mesh::Triangle;
 using mesh::TriangleSoup;
+using test::kSquare;
 
-Result<TriangleSoup> read(const std::string& text) {
-    return test::read_text(read_ply, "t.ply", text);
-}
-
-TriangleSoup soup(const std::string& text) {
-    return test::sound(read(text), text);
-}
-
-std::string sentence(const std::string& text) {
-    return test::refusal(read(text));
-}
+constexpr test::TextReader kPlyReader(read_ply, "t.ply");
 
 std::string header(const std::string& format, const std::string& elements) {
     return "ply\nformat " + format + " 1.0\ncomment made by hand\n" + elements + "end_header\n";
@@ -45,7 +36,6 @@ void put(std::string& bytes, T value, bool big_endian) {
 
 const std::string kFloats = "property float x\nproperty float y\nproperty float z\n";
 const std::string kFaces = "property list uchar int vertex_indices\n";
-const std::vector<Double3> kSquare = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
 std::string text_square() {
     return header("ascii", "element vertex 4\n" + kFloats + "element face 2\n" + kFaces) +
@@ -53,7 +43,7 @@ std::string text_square() {
 }
 
 TEST(ReadPly, ReadsText) {
-    const TriangleSoup s = soup(text_square());
+    const TriangleSoup s = kPlyReader.soup(text_square());
     EXPECT_EQ(s.positions, kSquare);
     EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{0, 1, 2}}, {{0, 1, 2}}, {{0, 2, 3}}}));
     EXPECT_EQ(s.face, (std::vector<std::uint32_t>{0, 1, 1}));
@@ -62,28 +52,28 @@ TEST(ReadPly, ReadsText) {
 
 // Rows that do not match the header: a real exporter writes colours as lists.
 TEST(ReadPly, TextRowsMayHoldMoreThanTheHeaderSays) {
-    const TriangleSoup s =
-        soup(header("ascii",
-                    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                    "element face 1\nproperty list uchar int vertex_indices\n"
-                    "property uchar red\n") +
-             "0 0 0 9\n\n1 0 0\n0 1 0\r\n3 0 1 2 9 1 1 1 1 1 1 1 1 1\n");
+    const TriangleSoup s = kPlyReader.soup(
+        header("ascii",
+               "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+               "element face 1\nproperty list uchar int vertex_indices\n"
+               "property uchar red\n") +
+        "0 0 0 9\n\n1 0 0\n0 1 0\r\n3 0 1 2 9 1 1 1 1 1 1 1 1 1\n");
     EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{0, 1, 2}}}));
 }
 
 TEST(ReadPly, TextHasPropertiesInAnyOrderBetweenOtherElements) {
-    const TriangleSoup s =
-        soup(header("ascii",
-                    "element material 2\nproperty list uchar float rgb\nproperty int id\n"
-                    "element vertex 3\nproperty list uchar int rings\nproperty float nx\n"
-                    "property double z\nproperty int y\nproperty uchar red\nproperty float x\n"
-                    "element face 2\nproperty uchar flags\nproperty list uchar float uv\n"
-                    "property list int uint vertex_index\nproperty int group\n"
-                    "element edge 1\nproperty int vertex1\nproperty int vertex2\n") +
-             "3 1 1 1 7\n0 8\n"
-             "2 5 5 9 3 2 255 1\n0 9 6 5 0 4\n1 1 9 9 8 0 7\n"
-             "1 2 0.5 0.5 3 2 1 0 77\n1 0 3 0 1 2 78\n"
-             "0 1\n");
+    const TriangleSoup s = kPlyReader.soup(
+        header("ascii",
+               "element material 2\nproperty list uchar float rgb\nproperty int id\n"
+               "element vertex 3\nproperty list uchar int rings\nproperty float nx\n"
+               "property double z\nproperty int y\nproperty uchar red\nproperty float x\n"
+               "element face 2\nproperty uchar flags\nproperty list uchar float uv\n"
+               "property list int uint vertex_index\nproperty int group\n"
+               "element edge 1\nproperty int vertex1\nproperty int vertex2\n") +
+        "3 1 1 1 7\n0 8\n"
+        "2 5 5 9 3 2 255 1\n0 9 6 5 0 4\n1 1 9 9 8 0 7\n"
+        "1 2 0.5 0.5 3 2 1 0 77\n1 0 3 0 1 2 78\n"
+        "0 1\n");
     EXPECT_EQ(s.positions, (std::vector<Double3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
     EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{2, 1, 0}}, {{0, 1, 2}}}));
 }
@@ -120,7 +110,7 @@ std::string binary(bool big) {
 
 TEST(ReadPly, ReadsBinaryOfBothByteOrders) {
     for (const bool big : {false, true}) {
-        const TriangleSoup s = soup(binary(big));
+        const TriangleSoup s = kPlyReader.soup(binary(big));
         EXPECT_EQ(s.positions, kSquare);
         EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{0, 1, 2}}, {{0, 1, 2}}, {{0, 2, 3}}}));
         EXPECT_EQ(s.face, (std::vector<std::uint32_t>{0, 1, 1}));
@@ -143,7 +133,7 @@ void expect_type(const std::string& name, bool single) {
         } else {
             for (const int i : {3, 2, 1, 0}) put<T>(bytes, T(i), big);
         }
-        const TriangleSoup s = soup(bytes);
+        const TriangleSoup s = kPlyReader.soup(bytes);
         EXPECT_EQ(s.positions, (std::vector<Double3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}})) << name;
         EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{2, 1, 0}}})) << name;
         EXPECT_EQ(s.single_precision, single) << name;
@@ -174,28 +164,28 @@ TEST(ReadPly, ReadsTriangleStrips) {
     const std::string elements = "element vertex 4\n" + kFloats +
                                  "element tristrips 1\nproperty list int int vertex_indices\n";
     const std::vector<Triangle> expected = {{{0, 1, 2}}, {{2, 1, 3}}, {{3, 2, 1}}};
-    const TriangleSoup text =
-        soup(header("ascii", elements) + "0 0 0\n1 0 0\n1 1 0\n0 1 0\n8 0 1 2 3 -1 3 2 1\n");
+    const TriangleSoup text = kPlyReader.soup(header("ascii", elements) +
+                                              "0 0 0\n1 0 0\n1 1 0\n0 1 0\n8 0 1 2 3 -1 3 2 1\n");
     EXPECT_EQ(text.triangles, expected);
     std::string bytes = header("binary_little_endian", elements);
     for (const Double3& p : kSquare) {
         for (const double x : {p.x, p.y, p.z}) put(bytes, static_cast<float>(x), false);
     }
     for (const int i : {8, 0, 1, 2, 3, -1, 3, 2, 1}) put<std::int32_t>(bytes, i, false);
-    EXPECT_EQ(soup(bytes).triangles, expected);
+    EXPECT_EQ(kPlyReader.soup(bytes).triangles, expected);
 }
 
 TEST(ReadPly, ReadsHeadersWithCarriageReturns) {
     std::string text = text_square();
     std::string crlf;
     for (const char c : text) crlf += c == '\n' ? "\r\n" : std::string(1, c);
-    EXPECT_EQ(soup(crlf).triangles.size(), 3u);
+    EXPECT_EQ(kPlyReader.soup(crlf).triangles.size(), 3u);
 }
 
 TEST(ReadPly, BadIndicesAndNumbersAreData) {
-    const TriangleSoup s =
-        soup(header("ascii", "element vertex 3\n" + kFloats + "element face 3\n" + kFaces) +
-             "0 0 0\ninf 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n3 -1 1 2\n");
+    const TriangleSoup s = kPlyReader.soup(
+        header("ascii", "element vertex 3\n" + kFloats + "element face 3\n" + kFaces) +
+        "0 0 0\ninf 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n3 -1 1 2\n");
     ASSERT_EQ(s.bad_number_count, 3u);
     EXPECT_EQ(s.bad_numbers[0].vertex, 1u);
     EXPECT_EQ(s.bad_numbers[1].found, 3);
@@ -208,18 +198,20 @@ TEST(ReadPly, BadIndicesAndNumbersAreData) {
         put<std::uint8_t>(bytes, 3, false);
         for (const unsigned c : {0u, 0u, bad}) put<std::uint32_t>(bytes, c, false);
     }
-    const TriangleSoup b = soup(bytes);
+    const TriangleSoup b = kPlyReader.soup(bytes);
     ASSERT_EQ(b.bad_number_count, 2u);
     EXPECT_EQ(b.bad_numbers[1].found, 4294967295);
     EXPECT_EQ(b.bad_numbers[1].triangle, 0u);
 }
 
 TEST(ReadPly, CountsThatTheFileIsTooShortForAreUnreadable) {
-    EXPECT_EQ(sentence(header("ascii", "element vertex 999999999999\n" + kFloats) + "0 0 0\n"),
-              "t.ply: the file ends after 1 of the 999999999999 lines that the header counts for "
-              "element 'vertex'.");
-    EXPECT_EQ(sentence(header("binary_little_endian", "element vertex 999999999999\n" + kFloats) +
-                       "0123456789ab"),
+    EXPECT_EQ(
+        kPlyReader.refusal(header("ascii", "element vertex 999999999999\n" + kFloats) + "0 0 0\n"),
+        "t.ply: the file ends after 1 of the 999999999999 lines that the header counts for "
+        "element 'vertex'.");
+    EXPECT_EQ(kPlyReader.refusal(
+                  header("binary_little_endian", "element vertex 999999999999\n" + kFloats) +
+                  "0123456789ab"),
               "t.ply: the header counts 999999999999 of element 'vertex', which take at least 12 "
               "bytes each, but only 12 bytes follow.");
     std::string bytes = header("binary_big_endian", "element vertex 0\n" + kFloats +
@@ -228,48 +220,53 @@ TEST(ReadPly, CountsThatTheFileIsTooShortForAreUnreadable) {
     const std::size_t body = bytes.size();
     std::string huge = bytes;
     put<std::int32_t>(huge, 0x7fffffff, true);
-    EXPECT_EQ(sentence(huge), "t.ply: byte " + std::to_string(body) +
-                                  ": a list has 2147483647 entries, but only 0 bytes follow, in "
-                                  "record 0 of the 1 of element 'face'.");
+    EXPECT_EQ(kPlyReader.refusal(huge),
+              "t.ply: byte " + std::to_string(body) +
+                  ": a list has 2147483647 entries, but only 0 bytes follow, in "
+                  "record 0 of the 1 of element 'face'.");
     std::string negative = bytes;
     put<std::int32_t>(negative, -1, true);
-    EXPECT_EQ(sentence(negative), "t.ply: byte " + std::to_string(body) +
-                                      ": a list has -1 entries, in record 0 of the 1 of element "
-                                      "'face'.");
+    EXPECT_EQ(kPlyReader.refusal(negative),
+              "t.ply: byte " + std::to_string(body) +
+                  ": a list has -1 entries, in record 0 of the 1 of element "
+                  "'face'.");
 }
 
 TEST(ReadPly, SaysWhatIsWrongWithTheHeader) {
-    EXPECT_EQ(sentence("plx\n"), "t.ply: line 1: a PLY file begins with 'ply', not with 'plx'.");
-    EXPECT_EQ(sentence("ply\nformat ascii 1.0\nelement vertex 3\n"),
+    EXPECT_EQ(kPlyReader.refusal("plx\n"),
+              "t.ply: line 1: a PLY file begins with 'ply', not with 'plx'.");
+    EXPECT_EQ(kPlyReader.refusal("ply\nformat ascii 1.0\nelement vertex 3\n"),
               "t.ply: line 4: the file ends inside the PLY header.");
-    EXPECT_EQ(sentence("ply\nformat utf7 1.0\n"), "t.ply: line 2: unknown PLY format 'utf7'.");
-    EXPECT_EQ(sentence("ply\nformat ascii 1.0\nelement vertex x\n"),
+    EXPECT_EQ(kPlyReader.refusal("ply\nformat utf7 1.0\n"),
+              "t.ply: line 2: unknown PLY format 'utf7'.");
+    EXPECT_EQ(kPlyReader.refusal("ply\nformat ascii 1.0\nelement vertex x\n"),
               "t.ply: line 3: 'x' is not a count.");
-    EXPECT_EQ(sentence("ply\nproperty float x\n"),
+    EXPECT_EQ(kPlyReader.refusal("ply\nproperty float x\n"),
               "t.ply: line 2: a property comes before the first element.");
-    EXPECT_EQ(sentence("ply\nelement vertex 1\nproperty quad x\n"),
+    EXPECT_EQ(kPlyReader.refusal("ply\nelement vertex 1\nproperty quad x\n"),
               "t.ply: line 3: a property has an unknown type.");
-    EXPECT_EQ(sentence("ply\nelephant\n"),
+    EXPECT_EQ(kPlyReader.refusal("ply\nelephant\n"),
               "t.ply: line 2: 'elephant' does not begin a line of a PLY header.");
-    EXPECT_EQ(sentence(header("ascii", "element vertex 1\nproperty float x\nproperty float y\n")),
+    EXPECT_EQ(kPlyReader.refusal(
+                  header("ascii", "element vertex 1\nproperty float x\nproperty float y\n")),
               "t.ply: line 7: the vertices have no x, y and z.");
-    EXPECT_EQ(sentence(header("ascii", "")),
+    EXPECT_EQ(kPlyReader.refusal(header("ascii", "")),
               "t.ply: line 4: the PLY header has 0 elements 'vertex'; 1 is needed.");
     EXPECT_EQ(
-        sentence(header("ascii", "element vertex 0\n" + kFloats +
-                                     "element face 0\nproperty list uchar float "
-                                     "vertex_indices\n")),
+        kPlyReader.refusal(header("ascii", "element vertex 0\n" + kFloats +
+                                               "element face 0\nproperty list uchar float "
+                                               "vertex_indices\n")),
         "t.ply: line 10: the vertex numbers of element 'face' are not a list of whole numbers.");
 }
 
 TEST(ReadPly, SaysWhichRowIsBroken) {
     const std::string start =
         header("ascii", "element vertex 1\n" + kFloats + "element face 1\n" + kFaces);
-    EXPECT_EQ(sentence(start + "0 0\n3 0 0 0\n"),
+    EXPECT_EQ(kPlyReader.refusal(start + "0 0\n3 0 0 0\n"),
               "t.ply: line 11: the line ends where 'z' of element 'vertex' is needed.");
-    EXPECT_EQ(sentence(start + "0 0 0\n3 0 0\n"),
+    EXPECT_EQ(kPlyReader.refusal(start + "0 0 0\n3 0 0\n"),
               "t.ply: line 12: the line ends where 'vertex_indices' of element 'face' is needed.");
-    EXPECT_EQ(sentence(start + "0 0 0\n3 0 a 0\n"),
+    EXPECT_EQ(kPlyReader.refusal(start + "0 0 0\n3 0 a 0\n"),
               "t.ply: line 12: 'a' stands where 'vertex_indices' of element 'face' is needed.");
 }
 
@@ -277,7 +274,7 @@ TEST(ReadPly, EveryTruncationIsASentence) {
     for (const std::string& bytes : {text_square(), binary(false), binary(true)}) {
         for (std::size_t size = 0; size < bytes.size(); ++size) {
             const bool only_line_feed_missing = bytes[size] == '\n' && size + 1 == bytes.size();
-            EXPECT_EQ(read(bytes.substr(0, size)).ok(), only_line_feed_missing) << size;
+            EXPECT_EQ(kPlyReader.read(bytes.substr(0, size)).ok(), only_line_feed_missing) << size;
         }
     }
 }
@@ -288,7 +285,7 @@ TEST(ReadPly, EveryFlippedBitIsASoupOrASentence) {
         for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
             std::string flipped = bytes;
             flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
-            const Result<TriangleSoup> result = read(flipped);
+            const Result<TriangleSoup> result = kPlyReader.read(flipped);
             if (!result.ok()) continue;
             ++soups;
             for (const Triangle& t : result.value().triangles) {
@@ -314,7 +311,7 @@ TEST(ReadPly, LongFacesAreReadInBlocks) {
             put<std::uint8_t>(bytes, std::uint8_t(corners), false);
             for (int c = 0; c < corners; ++c) put<std::int32_t>(bytes, (i + c) % 4, false);
         }
-        const TriangleSoup s = soup(bytes);
+        const TriangleSoup s = kPlyReader.soup(bytes);
         ASSERT_EQ(s.triangles.size(), with_quad ? 40'001u : 40'000u);
         EXPECT_EQ(s.triangles[39'999 + with_quad], (Triangle{{3, 0, 1}}));
         EXPECT_EQ(s.face.empty(), !with_quad);

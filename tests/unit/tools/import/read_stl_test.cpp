@@ -18,17 +18,7 @@ using mesh::Double3;
 using mesh::Triangle;
 using mesh::TriangleSoup;
 
-Result<TriangleSoup> read(const std::string& text, const ImportOptions& options = {}) {
-    return test::read_text(read_stl, "t.stl", text, options);
-}
-
-TriangleSoup soup(const std::string& text) {
-    return test::sound(read(text), text);
-}
-
-std::string sentence(const std::string& text) {
-    return test::refusal(read(text));
-}
+constexpr test::TextReader kStlReader(read_stl, "t.stl");
 
 /// A binary file; triangle i has the corners (i, 0, 0), (0, 1, 0), (0, 0, 1).
 std::string binary(std::uint32_t claimed, std::uint32_t written, std::string header = "") {
@@ -49,7 +39,7 @@ const std::string kFacet =
 const std::vector<Double3> kCorners = {{0, 0, 0}, {1, 0, 0}, {0, 1.5, 0}};
 
 TEST(ReadStl, BinaryTrianglesHaveThreeVerticesEach) {
-    const TriangleSoup s = soup(binary(2, 2));
+    const TriangleSoup s = kStlReader.soup(binary(2, 2));
     EXPECT_EQ(s.positions, (std::vector<Double3>{
                                {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
     EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{0, 1, 2}}, {{3, 4, 5}}}));
@@ -58,7 +48,7 @@ TEST(ReadStl, BinaryTrianglesHaveThreeVerticesEach) {
 }
 
 TEST(ReadStl, ABinaryFileMayBeginWithSolid) {
-    EXPECT_EQ(soup(binary(3, 3, "solid facet normal")).triangles.size(), 3u);
+    EXPECT_EQ(kStlReader.soup(binary(3, 3, "solid facet normal")).triangles.size(), 3u);
 }
 
 TEST(ReadStl, ManyBinaryTrianglesComeInAnyOrderOfBlocks) {
@@ -67,7 +57,7 @@ TEST(ReadStl, ManyBinaryTrianglesComeInAnyOrderOfBlocks) {
     };
     ImportOptions backwards;
     backwards.parallel_for = last_first;
-    const auto result = read(binary(50'000, 50'000), backwards);
+    const auto result = kStlReader.read(binary(50'000, 50'000), backwards);
     ASSERT_TRUE(result.ok());
     for (std::uint32_t i = 0; i < 50'000; ++i) {
         ASSERT_EQ(result.value().positions[3 * i].x, i);
@@ -76,11 +66,11 @@ TEST(ReadStl, ManyBinaryTrianglesComeInAnyOrderOfBlocks) {
 }
 
 TEST(ReadStl, ABinaryCountThatDisagreesWithTheLengthIsUnreadable) {
-    EXPECT_EQ(sentence(binary(4, 3)),
+    EXPECT_EQ(kStlReader.refusal(binary(4, 3)),
               "t.stl: the header counts 4 triangles, which take 284 bytes, but the file has 234.");
-    EXPECT_EQ(sentence(binary(2, 3)),
+    EXPECT_EQ(kStlReader.refusal(binary(2, 3)),
               "t.stl: the header counts 2 triangles, which take 184 bytes, but the file has 234.");
-    EXPECT_EQ(sentence(binary(0xffffffff, 1)),
+    EXPECT_EQ(kStlReader.refusal(binary(0xffffffff, 1)),
               "t.stl: the header counts 4294967295 triangles, which take 214748364834 bytes, but "
               "the file has 134.");
 }
@@ -89,9 +79,9 @@ TEST(ReadStl, ABinaryCountThatDisagreesWithTheLengthIsUnreadable) {
 TEST(ReadStl, MemoryMayBeAllThatIsAllowed) {
     ImportOptions options;
     options.memory_bytes = std::size_t{84} * 5;
-    EXPECT_TRUE(read(binary(5, 5), options));
+    EXPECT_TRUE(kStlReader.read(binary(5, 5), options));
     --options.memory_bytes;
-    const auto refused = read(binary(5, 5), options);
+    const auto refused = kStlReader.read(binary(5, 5), options);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::over_budget);
 }
@@ -100,14 +90,14 @@ TEST(ReadStl, NonFiniteBinaryCoordinatesAreData) {
     std::string bytes = binary(2, 2);
     const float bad = NAN;
     std::memcpy(bytes.data() + 84 + 50 + 12 + 16, &bad, 4);  // triangle 1, corner 1, y
-    const TriangleSoup s = soup(bytes);
+    const TriangleSoup s = kStlReader.soup(bytes);
     ASSERT_EQ(s.bad_number_count, 1u);
     EXPECT_EQ(s.bad_numbers[0].kind, BadNumber::Kind::not_finite);
     EXPECT_EQ(s.bad_numbers[0].vertex, 4u);
 }
 
 TEST(ReadStl, ReadsText) {
-    const TriangleSoup s = soup("solid a part\n" + kFacet + "endsolid a part\n");
+    const TriangleSoup s = kStlReader.soup("solid a part\n" + kFacet + "endsolid a part\n");
     EXPECT_EQ(s.positions, kCorners);
     EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{0, 1, 2}}}));
     EXPECT_EQ(s.groups.names, (std::vector<std::string>{"a part"}));
@@ -122,13 +112,13 @@ TEST(ReadStl, ReadsTextOfAnyCaseAndLayout) {
           "endloop endfacet\nendsolid",
           "  solid x\nfacet outer loop\nvertex\n0\n0\n0 vertex 1 0 0 vertex 0 1.5 0 endloop\n"
           "endfacet endsolid x"}) {
-        EXPECT_EQ(soup(text).positions, kCorners) << text;
+        EXPECT_EQ(kStlReader.soup(text).positions, kCorners) << text;
     }
 }
 
 TEST(ReadStl, SolidsAreGroups) {
-    const TriangleSoup s = soup("solid a\n" + kFacet + kFacet + "endsolid a\nsolid vertex 1 2\n" +
-                                kFacet + "endsolid\n");
+    const TriangleSoup s = kStlReader.soup(
+        "solid a\n" + kFacet + kFacet + "endsolid a\nsolid vertex 1 2\n" + kFacet + "endsolid\n");
     ASSERT_EQ(s.groups.runs.size(), 2u);
     EXPECT_EQ(s.groups.names, (std::vector<std::string>{"a", "vertex 1 2"}));
     EXPECT_EQ(s.groups.runs[1].first_triangle, 2u);
@@ -136,7 +126,7 @@ TEST(ReadStl, SolidsAreGroups) {
 }
 
 TEST(ReadStl, TextKeepsDoubles) {
-    const TriangleSoup s = soup(
+    const TriangleSoup s = kStlReader.soup(
         "solid\nfacet normal 0 0 1\nouter loop\nvertex 0.1234567890123 0 0\nvertex 1 0 0\n"
         "vertex 0 0.1 inf\nendloop\nendfacet\nendsolid\n");
     EXPECT_FALSE(s.single_precision);
@@ -147,33 +137,36 @@ TEST(ReadStl, TextKeepsDoubles) {
 
 TEST(ReadStl, SaysWhichFacetIsBroken) {
     const std::string start = "solid\n" + kFacet;
-    EXPECT_EQ(sentence(start + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\n"
-                               "endsolid\n"),
+    EXPECT_EQ(kStlReader.refusal(start +
+                                 "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\n"
+                                 "endsolid\n"),
               "t.stl: line 9: a facet has 1 vertices; 3 are needed.");
-    EXPECT_EQ(sentence(start + "facet normal 0 0 1\nouter loop\nvertex 0 0\nendloop\nendfacet\n"),
+    EXPECT_EQ(kStlReader.refusal(start +
+                                 "facet normal 0 0 1\nouter loop\nvertex 0 0\nendloop\nendfacet\n"),
               "t.stl: line 12: 'endloop' is not a number.");
-    EXPECT_EQ(sentence(start), "t.stl: line 9: the file ends without endsolid: it is cut off.");
-    EXPECT_EQ(sentence(start + "vertex 1 2 3\nendsolid\n"),
+    EXPECT_EQ(kStlReader.refusal(start),
+              "t.stl: line 9: the file ends without endsolid: it is cut off.");
+    EXPECT_EQ(kStlReader.refusal(start + "vertex 1 2 3\nendsolid\n"),
               "t.stl: line 11: a vertex that belongs to no facet.");
-    EXPECT_EQ(sentence(start + "endfacet\nendsolid\n"),
+    EXPECT_EQ(kStlReader.refusal(start + "endfacet\nendsolid\n"),
               "t.stl: line 9: an endfacet without its facet.");
 }
 
 TEST(ReadStl, AnEmptySolidIsAnEmptySoup) {
-    EXPECT_TRUE(soup("solid nothing\nendsolid nothing\n").triangles.empty());
-    EXPECT_TRUE(soup(binary(0, 0)).triangles.empty());
+    EXPECT_TRUE(kStlReader.soup("solid nothing\nendsolid nothing\n").triangles.empty());
+    EXPECT_TRUE(kStlReader.soup(binary(0, 0)).triangles.empty());
 }
 
 TEST(ReadStl, EveryTruncationIsASoupOrASentence) {
     const std::string text = "solid a\n" + kFacet + kFacet + "endsolid a\n";
     for (std::size_t size = 0; size < text.size(); ++size) {
-        const Result<TriangleSoup> result = read(text.substr(0, size));
+        const Result<TriangleSoup> result = kStlReader.read(text.substr(0, size));
         // Only the name behind endsolid may be missing.
         EXPECT_EQ(result.ok(), size >= text.size() - 3) << size;
     }
     const std::string bytes = binary(3, 3);
     for (std::size_t size = 0; size < bytes.size(); ++size) {
-        EXPECT_FALSE(read(bytes.substr(0, size)).ok()) << size;
+        EXPECT_FALSE(kStlReader.read(bytes.substr(0, size)).ok()) << size;
     }
 }
 
@@ -181,12 +174,12 @@ TEST(ReadStl, LongTextIsReadInChunks) {
     std::string text = "solid a\n";
     for (int i = 0; i < 20'000; ++i) text += kFacet;
     text += "endsolid a\n";
-    const TriangleSoup s = soup(text);
+    const TriangleSoup s = kStlReader.soup(text);
     ASSERT_EQ(s.triangles.size(), 20'000u);
     for (std::uint32_t i = 0; i < 60'000; ++i) ASSERT_EQ(s.positions[i], kCorners[i % 3]);
     EXPECT_EQ(s.triangles.back(), (Triangle{{59'997, 59'998, 59'999}}));
     EXPECT_EQ(s.groups.runs.size(), 1u);
-    EXPECT_FALSE(read(text.substr(0, 1'000'000)).ok());
+    EXPECT_FALSE(kStlReader.read(text.substr(0, 1'000'000)).ok());
 }
 
 }  // namespace

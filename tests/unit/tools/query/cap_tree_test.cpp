@@ -17,12 +17,12 @@ namespace {
 
 using test::TestMesh;
 
-constexpr Double3 kOrigin = {0, 0, 0};
+constexpr Double3 kCentre = {0, 0, 0};
 
 /// Triangles of sizes from 8 to 2^-22, some about the centre: of all classes and of none.
 TestMesh many_sizes() {
     TestMesh mesh =
-        test::joined(test::moved_by(test::icosphere(0), 8, kOrigin), test::random_soup(5, 60, 2));
+        test::joined(test::moved_by(test::icosphere(0), 8, kCentre), test::random_soup(5, 60, 2));
     double size = 1;
     for (std::uint32_t i = 0; i < 12; ++i, size /= 4) {
         mesh = test::joined(mesh, test::random_soup(6 + i, 20, size));
@@ -36,8 +36,8 @@ TEST(CapTree, FindsWhateverHides) {
          {many_sizes(), test::joined(test::moved_by(test::icosphere(2), 0.25, {0.1, 0, 0}),
                                      test::moved_by(test::unit_cube(), 4, {-2, -2, -2}))}) {
         const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-        const RadialCover cover(kOrigin, mesh.positions, mesh.triangles);
-        const CapTree caps(kOrigin, mesh.positions, mesh.triangles);
+        const RadialCover cover(kCentre, mesh.positions, mesh.triangles);
+        const CapTree caps(kCentre, mesh.positions, mesh.triangles);
         std::vector<std::uint32_t> others;
         int hiding = 0;
         for (std::uint32_t t = 0; t < count; ++t) {
@@ -57,7 +57,7 @@ TEST(CapTree, FindsWhateverHides) {
 
 TEST(CapTree, LeavesOutWhatIsElsewhere) {
     const TestMesh mesh = test::icosphere(4);
-    const CapTree caps(kOrigin, mesh.positions, mesh.triangles);
+    const CapTree caps(kCentre, mesh.positions, mesh.triangles);
     std::size_t most = 0;
     std::vector<std::uint32_t> others;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -70,8 +70,8 @@ TEST(CapTree, LeavesOutWhatIsElsewhere) {
 
 TEST(CapTree, IsTheSameForAnyThreads) {
     const TestMesh mesh = test::joined(many_sizes(), test::icosphere(4));
-    const CapTree one(kOrigin, mesh.positions, mesh.triangles);
-    const CapTree many(kOrigin, mesh.positions, mesh.triangles, test::run_threads);
+    const CapTree one(kCentre, mesh.positions, mesh.triangles);
+    const CapTree many(kCentre, mesh.positions, mesh.triangles, test::run_threads);
     std::vector<std::uint32_t> by_one;
     std::vector<std::uint32_t> by_many;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); t += 7) {

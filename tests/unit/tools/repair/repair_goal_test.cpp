@@ -60,8 +60,7 @@ TEST(RepairGoal, AFinIsNotManifold) {
 TEST(RepairGoal, CrossingCubesAreClosedAndNotSolid) {
     const TestMesh cubes = crossing_cubes();
     EXPECT_EQ(missed_by(cubes, "closed"), "");
-    const std::vector<TriangleMeeting> meetings =
-        find_self_intersections(weld(soup_of(cubes)).mesh);
+    const std::vector<TriangleMeeting> meetings = find_self_intersections(test::welded(cubes));
     ASSERT_FALSE(meetings.empty());
     EXPECT_EQ(missed_by(cubes, "solid"), "not solid: " + std::to_string(meetings.size()) +
                                              " pairs of triangles still cross or touch; first " +
@@ -84,8 +83,7 @@ TEST(RepairGoal, CopiesCountAsPairs) {
     for (const std::size_t copied : {0U, 0U, 5U, 13U, 20U}) {
         cubes.triangles.insert(cubes.triangles.begin() + 3, once[copied]);
     }
-    const std::vector<TriangleMeeting> meetings =
-        find_self_intersections(weld(soup_of(cubes)).mesh);
+    const std::vector<TriangleMeeting> meetings = find_self_intersections(test::welded(cubes));
     const SelfCrossing crossing = find_self_crossing(soup_of(cubes));
     EXPECT_EQ(crossing.pairs, meetings.size());
     EXPECT_EQ(crossing.first, meetings[0].a);

@@ -16,19 +16,17 @@
 #include "repair/repair.h"
 #include "support/exact_winding.h"
 #include "support/shared_models.h"
+#include "unit/tools/repair_preset.h"
 #include "unit/tools/soup_of.h"
 
 namespace cdprep::mesh {
 namespace {
 
+using test::has;
+using test::preset_options;
+
 constexpr std::uint32_t kSeed = 20261121;
 constexpr int kRounds = 40;
-
-RepairOptions options_of(const char* preset) {
-    RepairOptions options;
-    options.steps = *find_repair_preset(preset);
-    return options;
-}
 
 TriangleSoup as_soup(const RepairMesh& mesh) {
     TriangleSoup soup;
@@ -36,10 +34,6 @@ TriangleSoup as_soup(const RepairMesh& mesh) {
     soup.triangles = mesh.triangles;
     soup.single_precision = mesh.single_precision;
     return soup;
-}
-
-bool has(const StoredVerdict& found, format::VerdictFacts fact) {
-    return (found.verdict.facts & fact) != 0;
 }
 
 /// Every source triangle is in the output, or listed as dropped; and each is counted once.
@@ -75,7 +69,7 @@ void expect_idempotent(const Repaired& mended, const RepairOptions& options) {
 TEST(RepairLaws, GridSoupsComeOutManifoldAccountedForAndNotWorse) {
     int non_manifold = 0, settled = 0, all = 0;
     for (const char* preset : {"safe", "closed"}) {
-        const RepairOptions options = options_of(preset);
+        const RepairOptions options = preset_options(preset);
         for (std::uint32_t seed = kSeed; seed < kSeed + kRounds; ++seed) {
             SCOPED_TRACE(std::string(preset) + ", seed " + std::to_string(seed));
             const int count = 6 + static_cast<int>(seed % 30);
@@ -99,7 +93,7 @@ TEST(RepairLaws, GridSoupsComeOutManifoldAccountedForAndNotWorse) {
 TEST(RepairLaws, TheSafePresetMovesNothing) {
     for (std::uint32_t seed = kSeed; seed < kSeed + kRounds; ++seed) {
         const TriangleSoup soup = test::soup_of(test::coarse_grid_soup(seed, 25, 1));
-        const Repaired mended = repair(soup, options_of("safe"));
+        const Repaired mended = repair(soup, preset_options("safe"));
         EXPECT_LT(mended.report.output_to_input.upper, 1e-14) << "seed " << seed;
     }
 }
@@ -126,7 +120,7 @@ TEST(RepairLaws, UnionsOfGridBoxesHaveTheVolumeOfTheirCells) {
                     {low[0] + i % size, low[1] + i / size % size, low[2] + i / (size * size)});
             }
         }
-        const Repaired mended = repair(test::soup_of(boxes), options_of("solid"));
+        const Repaired mended = repair(test::soup_of(boxes), preset_options("solid"));
         SCOPED_TRACE(seed);
         EXPECT_TRUE(has(mended.report.after, format::verdict_two_manifold));
         EXPECT_TRUE(has(mended.report.after, format::verdict_closed));
@@ -218,7 +212,7 @@ void expect_same_solid(const RepairMesh& before, const RepairMesh& after, double
 
 /// What goes into resolve_self_intersections: all other steps of the preset.
 RepairMesh without_resolving(const TriangleSoup& soup) {
-    RepairOptions options = options_of("solid");
+    RepairOptions options = preset_options("solid");
     options.steps.reset(static_cast<std::size_t>(RepairStep::resolve_self_intersections));
     return repair(soup, options).mesh;
 }
@@ -240,7 +234,7 @@ TEST(RepairLaws, UnionsOfBoxesLoseNothingOfTheirOuterSurface) {
             for (Double3& p : skewed.positions) p = {p.x + shear * p.y, p.y, p.z + shear * p.x};
             boxes = test::joined(boxes, skewed);
         }
-        const Repaired mended = repair(test::soup_of(boxes), options_of("solid"));
+        const Repaired mended = repair(test::soup_of(boxes), preset_options("solid"));
         if (!find_meetings(mended.mesh, {}).pairs.empty()) continue;
         ++resolved;
         expect_same_solid(without_resolving(test::soup_of(boxes)), mended.mesh, 1e-9, 30, samples);
@@ -259,7 +253,7 @@ TEST(RepairLaws, HardModelsLoseNothingOfTheirOuterSurface) {
         SCOPED_TRACE(name);
         const Result<TriangleSoup> soup = import::import_file(*folder / "hard" / name, {});
         ASSERT_TRUE(soup) << soup.error().message;
-        const Repaired mended = repair(soup.value(), options_of("solid"));
+        const Repaired mended = repair(soup.value(), preset_options("solid"));
         ASSERT_TRUE(find_meetings(mended.mesh, {}).pairs.empty());
         expect_same_solid(without_resolving(soup.value()), mended.mesh,
                           1e-7 * std::sqrt(mended.report.before.verdict.area), 100, samples);

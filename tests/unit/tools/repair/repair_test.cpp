@@ -11,11 +11,13 @@
 
 #include "repair/cut_crossings.h"
 #include "repair/mesh_meetings.h"
+#include "unit/tools/repair_preset.h"
 #include "unit/tools/soup_of.h"
 
 namespace cdprep::mesh {
 namespace {
 
+using test::has;
 using test::joined;
 using test::moved_by;
 using test::reversed;
@@ -24,13 +26,7 @@ using test::TestMesh;
 using test::unit_cube;
 
 Repaired repaired(const TriangleSoup& soup, const char* preset) {
-    RepairOptions options;
-    options.steps = *find_repair_preset(preset);
-    return repair(soup, options);
-}
-
-bool has(const StoredVerdict& found, format::VerdictFacts fact) {
-    return (found.verdict.facts & fact) != 0;
+    return repair(soup, test::preset_options(preset));
 }
 
 bool is_closed_manifold(const StoredVerdict& found) {

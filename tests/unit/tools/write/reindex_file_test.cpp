@@ -58,15 +58,11 @@ bool has_h5repack() {
     return std::system("h5repack --version > /dev/null 2>&1") == 0;
 }
 
-std::span<const std::byte> bytes_of(const std::string& content) {
-    return std::as_bytes(std::span(content.data(), content.size()));
-}
-
 void expect_same_sections(const std::string& path, const test::AlignedBytes& image) {
     const std::string file = content_of(path);
-    ASSERT_FALSE(format::find_damage(bytes_of(file)));
+    ASSERT_FALSE(format::find_damage(test::bytes_of(file)));
     for (const Section& section : test::sections_of(image)) {
-        const auto entry = format::find_section(bytes_of(file), section.id);
+        const auto entry = format::find_section(test::bytes_of(file), section.id);
         ASSERT_TRUE(entry) << format::section_name(section.id);
         ASSERT_EQ(entry->count * entry->element_size, section.bytes.size());
         if (section.bytes.empty()) continue;
@@ -74,7 +70,7 @@ void expect_same_sections(const std::string& path, const test::AlignedBytes& ima
             std::memcmp(file.data() + entry->offset, section.bytes.data(), section.bytes.size()), 0)
             << format::section_name(section.id);
     }
-    EXPECT_EQ(format::read_header(bytes_of(file)).content_hash,
+    EXPECT_EQ(format::read_header(test::bytes_of(file)).content_hash,
               format::read_header(image.span()).content_hash);
 }
 
@@ -91,7 +87,7 @@ TEST_F(ReindexFile, MendsWhatH5repackMoved) {
         const Repacked repacked(mesh);
         ASSERT_TRUE(repacked.is_made());
         const std::string moved = content_of(repacked.path());
-        const auto damage = format::find_damage(bytes_of(moved));
+        const auto damage = format::find_damage(test::bytes_of(moved));
         ASSERT_TRUE(damage);
         EXPECT_EQ(damage->kind, DamageKind::rewritten);
 

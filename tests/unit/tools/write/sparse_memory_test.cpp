@@ -7,12 +7,10 @@
 #include <random>
 #include <string>
 
+#include "support/aligned_bytes.h"
+
 namespace cdprep::write {
 namespace {
-
-std::span<const std::byte> bytes_of(const std::string& text) {
-    return std::as_bytes(std::span(text.data(), text.size()));
-}
 
 std::string text_at(const SparseMemory& memory, std::uint64_t offset, std::size_t size) {
     std::string text(size, '?');
@@ -22,7 +20,7 @@ std::string text_at(const SparseMemory& memory, std::uint64_t offset, std::size_
 
 TEST(SparseMemory, UnwrittenBytesAreZeros) {
     SparseMemory memory;
-    memory.write(5000, bytes_of("abc"));
+    memory.write(5000, test::bytes_of("abc"));
     EXPECT_EQ(memory.size(), 5003U);
     EXPECT_EQ(text_at(memory, 4998, 7), std::string("\0\0abc\0\0", 7));
     EXPECT_EQ(text_at(memory, 1, 3), std::string(3, '\0'));
@@ -31,7 +29,7 @@ TEST(SparseMemory, UnwrittenBytesAreZeros) {
 
 TEST(SparseMemory, ShrinkingForgetsAndGrowingBringsZeros) {
     SparseMemory memory;
-    memory.write(4090, bytes_of("0123456789"));
+    memory.write(4090, test::bytes_of("0123456789"));
     memory.resize(4093);
     memory.resize(1U << 30);
     EXPECT_EQ(memory.size(), 1U << 30);
@@ -53,7 +51,7 @@ TEST(SparseMemory, BehavesLikePlainMemory) {
         const std::string piece(random() % 9000, static_cast<char>('a' + i % 26));
         plain.resize(std::max(plain.size(), offset + piece.size()));
         plain.replace(offset, piece.size(), piece);
-        memory.write(offset, bytes_of(piece));
+        memory.write(offset, test::bytes_of(piece));
         ASSERT_EQ(memory.size(), plain.size());
         ASSERT_EQ(text_at(memory, 0, plain.size()), plain);
     }

@@ -34,10 +34,6 @@ Result<Done> write_image(const std::string& path, const test::AlignedBytes& imag
     return write_file(path, format::read_header(image.span()), sections_of(image));
 }
 
-std::span<const std::byte> bytes_of(const std::string& content) {
-    return std::as_bytes(std::span(content.data(), content.size()));
-}
-
 // Sizes on both sides of the page threshold: 12 and 12,800 triangles.
 TEST(WriteFile, AWrittenFileHoldsTheSameSections) {
     const ScratchFolder folder;
@@ -47,9 +43,9 @@ TEST(WriteFile, AWrittenFileHoldsTheSameSections) {
         const Result<Done> done = write_image(folder.file("m.cdp.h5"), image);
         ASSERT_TRUE(done) << done.error().message;
         const std::string file = content_of(folder.file("m.cdp.h5"));
-        EXPECT_FALSE(format::find_damage(bytes_of(file)));
+        EXPECT_FALSE(format::find_damage(test::bytes_of(file)));
         for (const Section& section : sections_of(image)) {
-            const auto entry = format::find_section(bytes_of(file), section.id);
+            const auto entry = format::find_section(test::bytes_of(file), section.id);
             ASSERT_TRUE(entry) << format::section_name(section.id);
             ASSERT_EQ(entry->count * entry->element_size, section.bytes.size());
             if (section.bytes.empty()) continue;
@@ -92,7 +88,7 @@ TEST(WriteFile, AFileIsTheImageOfItsSectionsWrappedInHdf5) {
         }
         return block;
     };
-    EXPECT_EQ(block_of(bytes_of(file)), block_of(built.value()));
+    EXPECT_EQ(block_of(test::bytes_of(file)), block_of(built.value()));
 }
 
 TEST(WriteFile, ASectionGivenTwiceIsRefusedAndNothingWritten) {
@@ -113,7 +109,7 @@ TEST(WriteFile, TheContentHashIsThatOfAnyOtherLayout) {
     const test::AlignedBytes image = image_of(test::icosphere(2));
     ASSERT_TRUE(write_image(folder.file("m.cdp.h5"), image));
     const std::string file = content_of(folder.file("m.cdp.h5"));
-    EXPECT_EQ(format::read_header(bytes_of(file)).content_hash,
+    EXPECT_EQ(format::read_header(test::bytes_of(file)).content_hash,
               format::read_header(image.span()).content_hash);
 }
 
@@ -123,7 +119,8 @@ TEST(WriteFile, LargeSectionsStartPagesAndSmallOnesCacheLines) {
     const std::string file = content_of(folder.file("m.cdp.h5"));
     int large = 0, small = 0;
     for (std::uint32_t number = 1; number < 64; ++number) {
-        const auto entry = format::find_section(bytes_of(file), static_cast<SectionId>(number));
+        const auto entry =
+            format::find_section(test::bytes_of(file), static_cast<SectionId>(number));
         if (!entry || entry->count == 0) continue;
         const bool is_large = entry->count * entry->element_size >= format::kPageThreshold;
         EXPECT_EQ(entry->offset % (is_large ? format::kPageAlignment : format::kSectionAlignment),
@@ -168,8 +165,8 @@ TEST(WriteFile, EmptySectionsHaveAnEntryAndNoOffset) {
     const ScratchFolder folder;
     ASSERT_TRUE(write_image(folder.file("m.cdp.h5"), image_of({})));
     const std::string file = content_of(folder.file("m.cdp.h5"));
-    EXPECT_FALSE(format::find_damage(bytes_of(file)));
-    const auto entry = format::find_section(bytes_of(file), SectionId::triangles);
+    EXPECT_FALSE(format::find_damage(test::bytes_of(file)));
+    const auto entry = format::find_section(test::bytes_of(file), SectionId::triangles);
     ASSERT_TRUE(entry);
     EXPECT_EQ(entry->count, 0U);
     EXPECT_EQ(entry->offset, 0U);

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "cdprep/cells/build_octree.h"
+#include "support/aligned_bytes.h"
 #include "support/exact_box.h"
 #include "support/meshes.h"
 #include "support/run_threads.h"
@@ -343,12 +344,6 @@ TEST(BuildAdaptiveOctree, ManyTrianglesHaveRoomForManyReferences) {
     EXPECT_LE(tree.references.size(), kMostFreeReferences + kMostReferencesPerTriangle * 100'000);
 }
 
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
 // Large enough for several pieces of one cell.
 TEST(BuildAdaptiveOctree, AnyNumberOfThreadsGivesTheSameBytes) {
     const TestMesh mesh = test::joined(test::icosphere(4), test::random_soup(2, 3000, 0.3));
@@ -365,8 +360,8 @@ TEST(BuildAdaptiveOctree, AnyNumberOfThreadsGivesTheSameBytes) {
                 mesh.positions, mesh.triangles,
                 {.parallel_for = run, .level = 5, .threshold = 10, .rule = rule});
             EXPECT_EQ(std::memcmp(&again.tree, &tree.tree, sizeof tree.tree), 0);
-            EXPECT_TRUE(same_bytes(again.nodes, tree.nodes)) << threads;
-            EXPECT_TRUE(same_bytes(again.references, tree.references)) << threads;
+            EXPECT_TRUE(test::same_bytes(again.nodes, tree.nodes)) << threads;
+            EXPECT_TRUE(test::same_bytes(again.references, tree.references)) << threads;
         }
         // Backwards, which no scheduler would do.
         const auto backwards = [](std::size_t count, Task task) {
@@ -375,8 +370,8 @@ TEST(BuildAdaptiveOctree, AnyNumberOfThreadsGivesTheSameBytes) {
         const AdaptiveOctree again = build_adaptive_octree(
             mesh.positions, mesh.triangles,
             {.parallel_for = backwards, .level = 5, .threshold = 10, .rule = rule});
-        EXPECT_TRUE(same_bytes(again.nodes, tree.nodes));
-        EXPECT_TRUE(same_bytes(again.references, tree.references));
+        EXPECT_TRUE(test::same_bytes(again.nodes, tree.nodes));
+        EXPECT_TRUE(test::same_bytes(again.references, tree.references));
     }
 }
 

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "cells/octree_codes.h"
+#include "support/aligned_bytes.h"
 #include "support/exact_box.h"
 #include "support/meshes.h"
 #include "support/run_threads.h"
@@ -273,11 +274,6 @@ TEST(BuildOctree, PlanesRiseStrictlyAndTheRootReachesMoreThanAStepBeyond) {
             }
         }
     }
-}
-
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 /// Hands the tasks of a build to this many threads, the last ones first.

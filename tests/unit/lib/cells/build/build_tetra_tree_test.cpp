@@ -15,6 +15,7 @@
 
 #include "cdprep/cells/build_octree.h"
 #include "cdprep/format/octree.h"
+#include "support/aligned_bytes.h"
 #include "support/exact_cone.h"
 #include "support/meshes.h"
 
@@ -508,13 +509,7 @@ private:
     std::size_t count_;
 };
 
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() &&
-           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-bool same_bytes(const TetraTree& a, const TetraTree& b) {
+bool same_trees(const TetraTree& a, const TetraTree& b) {
     return std::memcmp(&a.tree, &b.tree, sizeof a.tree) == 0 && same_bytes(a.nodes, b.nodes) &&
            same_bytes(a.references, b.references) && same_bytes(a.top, b.top) &&
            same_bytes(a.boxes, b.boxes) && same_bytes(a.oriented, b.oriented);
@@ -532,7 +527,7 @@ TEST(BuildTetraTree, IsTheSameOnAnyNumberOfThreads) {
                 const Threads threads(count);
                 TetraTreeOptions options = setting;
                 options.parallel_for = threads;
-                EXPECT_TRUE(same_bytes(tree_of(mesh, options), alone)) << count;
+                EXPECT_TRUE(same_trees(tree_of(mesh, options), alone)) << count;
             }
         }
     }

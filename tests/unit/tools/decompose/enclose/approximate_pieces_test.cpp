@@ -17,10 +17,9 @@
 #include "mesh/weld.h"
 #include "support/concave_solids.h"
 #include "support/run_threads.h"
+#include "unit/tools/hull_flaw.h"
 #include "unit/tools/recorded_text.h"
 #include "unit/tools/soup_of.h"
-
-#include "exact/predicates.h"
 
 namespace cdprep::convex {
 namespace {
@@ -57,17 +56,11 @@ void append(Mesh& mesh, const Mesh& more) {
     }
 }
 
-bool holds(const ConvexHull& hull, const Double3& p) {
-    if (hull.dimension < 3) return false;
-    for (const auto& f : hull.facets) {
-        if (orient3d(hull.points[f[0]], hull.points[f[1]], hull.points[f[2]], p) < 0) return false;
-    }
-    return true;
-}
-
 bool is_held(const ApproximatePieces& found, const Double3& p) {
     return std::any_of(found.pieces.begin(), found.pieces.end(),
-                       [&](const ApproximatePiece& piece) { return holds(piece.hull, p); });
+                       [&](const ApproximatePiece& piece) {
+                           return piece.hull.dimension == 3 && test::holds(piece.hull, p);
+                       });
 }
 
 ApproximatePieces within(const Mesh& mesh, double error) {

@@ -9,9 +9,8 @@
 
 #include "decompose/enclose/join_cells.h"
 #include "support/concave_solids.h"
+#include "unit/tools/hull_flaw.h"
 #include "unit/tools/soup_of.h"
-
-#include "exact/predicates.h"
 
 namespace cdprep::convex {
 namespace {
@@ -38,12 +37,6 @@ ConvexHull hull_of(const SolidCells& cells, const SolidCell& cell) {
         }
     }
     return convex_hull(points);
-}
-
-bool holds(const ConvexHull& hull, const Double3& p) {
-    return std::all_of(hull.facets.begin(), hull.facets.end(), [&](const auto& f) {
-        return orient3d(hull.points[f[0]], hull.points[f[1]], hull.points[f[2]], p) >= 0;
-    });
 }
 
 /// Of the tetrahedra between its facets and the origin.
@@ -94,8 +87,9 @@ TEST(FaceCells, LeaveNoCracks) {
         for (int y = 0; y <= 8; ++y) {
             for (int z = 0; z <= 4; ++z) {
                 const Double3 p = {x / 4.0, y / 4.0, z / 4.0};
-                const bool is_held = std::any_of(hulls.begin(), hulls.end(),
-                                                 [&](const auto& hull) { return holds(hull, p); });
+                const bool is_held = std::any_of(hulls.begin(), hulls.end(), [&](const auto& hull) {
+                    return test::holds(hull, p);
+                });
                 EXPECT_EQ(is_held, x <= 4 || y <= 4) << x << y << z;
             }
         }

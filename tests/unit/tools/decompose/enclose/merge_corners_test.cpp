@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "exact/predicates.h"
+#include "unit/tools/hull_flaw.h"
 
 namespace cdprep::convex {
 namespace {
@@ -25,12 +25,6 @@ std::vector<Double3> doubled_box(const Double3& size, double apart) {
     return points;
 }
 
-bool holds(const ConvexHull& hull, const Double3& p) {
-    return std::all_of(hull.facets.begin(), hull.facets.end(), [&](const auto& f) {
-        return orient3d(hull.points[f[0]], hull.points[f[1]], hull.points[f[2]], p) >= 0;
-    });
-}
-
 // 24 corners become the 8 of a box that holds them all, exactly, and is hardly larger: of a
 // flat one, too, whose corners point along it.
 TEST(MergeCorners, MakesOneOfEachGroupAndHoldsAll) {
@@ -40,7 +34,7 @@ TEST(MergeCorners, MakesOneOfEachGroupAndHoldsAll) {
             ASSERT_GT(convex_hull(points).points.size(), 8u) << apart;
             const ConvexHull merged = merge_corners(convex_hull(points), 1e-8);
             EXPECT_EQ(merged.points.size(), 8u) << height << " " << apart;
-            for (const Double3& p : points) EXPECT_TRUE(holds(merged, p));
+            for (const Double3& p : points) EXPECT_TRUE(test::holds(merged, p));
             for (const Double3& p : merged.points) {
                 EXPECT_GE(p.z, -2e4 * apart);
                 EXPECT_LE(p.z, height + 2e4 * apart);

@@ -15,11 +15,7 @@ namespace {
 
 using format::EdgeConvexity;
 
-mesh::Mesh welded(const test::TestMesh& mesh) {
-    return mesh::weld(test::soup_of(mesh)).mesh;
-}
-
-ContactArrays arrays_of(const mesh::Mesh& mesh, ParallelFor parallel_for = serial_for) {
+ContactArrays contact_arrays_of(const mesh::Mesh& mesh, ParallelFor parallel_for = serial_for) {
     const PieceArrays pieces = make_piece_arrays(mesh, find_surface_pieces(mesh), parallel_for);
     return make_contact_arrays(mesh, pieces, parallel_for);
 }
@@ -44,19 +40,20 @@ TEST(ContactArrays, BitsOfThreeEdgesAreReadBack) {
 // By hand: a cube has 12 convex edges and 6 flat diagonals, each used twice; inside out the
 // convex ones are reflex.
 TEST(ContactArrays, EdgesOfACubeAreConvexAndItsDiagonalsFlat) {
-    EXPECT_EQ(counts(arrays_of(welded(test::unit_cube())).convexity), (std::array{0, 12, 24, 0}));
-    EXPECT_EQ(counts(arrays_of(welded(test::reversed(test::unit_cube()))).convexity),
+    EXPECT_EQ(counts(contact_arrays_of(test::welded(test::unit_cube())).convexity),
+              (std::array{0, 12, 24, 0}));
+    EXPECT_EQ(counts(contact_arrays_of(test::welded(test::reversed(test::unit_cube()))).convexity),
               (std::array{0, 12, 0, 24}));
 }
 
 // By hand: of three by two squares 10 sides are border; 7 sides and 6 diagonals are flat.
 TEST(ContactArrays, BordersAreUnknown) {
-    EXPECT_EQ(counts(arrays_of(welded(test::grid_sheet(3, 2))).convexity),
+    EXPECT_EQ(counts(contact_arrays_of(test::welded(test::grid_sheet(3, 2))).convexity),
               (std::array{10, 26, 0, 0}));
 }
 
 TEST(ContactArrays, EveryEdgeOfAHullLeadsToAFacetAndBack) {
-    const mesh::Mesh mesh = welded(test::torus(2, 0.5, 24, 12));
+    const mesh::Mesh mesh = test::welded(test::torus(2, 0.5, 24, 12));
     const PieceArrays pieces = make_piece_arrays(mesh, find_surface_pieces(mesh), serial_for);
     const ContactArrays arrays = make_contact_arrays(mesh, pieces, serial_for);
     ASSERT_EQ(arrays.adjacency.size(), pieces.facets.size());
@@ -82,7 +79,7 @@ TEST(ContactArrays, EveryEdgeOfAHullLeadsToAFacetAndBack) {
 }
 
 TEST(ContactArrays, EveryTriangleIsInThePieceThatListsIt) {
-    const mesh::Mesh mesh = welded(test::torus(2, 0.5, 24, 12));
+    const mesh::Mesh mesh = test::welded(test::torus(2, 0.5, 24, 12));
     const SurfacePieces pieces = find_surface_pieces(mesh);
     const ContactArrays arrays =
         make_contact_arrays(mesh, make_piece_arrays(mesh, pieces, serial_for), serial_for);
@@ -93,8 +90,9 @@ TEST(ContactArrays, EveryTriangleIsInThePieceThatListsIt) {
 }
 
 TEST(ContactArrays, ThreadsChangeNothing) {
-    const mesh::Mesh mesh = welded(test::torus(2, 0.5, 48, 24));
-    const ContactArrays one = arrays_of(mesh), many = arrays_of(mesh, test::run_threads);
+    const mesh::Mesh mesh = test::welded(test::torus(2, 0.5, 48, 24));
+    const ContactArrays one = contact_arrays_of(mesh),
+                        many = contact_arrays_of(mesh, test::run_threads);
     EXPECT_EQ(one.convexity, many.convexity);
     EXPECT_TRUE(std::equal(one.adjacency.begin(), one.adjacency.end(), many.adjacency.begin(),
                            many.adjacency.end(),

@@ -10,15 +10,11 @@
 #include "cdprep/pairs.h"
 #include "support/brute_force.h"
 #include "support/concave_solids.h"
+#include "support/placements.h"
 #include "unit/tools/with_pieces.h"
 
 namespace cdprep::test {
 namespace {
-
-Placement shifted(const Double3& by) {
-    return Placement::b_moves(
-        Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, by.x, by.y, by.z}).value());
-}
 
 struct List {
     std::vector<Contact> contacts;

@@ -13,16 +13,12 @@
 #include "exact/vectors.h"
 #include "support/brute_force.h"
 #include "support/concave_solids.h"
+#include "support/placements.h"
 #include "support/random_pose.h"
 #include "unit/tools/with_pieces.h"
 
 namespace cdprep::test {
 namespace {
-
-Placement shifted(const Double3& by) {
-    return Placement::b_moves(
-        Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, by.x, by.y, by.z}).value());
-}
 
 std::vector<Contact> all_contacts(const Model& a, const Model& b, const Placement& placement,
                                   double tolerance, Manifold manifold = Manifold::four) {
@@ -451,7 +447,7 @@ TEST(Contacts, ALargePieceLeavesAlongItsBestFace) {
         pose = Pose::from_rows(rows).value();
         const auto reach = [](const std::vector<Double3>& points, const Double3& n) {
             double most = -10;
-            for (const Double3& p : points) most = std::max(most, dot(p, n));
+            for (const Double3& p : points) most = std::max(most, cdprep::dot(p, n));
             return most;
         };
         std::vector<Double3> moved;
@@ -460,8 +456,8 @@ TEST(Contacts, ALargePieceLeavesAlongItsBestFace) {
         for (const Triangle& t : mesh.triangles) {
             const Double3 &p = mesh.positions[t.vertex[0]], &q = mesh.positions[t.vertex[1]],
                           &r = mesh.positions[t.vertex[2]];
-            const Double3 n = cross(q - p, r - p);
-            const Double3 normal = (1 / std::sqrt(dot(n, n))) * n;
+            const Double3 n = cdprep::cross(q - p, r - p);
+            const Double3 normal = (1 / std::sqrt(cdprep::dot(n, n))) * n;
             least = std::min(least, reach(mesh.positions, normal) + reach(moved, -normal));
         }
         for (const Contact& contact : all_contacts(ball, ball, Placement::b_moves(pose), 0)) {
@@ -478,7 +474,9 @@ TEST(Contacts, ALargePieceLeavesAlongItsBestFace) {
         ASSERT_EQ(listed.found, all.size());
         double deepest = 1;
         for (const Contact& contact : all) deepest = std::min(deepest, contact.upper);
-        if (!all.empty()) EXPECT_EQ(first[0].upper, deepest);
+        if (!all.empty()) {
+            EXPECT_EQ(first[0].upper, deepest);
+        }
     }
     EXPECT_GT(seen, 30U);
 }

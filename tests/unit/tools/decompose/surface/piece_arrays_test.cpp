@@ -15,11 +15,7 @@ namespace {
 using format::facet_first_of_face;
 using format::facet_virtual;
 
-mesh::Mesh welded(const test::TestMesh& mesh) {
-    return mesh::weld(test::soup_of(mesh)).mesh;
-}
-
-PieceArrays arrays_of(const mesh::Mesh& mesh, const SurfacePieceOptions& options = {}) {
+PieceArrays piece_arrays_of(const mesh::Mesh& mesh, const SurfacePieceOptions& options = {}) {
     return make_piece_arrays(mesh, find_surface_pieces(mesh, options), serial_for);
 }
 
@@ -30,7 +26,7 @@ std::size_t count_flag(const PieceArrays& arrays, std::uint32_t flag) {
 }
 
 TEST(PieceArrays, ACubeIsItsOwnHullWithoutVirtualFaces) {
-    const PieceArrays arrays = arrays_of(welded(test::unit_cube()));
+    const PieceArrays arrays = piece_arrays_of(test::welded(test::unit_cube()));
     ASSERT_EQ(arrays.pieces.size(), 1U);
     EXPECT_EQ(arrays.pieces[0].dimension, 3U);
     EXPECT_EQ(arrays.pieces[0].flags, format::piece_contained);
@@ -52,7 +48,7 @@ TEST(PieceArrays, AConvexBodyHasNoVirtualFaces) {
     test::TestMesh box = test::unit_cube();
     for (Double3& p : box.positions) p = {3 * p.x, p.y, 0.125 * p.z};
     for (const test::TestMesh& body : {round, box, test::icosphere(4)}) {
-        const PieceArrays arrays = arrays_of(welded(body));
+        const PieceArrays arrays = piece_arrays_of(test::welded(body));
         ASSERT_EQ(arrays.pieces.size(), 1U);
         EXPECT_EQ(arrays.pieces[0].flags, format::piece_contained);
         EXPECT_EQ(arrays.pieces[0].outer_error, 0);
@@ -74,7 +70,7 @@ TEST(PieceArrays, AFaceThatTrianglesDoNotFillIsVirtual) {
             });
             return is_top && gone++ < missing;
         });
-        const PieceArrays arrays = arrays_of(welded(cube));
+        const PieceArrays arrays = piece_arrays_of(test::welded(cube));
         ASSERT_EQ(arrays.pieces.size(), 1U);
         EXPECT_EQ(arrays.pieces[0].flags, 0U);
         EXPECT_EQ(count_flag(arrays, facet_virtual), 2U);
@@ -83,7 +79,7 @@ TEST(PieceArrays, AFaceThatTrianglesDoNotFillIsVirtual) {
 
 // A flat piece has two faces, and only the one that it is wound like is covered.
 TEST(PieceArrays, ASheetHasABack) {
-    const PieceArrays arrays = arrays_of(welded(test::grid_sheet(3, 2)));
+    const PieceArrays arrays = piece_arrays_of(test::welded(test::grid_sheet(3, 2)));
     ASSERT_EQ(arrays.pieces.size(), 1U);
     EXPECT_EQ(arrays.pieces[0].dimension, 2U);
     EXPECT_EQ(arrays.vertices.size(), 4U);
@@ -96,7 +92,7 @@ TEST(PieceArrays, ATriangleWithoutAreaIsASegment) {
     test::TestMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
     mesh.triangles = {{{0, 1, 2}}};
-    const PieceArrays arrays = arrays_of(welded(mesh));
+    const PieceArrays arrays = piece_arrays_of(test::welded(mesh));
     ASSERT_EQ(arrays.pieces.size(), 1U);
     EXPECT_EQ(arrays.pieces[0].dimension, 1U);
     EXPECT_EQ(arrays.vertices, (std::vector<std::uint32_t>{0, 2}));
@@ -106,7 +102,7 @@ TEST(PieceArrays, ATriangleWithoutAreaIsASegment) {
 // Every triangle of a piece lies in one face of its hull, which is virtual only when there
 // is more of it; threads change nothing.
 TEST(PieceArrays, FacesHoldTheTriangles) {
-    const mesh::Mesh mesh = welded(test::torus(2, 0.5, 24, 12));
+    const mesh::Mesh mesh = test::welded(test::torus(2, 0.5, 24, 12));
     const SurfacePieces pieces = find_surface_pieces(mesh);
     const PieceArrays arrays = make_piece_arrays(mesh, pieces, serial_for);
     const PieceArrays together = make_piece_arrays(mesh, pieces, test::run_threads);

@@ -14,9 +14,6 @@
 namespace cdprep::convex {
 namespace {
 
-constexpr std::array kOrders = {PieceOrder::greedy, PieceOrder::depth_first,
-                                PieceOrder::breadth_first, PieceOrder::cresting};
-
 /// A sphere with dents and bumps: about half of its edges are reflex.
 mesh::Mesh bumpy_ball(int level, double size, std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -26,7 +23,7 @@ mesh::Mesh bumpy_ball(int level, double size, std::uint32_t seed) {
         const double f = factor(random);
         p = {f * p.x, f * p.y, f * p.z};
     }
-    return mesh::weld(test::soup_of(ball)).mesh;
+    return test::welded(ball);
 }
 
 void expect_equal(const SurfacePieces& a, const SurfacePieces& b) {
@@ -41,7 +38,7 @@ void expect_equal(const SurfacePieces& a, const SurfacePieces& b) {
 TEST(SurfacePiecesLaws, SolidsAreCutIntoContainedPieces) {
     for (std::uint32_t seed = 0; seed < 3; ++seed) {
         const mesh::Mesh mesh = bumpy_ball(2, 0.02 + 0.2 * seed, seed);
-        for (const PieceOrder order : kOrders) {
+        for (const PieceOrder order : test::kPieceOrders) {
             const SurfacePieces pieces = find_surface_pieces(mesh, {.order = order});
             EXPECT_EQ(test::partition_flaw(mesh, pieces), "") << seed;
             EXPECT_EQ(test::hull_face_flaw(mesh, pieces), "") << seed;
@@ -57,10 +54,9 @@ TEST(SurfacePiecesLaws, SolidsAreCutIntoContainedPieces) {
 TEST(SurfacePiecesLaws, SoupsArePartitioned) {
     std::array<std::size_t, kEdgeKinds> met{};
     for (std::uint32_t seed = 0; seed < 40; ++seed) {
-        const mesh::Mesh mesh =
-            mesh::weld(test::soup_of(test::coarse_grid_soup(seed, 400, 1 + seed % 3))).mesh;
+        const mesh::Mesh mesh = test::welded(test::coarse_grid_soup(seed, 400, 1 + seed % 3));
         for (const double tolerance : {0.0, 0.5}) {
-            for (const PieceOrder order : kOrders) {
+            for (const PieceOrder order : test::kPieceOrders) {
                 const SurfacePieces pieces =
                     find_surface_pieces(mesh, {.order = order, .tolerance = tolerance});
                 EXPECT_EQ(test::partition_flaw(mesh, pieces), "") << seed;
@@ -95,7 +91,7 @@ TEST(SurfacePiecesLaws, ThreadsChangeNothingAtPolygonsInSeveralParts) {
         const double angle = 0.02 * p.x, radius = 1 + 0.0002 * p.x;
         p = {radius * std::cos(angle), radius * std::sin(angle), 0.01 * p.y};
     }
-    const mesh::Mesh mesh = mesh::weld(test::soup_of(roll)).mesh;
+    const mesh::Mesh mesh = test::welded(roll);
     const SurfacePieces alone = find_surface_pieces(mesh);
     EXPECT_GT(alone.pieces.size(), 1U);
     EXPECT_LT(alone.pieces.size(), 20U);

@@ -17,10 +17,6 @@ namespace {
 
 using test::TestMesh;
 
-mesh::Mesh welded(const TestMesh& mesh) {
-    return mesh::weld(test::soup_of(mesh)).mesh;
-}
-
 /// Everything that is promised of a closed solid.
 void expect_sound(const mesh::Mesh& mesh, const SurfacePieces& pieces) {
     EXPECT_EQ(test::partition_flaw(mesh, pieces), "");
@@ -29,12 +25,9 @@ void expect_sound(const mesh::Mesh& mesh, const SurfacePieces& pieces) {
     for (const SurfacePiece& piece : pieces.pieces) EXPECT_EQ(piece.outer_error, 0);
 }
 
-constexpr std::array kOrders = {PieceOrder::greedy, PieceOrder::depth_first,
-                                PieceOrder::breadth_first, PieceOrder::cresting};
-
 TEST(SurfacePieces, AConvexCubeIsOnePieceIdenticalToItsHull) {
-    const mesh::Mesh mesh = welded(test::unit_cube());
-    for (const PieceOrder order : kOrders) {
+    const mesh::Mesh mesh = test::welded(test::unit_cube());
+    for (const PieceOrder order : test::kPieceOrders) {
         const SurfacePieces pieces = find_surface_pieces(mesh, {.order = order});
         ASSERT_EQ(pieces.pieces.size(), 1U);
         EXPECT_EQ(pieces.of(0).size(), 12U);
@@ -48,7 +41,7 @@ TEST(SurfacePieces, AConvexCubeIsOnePieceIdenticalToItsHull) {
 TEST(SurfacePieces, AConvexNodeIsOnePieceBesideOthers) {
     const TestMesh ball = test::icosphere(2);
     const mesh::Mesh mesh =
-        welded(test::joined(test::moved_by(ball, 1, {9, 0, 0}), test::l_prism()));
+        test::welded(test::joined(test::moved_by(ball, 1, {9, 0, 0}), test::l_prism()));
     const SurfacePieces pieces = find_surface_pieces(mesh);
     EXPECT_EQ(pieces.of(0).size(), ball.triangles.size());
     EXPECT_EQ(pieces.of(0).back(), ball.triangles.size() - 1);
@@ -57,8 +50,8 @@ TEST(SurfacePieces, AConvexNodeIsOnePieceBesideOthers) {
 
 // By hand: the two walls of the notch meet at its only reflex edge and are in two pieces.
 TEST(SurfacePieces, AnLPrismIsCutAtItsReflexEdge) {
-    const mesh::Mesh mesh = welded(test::l_prism());
-    for (const PieceOrder order : kOrders) {
+    const mesh::Mesh mesh = test::welded(test::l_prism());
+    for (const PieceOrder order : test::kPieceOrders) {
         const SurfacePieces pieces = find_surface_pieces(mesh, {.order = order});
         EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::reflex)], 1U);
         EXPECT_GE(pieces.pieces.size(), 2U);
@@ -70,7 +63,7 @@ TEST(SurfacePieces, AnLPrismIsCutAtItsReflexEdge) {
 
 // D01: an icosphere is convex.
 TEST(SurfacePieces, AConvexBodyOfManyTrianglesIsOnePiece) {
-    const mesh::Mesh mesh = welded(test::icosphere(5));
+    const mesh::Mesh mesh = test::welded(test::icosphere(5));
     const SurfacePieces pieces = find_surface_pieces(mesh);
     ASSERT_EQ(pieces.pieces.size(), 1U);
     EXPECT_TRUE(pieces.pieces[0].contained);
@@ -80,8 +73,8 @@ TEST(SurfacePieces, AConvexBodyOfManyTrianglesIsOnePiece) {
 // D02
 TEST(SurfacePieces, PrismsOverLettersAreCutIntoContainedPieces) {
     for (const TestMesh& letter : {test::l_prism(), test::u_prism(), test::plus_prism()}) {
-        const mesh::Mesh mesh = welded(letter);
-        for (const PieceOrder order : kOrders) {
+        const mesh::Mesh mesh = test::welded(letter);
+        for (const PieceOrder order : test::kPieceOrders) {
             const SurfacePieces pieces = find_surface_pieces(mesh, {.order = order});
             EXPECT_GE(pieces.pieces.size(), 2U);
             for (const SurfacePiece& piece : pieces.pieces) EXPECT_TRUE(piece.contained);
@@ -94,7 +87,7 @@ TEST(SurfacePieces, PrismsOverLettersAreCutIntoContainedPieces) {
 TEST(SurfacePieces, CurvedConcaveBodiesAreCutIntoContainedPieces) {
     for (const TestMesh& body :
          {test::star(), test::torus(2, 0.5, 24, 12), test::spiral_stair(), test::trefoil_tube()}) {
-        const mesh::Mesh mesh = welded(body);
+        const mesh::Mesh mesh = test::welded(body);
         const SurfacePieces pieces = find_surface_pieces(mesh);
         EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::border)], 0U);
         EXPECT_GE(pieces.pieces.size(), 2U);
@@ -109,7 +102,7 @@ TEST(SurfacePieces, AThinBoxIsOnePiece) {
     for (const double thickness : {1e-3, 1e-12, 0x1p-300, 5e-324}) {
         TestMesh box = test::unit_cube();
         for (Double3& p : box.positions) p.z *= thickness;
-        const mesh::Mesh mesh = welded(box);
+        const mesh::Mesh mesh = test::welded(box);
         const SurfacePieces pieces = find_surface_pieces(mesh);
         ASSERT_EQ(pieces.pieces.size(), 1U) << thickness;
         EXPECT_TRUE(pieces.pieces[0].contained);
@@ -124,7 +117,7 @@ TEST(SurfacePieces, AGapThinnerThanAnythingIsNotBridged) {
         for (Double3& p : letter.positions) {
             if (p.x == 2) p.x = 1 + gap;
         }
-        const mesh::Mesh mesh = welded(letter);
+        const mesh::Mesh mesh = test::welded(letter);
         const SurfacePieces pieces = find_surface_pieces(mesh);
         for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
             bool left = false, right = false;
@@ -140,7 +133,7 @@ TEST(SurfacePieces, AGapThinnerThanAnythingIsNotBridged) {
 
 // D05: by hand. Three sheets of two triangles on an edge, which is a barrier.
 TEST(SurfacePieces, AnEdgeOfThreeSheetsIsABarrier) {
-    const SurfacePieces pieces = find_surface_pieces(welded(test::three_sheets()));
+    const SurfacePieces pieces = find_surface_pieces(test::welded(test::three_sheets()));
     EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::non_manifold)], 1U);
     ASSERT_EQ(pieces.pieces.size(), 3U);
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -153,8 +146,8 @@ TEST(SurfacePieces, AnEdgeOfThreeSheetsIsABarrier) {
 // D05: cubes with a vertex or an edge in common stay two convex bodies.
 TEST(SurfacePieces, CubesThatShareAVertexOrAnEdgeAreTwoPieces) {
     for (const Double3& shift : {Double3{1, 1, 1}, Double3{1, 1, 0}}) {
-        const mesh::Mesh mesh =
-            welded(test::joined(test::unit_cube(), test::moved_by(test::unit_cube(), 1, shift)));
+        const mesh::Mesh mesh = test::welded(
+            test::joined(test::unit_cube(), test::moved_by(test::unit_cube(), 1, shift)));
         const SurfacePieces pieces = find_surface_pieces(mesh);
         EXPECT_EQ(test::hull_face_flaw(mesh, pieces), "");
         EXPECT_EQ(test::containment_flaw(mesh, pieces), "");
@@ -168,7 +161,7 @@ TEST(SurfacePieces, CubesThatShareAVertexOrAnEdgeAreTwoPieces) {
 
 // D06: its triangles cannot all be oriented: an odd number of edges is inconsistent.
 TEST(SurfacePieces, AMoebiusStripIsCutAndContainsNothing) {
-    const mesh::Mesh mesh = welded(test::moebius_strip(16));
+    const mesh::Mesh mesh = test::welded(test::moebius_strip(16));
     const SurfacePieces pieces = find_surface_pieces(mesh);
     EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::inconsistent)] % 2, 1U);
     for (const SurfacePiece& piece : pieces.pieces) EXPECT_FALSE(piece.contained);
@@ -178,8 +171,8 @@ TEST(SurfacePieces, AMoebiusStripIsCutAndContainsNothing) {
 // D06: no side of it can be called its outside, and it crosses itself; every triangle is on
 // the hull of its piece all the same.
 TEST(SurfacePieces, AKleinBottleIsCutAndContainsNothing) {
-    const mesh::Mesh mesh = welded(test::klein_bottle(16, 11));
-    for (const PieceOrder order : kOrders) {
+    const mesh::Mesh mesh = test::welded(test::klein_bottle(16, 11));
+    for (const PieceOrder order : test::kPieceOrders) {
         const SurfacePieces pieces = find_surface_pieces(mesh, {.order = order});
         EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::border)], 0U);
         EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::inconsistent)], 11U);
@@ -190,7 +183,7 @@ TEST(SurfacePieces, AKleinBottleIsCutAndContainsNothing) {
 
 // D07: half a sphere is convex, and bounds no solid.
 TEST(SurfacePieces, AHemisphereIsOneUncontainedPiece) {
-    const mesh::Mesh mesh = welded(test::upper_half(test::icosphere(3)));
+    const mesh::Mesh mesh = test::welded(test::upper_half(test::icosphere(3)));
     const SurfacePieces pieces = find_surface_pieces(mesh);
     ASSERT_EQ(pieces.pieces.size(), 1U);
     EXPECT_FALSE(pieces.pieces[0].contained);
@@ -200,7 +193,7 @@ TEST(SurfacePieces, AHemisphereIsOneUncontainedPiece) {
 
 // D08: an inverted cube is reflex everywhere but in its six flat sides.
 TEST(SurfacePieces, AnInvertedComponentIsCutIntoItsSides) {
-    const mesh::Mesh mesh = welded(test::reversed(test::unit_cube()));
+    const mesh::Mesh mesh = test::welded(test::reversed(test::unit_cube()));
     const SurfacePieces pieces = find_surface_pieces(mesh);
     EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::reflex)], 12U);
     EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::flat)], 6U);
@@ -212,13 +205,13 @@ TEST(SurfacePieces, AnInvertedComponentIsCutIntoItsSides) {
 // outwards it is a body inside a body, and hides nothing.
 TEST(SurfacePieces, ACavityIsKeptOpen) {
     const TestMesh outer = test::icosphere(1), inner = test::moved_by(outer, 0.5, {0, 0, 0});
-    const mesh::Mesh hollow = welded(test::joined(outer, test::reversed(inner)));
+    const mesh::Mesh hollow = test::welded(test::joined(outer, test::reversed(inner)));
     const SurfacePieces around = find_surface_pieces(hollow);
     EXPECT_GT(around.pieces.size(), 8U);
     for (const SurfacePiece& piece : around.pieces) EXPECT_TRUE(piece.contained);
     expect_sound(hollow, around);
 
-    const mesh::Mesh nested = welded(test::joined(outer, inner));
+    const mesh::Mesh nested = test::welded(test::joined(outer, inner));
     const SurfacePieces bodies = find_surface_pieces(nested);
     EXPECT_EQ(bodies.pieces.size(), 2U);
     EXPECT_EQ(test::hull_face_flaw(nested, bodies), "");
@@ -240,7 +233,7 @@ TEST(SurfacePieces, EveryDefectIsTaken) {
         if (out_of_range) continue;
         ++taken;
         const mesh::Mesh mesh = mesh::weld(soup).mesh;
-        for (const PieceOrder order : kOrders) {
+        for (const PieceOrder order : test::kPieceOrders) {
             const SurfacePieces pieces = find_surface_pieces(mesh, {.order = order});
             EXPECT_EQ(test::partition_flaw(mesh, pieces), "") << animal.name;
             EXPECT_EQ(test::hull_face_flaw(mesh, pieces), "") << animal.name;
@@ -258,7 +251,7 @@ TEST(SurfacePieces, AVertexOneStepLowMakesReflexEdges) {
             p.z = 1;
             if (p.x == 1) p.z = height;
         }
-        return find_surface_edges(welded(mesh), serial_for).count;
+        return find_surface_edges(test::welded(mesh), serial_for).count;
     };
     const auto flat = static_cast<std::size_t>(EdgeKind::flat);
     const auto reflex = static_cast<std::size_t>(EdgeKind::reflex);
@@ -271,10 +264,10 @@ TEST(SurfacePieces, AVertexOneStepLowMakesReflexEdges) {
 
 // D11: one side of the box is 10,000 triangles in one plane, and the box is convex.
 TEST(SurfacePieces, TenThousandCoplanarTrianglesAreOnePiece) {
-    const SurfacePieces open = find_surface_pieces(welded(test::grid_sheet(100, 50)));
+    const SurfacePieces open = find_surface_pieces(test::welded(test::grid_sheet(100, 50)));
     EXPECT_EQ(open.pieces.size(), 1U);
 
-    const mesh::Mesh mesh = welded(test::box_with_a_fine_side(100, 50));
+    const mesh::Mesh mesh = test::welded(test::box_with_a_fine_side(100, 50));
     const SurfacePieces pieces = find_surface_pieces(mesh);
     ASSERT_EQ(pieces.pieces.size(), 1U);
     EXPECT_TRUE(pieces.pieces[0].contained);
@@ -286,7 +279,7 @@ TEST(SurfacePieces, ATriangleWithoutAreaIsAPieceOfItsOwn) {
     TestMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, -1, 0}};
     mesh.triangles = {{{0, 1, 3}}, {{1, 2, 3}}, {{0, 2, 1}}, {{0, 4, 2}}};
-    const mesh::Mesh whole = welded(mesh);
+    const mesh::Mesh whole = test::welded(mesh);
     const SurfacePieces pieces = find_surface_pieces(whole);
     EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::no_area)], 3U);
     ASSERT_EQ(pieces.pieces.size(), 3U);
@@ -302,8 +295,8 @@ TEST(SurfacePieces, NothingHasNoPieces) {
 // A step of 1/16 across a bar: with less tolerance it is cut, with more it is not, and
 // what is stated is no more than what was allowed and no less than the step.
 TEST(SurfacePieces, ToleranceBridgesAStepAndStatesIt) {
-    const mesh::Mesh mesh = welded(test::prism({{{0, 0}, {4, 0}, {4, 1}, {2, 0.9375}, {0, 1}}},
-                                               {{{0, 1, 3}, {1, 2, 3}, {0, 3, 4}}}));
+    const mesh::Mesh mesh = test::welded(test::prism(
+        {{{0, 0}, {4, 0}, {4, 1}, {2, 0.9375}, {0, 1}}}, {{{0, 1, 3}, {1, 2, 3}, {0, 3, 4}}}));
     EXPECT_GT(find_surface_pieces(mesh, {.tolerance = 0.03}).pieces.size(), 1U);
     const SurfacePieces pieces = find_surface_pieces(mesh, {.tolerance = 0.125});
     ASSERT_EQ(pieces.pieces.size(), 1U);
