@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "support/moving_boxes.h"
+#include "support/rounds.h"
 #include "support/run_threads.h"
 
 namespace cdprep {
@@ -165,8 +165,7 @@ TEST(BroadPhase, BoxesComeAndGo) {
     std::vector<WorldBox> boxes(30, kAbsent);
     BroadPhase broad_phase = made_for(boxes.size(), 10'000);
     ASSERT_TRUE(pairs_of(broad_phase.update(boxes)).empty());
-    const char* all = std::getenv("CDPREP_ALL_POSES");
-    const int steps = all != nullptr && std::string(all) == "yes" ? 1'000'000 : 100'000;
+    const int steps = test::rounds(1'000'000, 20);
     for (int step = 0; step < steps; ++step) {
         std::vector<std::uint32_t> moved(random() % 6);
         for (std::uint32_t& number : moved) {
