@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // D: convex pieces of surfaces, pieces that enclose solids, findings and repairs. Pieces are
 // judged by exact rationals; findings are known by hand.
+#include <array>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "accuracy/epeck.h"
 #include "accuracy/exact_change.h"
@@ -15,6 +17,7 @@
 #include "support/concave_solids.h"
 #include "support/defect_zoo.h"
 #include "support/hard_point_sets.h"
+#include "support/rounds.h"
 #include "support/small_hull.h"
 #include "unit/tools/pieces_flaw.h"
 #include "unit/tools/soup_of.h"
@@ -213,10 +216,12 @@ void ask_findings(const HardCaseOptions& options, Scoreboard& board) {
     expect("D11 a coplanar strip", report_of(grid_sheet(100, 50)).findings.size() == 2);
 }
 
-/// Every source triangle is accounted for, in every preset. Corners out of range stand in these
-/// soups as no import leaves them.
-void ask_repairs(const ZooAnimal& animal, Scoreboard& board) {
-    for (const char* preset : {"safe", "closed", "solid"}) {
+constexpr std::array kPresets = {"safe", "closed", "solid"};
+
+/// Every source triangle is accounted for. Corners out of range stand in these soups as no import
+/// leaves them.
+void ask_repairs(const ZooAnimal& animal, std::span<const char* const> presets, Scoreboard& board) {
+    for (const char* preset : presets) {
         mesh::RepairOptions options;
         options.steps = *mesh::find_repair_preset(preset);
         const mesh::Repaired mended = mesh::repair(soup_of(animal.mesh), options);
@@ -260,7 +265,11 @@ void ask_zoo(const HardCaseOptions& options, Scoreboard& board) {
                     .expect(report.counts.self_intersecting_pairs == meet, told);
             }
         }
-        for (const ZooAnimal& animal : {zoo[i], both}) ask_repairs(animal, board);
+        ask_repairs(zoo[i], kPresets, board);
+        // In the short form one preset in turn.
+        const bool all = options.size == CaseSize::full || asks_all();
+        const auto in_turn = std::span(kPresets).subspan(i % kPresets.size(), 1);
+        ask_repairs(both, all ? kPresets : in_turn, board);
     }
 }
 

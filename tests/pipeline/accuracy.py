@@ -93,7 +93,8 @@ def check_rung(study, ladder, rung):
 def check_json(folder):
     """Every number of the tables can be derived again, and promises hold."""
     output, table = folder / "study.json", folder / "study.csv"
-    accuracy(BOLT, BRACKET, "--quick", "--format", "json", "-o", output, "--save", table)
+    accuracy(BOLT, BRACKET, "--quick", "--format", "json", "-o", output, "--save", table, "--save",
+             folder / "study.html")
     study = json.loads(output.read_text())
     check_schema(study)
     must(study["exit"] == 0 and study["broken"] == [], f"broken: {study['broken']}")
@@ -171,6 +172,10 @@ def check_other_formats(folder):
     root = xml.etree.ElementTree.parse(svg).getroot()
     must(root.tag == "{http://www.w3.org/2000/svg}svg", root.tag)
     must(len(root.findall(".//{*}circle")) >= 11, "marks of the charts")
+    page = folder / "short.html"
+    accuracy(BOLT, BRACKET, *short, "--format", "html", "-o", page, "--save", folder / "again.html")
+    must(page.read_text() == (folder / "again.html").read_text(), "the page that is saved")
+    must(page.read_text().lower().startswith("<!doctype html>"), "no page")
 
 
 def check_page(folder):
@@ -178,10 +183,8 @@ def check_page(folder):
     if not find_chromium():
         print("skipped: the page in a browser: there is no Chromium")
         return
-    page = folder / "study.html"
-    accuracy(BOLT, BRACKET, "--quick", "--format", "html", "-o", page)
     with Browser(1200, 900) as browser:
-        browser.open(page.as_uri())
+        browser.open((folder / "study.html").as_uri())
         must(browser.value("document.querySelectorAll('svg').length") >= 6, "charts")
         must(browser.value("document.getElementById('tip').hidden"), "a card before it is asked")
         browser.value("document.querySelector('#geometry svg .point').scrollIntoView("

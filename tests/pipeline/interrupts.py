@@ -3,13 +3,15 @@
 """SIGINT and SIGTERM end every command within 0.2 s, whatever it is at.
 
 Each command works on a mesh that keeps it busy for a second or more, and gets a signal at
-several moments. It must end with 130, leave nothing behind, and say one sentence at most. A busy
-machine may delay a process: a moment that fails is tried again, and must fail every time to count.
+several moments of its first three seconds, twice as many with CDPREP_ALL_POSES=yes. It must end
+with 130, leave nothing behind, and say one sentence at most. A busy machine may delay a process: a
+moment that fails is tried again, and must fail every time to count.
 Files are in memory where there is room: no process ends while the system syncs them to a busy disk.
 A program that is slower by a factor, as one under a sanitizer, may take longer: CDPREP_SLOWDOWN=10.
 Usage: interrupts.py CDPREP
 """
 import array
+import contextlib
 import json
 import math
 import os
@@ -26,6 +28,7 @@ from shared_models import must
 SECONDS = 0.2 * float(os.environ.get("CDPREP_SLOWDOWN", "1"))
 MOMENTS = 4 if os.environ.get("CDPREP_ALL_POSES") == "yes" else 2
 TRIES = 5
+LONGEST = 3  # seconds of a command in which it is stopped
 
 
 def write_sheet(path, side):
@@ -93,34 +96,26 @@ class Commands:
         return subprocess.Popen([self.program, *arguments], cwd=self.folder, stdout=out,
                                 stderr=subprocess.PIPE)
 
-    def duration(self, arguments):
-        begun = time.monotonic()
-        with tempfile.TemporaryFile() as out:
-            process = self.start(arguments, out)
-            try:
-                process.communicate(timeout=3)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.communicate()
-        return time.monotonic() - begun
-
     def stop(self, arguments, moment, number):
-        """Seconds from the signal to the end; None when it had ended before."""
+        """Seconds from the start to the end, and from the signal to the end: None when there was
+        no signal any more."""
         kept = set(os.listdir(self.folder))
         with tempfile.TemporaryFile() as out:
+            begun = time.monotonic()
             process = self.start(arguments, out)
-            time.sleep(moment)
-            if process.poll() is not None:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(moment)
+                ended = time.monotonic() - begun
                 process.communicate()
-                return None
+                return ended, None
             sent = time.monotonic()
             process.send_signal(number)
             _, errors = process.communicate(timeout=60)
-            seconds = time.monotonic() - sent
+            ended = time.monotonic()
             out.seek(0)
             text = out.read()
         if process.returncode == 0:  # the signal came at the very end
-            return None
+            return ended - begun, None
         name = " ".join(arguments)
         must(process.returncode == 130, f"{name} at {moment:.2f} s: {process.returncode}: {errors}")
         is_report = arguments[0] == "validate"
@@ -133,17 +128,23 @@ class Commands:
             report = json.loads(text)
             must(report["summary"]["interrupted"] is True and report["exit"] == 130,
                  f"{name} at {moment:.2f} s: {report['summary']}")
-        return seconds
+        return ended - begun, ended - sent
 
     def check(self, *arguments):
-        full = self.duration(arguments)
+        def stop(number, full):
+            return self.stop(arguments, full * (number + 0.5) / MOMENTS,
+                             (signal.SIGTERM, signal.SIGINT)[number % 2])
+
+        # The last moment of a long command comes first: a short one then says how long it takes.
+        last = MOMENTS - 1
+        lasted, seconds = stop(last, LONGEST)
+        full = lasted if seconds is None else LONGEST
+        known = {} if seconds is None else {last: [seconds]}
         worst, stopped = 0, 0
-        for i in range(MOMENTS):
-            moment = full * (i + 0.5) / MOMENTS
-            number = (signal.SIGTERM, signal.SIGINT)[i % 2]
-            times = []
+        for number in range(MOMENTS):
+            times = known.get(number, [])
             while len(times) < TRIES and (not times or min(times) > SECONDS):
-                seconds = self.stop(arguments, moment, number)
+                _, seconds = stop(number, full)
                 if seconds is None:
                     break
                 times.append(seconds)

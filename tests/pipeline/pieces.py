@@ -5,8 +5,8 @@
 Four pairs of models, closed and open, at poses whose overlapping sets were computed by CGAL's
 exact predicates: the sets are equal; distances are those of the hierarchy of boxes, to the last
 digit, and narrower than 1e-12 of themselves; so is every answer about all hard models beside
-each other. By default a share of the poses; with CDPREP_ALL_POSES=yes all of them, and 1,000
-random ones of each pair.
+each other. By default a share of the poses and the small hard models; with CDPREP_ALL_POSES=yes
+all of them, and 1,000 random poses of each pair.
 Usage: pieces.py CDPREP
 """
 import os
@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 from poses_truth import truth
-from shared_models import answers, bake, hard_files, must, run, shared_folder
+from shared_models import answers, bake, hard_files, must, run, shared_folder, small
 
 PAIRS = ["armadillo-bunny", "armadillo-horse", "buddha-skull", "armadillo-armadillo"]
 SHARE = 12  # poses of each pair in the short form: four light, four deep, four near
@@ -53,7 +53,11 @@ def same_pairs_within(program, a, b, poses):
     few = poses.with_suffix(".few")
     for first in range(0, len(lines), AT_A_TIME):
         few.write_text("\n".join(lines[first:first + AT_A_TIME]) + "\n")
-        same_answers(program, "within", a, b, few, *TOLERANCE, "--pairs")
+        asked = ["query", "within", a, b, "--poses", few, *TOLERANCE, "--pairs", "--format", "ndjson"]
+        boxes, pieces = run(program, *asked), run(program, *asked, "--structure", "pieces")
+        must(boxes.returncode == pieces.returncode == 0, f"{boxes.stderr}{pieces.stderr}")
+        must(boxes.stdout == pieces.stdout and boxes.stdout.count("\n") > 0,
+             f"{a.name} {b.name}: boxes and pieces list other pairs within {TOLERANCE[1]}")
 
 
 def compare(program, a, b, poses):
@@ -104,7 +108,8 @@ def main():
         print(f"{pair}: {len(exact)} sets exact, {answered} poses equal, {hits} touch")
     must(0.3 * asked <= hit <= 0.75 * asked, f"{hit} of {asked} touch: one-sided")
 
-    files = [path for path in hard_files(shared / "models")
+    hard = hard_files(shared / "models")
+    files = [path for path in (hard if everything else small(hard))
              if run(program, "bake", path, "-o", folder / f"{path.name}.cdp.h5", "--normalize",
                     "--effects", EFFECTS).returncode == 0]
     must(len(files) >= 20, f"only {len(files)} hard models were baked")

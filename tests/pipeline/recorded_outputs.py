@@ -243,7 +243,7 @@ def words_of_bakes():
                 yield [f"bake {model} -o out.h5 --progress none --format {form} {options}"]
             if model in ("bracket.obj", "cube.off"):
                 yield [f"bake {model} -o out.h5 --progress none --format {form} --structures hull"
-                       " --parts 3 --max-error 0.001"]
+                       " --parts 3 --max-error 1"]
         yield [f"bake {model} -o out.h5 -q --effects all", "info out.h5", "info out.h5 --deep",
                "info out.h5 --format json"]
     for form in ("text", "json"):

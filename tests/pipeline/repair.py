@@ -18,14 +18,13 @@ import sys
 import tempfile
 import time
 
-from shared_models import checker, hard_files, must, run, shared_folder
+from shared_models import checker, hard_files, must, run, shared_folder, small
 
 PRESETS = ("safe", "closed", "solid")
 LOST = 1e-5  # of the diagonal
 CLOSED = 26  # at least so many of the 30 by `closed`
 SOLID = 12   # and by `solid`
 WORSE = "worse than the input: "  # the crossings are
-SMALL = 1_000_000  # bytes: no file of the short form is larger
 # Small, but with so many crossings that cutting them takes long: only in the long form.
 SLOW = {"b9_mesh.off", "regr01.obj", "openscad-nonmanifold-crash.obj", "illformated_mesh.dae"}
 
@@ -197,7 +196,7 @@ def main():
     must(len(hard) == 30, f"{len(hard)} hard files instead of 30")
     everything = os.environ.get("CDPREP_ALL_POSES") == "yes"
     if not everything:
-        hard = [path for path in hard if path.stat().st_size <= SMALL and path.name not in SLOW]
+        hard = [path for path in small(hard) if path.name not in SLOW]
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         checks = checker(models, folder)

@@ -46,6 +46,11 @@ def hard_files(models):
                   if path.is_file() and path.suffix not in {".md", ".bin"})
 
 
+def small(files):
+    """Those that take little time: no larger than a million bytes."""
+    return [path for path in files if path.stat().st_size <= 1_000_000]
+
+
 def checker(models, folder):
     """check_mesh.py with its self-intersection counter built beside it, in a folder."""
     for name in ("check_mesh.py", "selfx.cpp"):

@@ -361,8 +361,8 @@ def test_baseline(validate):
 
 
 def test_bounds(validate, scratch):
-    """A million findings: 350,000 triangles, none of which shares a vertex."""
-    count = 350_000
+    """Triangles, none of which shares a vertex: 350,000 of them have a million findings."""
+    count = 350_000 if os.environ.get("CDPREP_ALL_POSES") == "yes" else 100_000
     path = validate.folder / "soup.stl"
     random.seed(4)
     facet = struct.Struct("<12fH")

@@ -13,8 +13,25 @@ using Digits = std::vector<std::uint32_t>;
 
 constexpr int kDigitBits = 32;
 
+void drop_leading_zeros(Digits& digits) {
+    while (!digits.empty() && digits.back() == 0) digits.pop_back();
+}
+
+/// Digits above as many zeros, which are stored nowhere.
+struct Shifted {
+    const Digits& digits;
+    std::size_t zeros;
+
+    [[nodiscard]] std::size_t size() const {
+        return zeros + digits.size();
+    }
+    [[nodiscard]] std::uint32_t operator[](std::size_t i) const {
+        return i < zeros || i >= size() ? 0 : digits[i - zeros];
+    }
+};
+
 /// -1, 0 or 1. Both without zero digits at the top.
-int compare(const Digits& a, const Digits& b) {
+int compare(const Shifted& a, const Shifted& b) {
     if (a.size() != b.size()) return a.size() < b.size() ? -1 : 1;
     for (std::size_t i = a.size(); i-- > 0;) {
         if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
@@ -22,32 +39,27 @@ int compare(const Digits& a, const Digits& b) {
     return 0;
 }
 
-void drop_leading_zeros(Digits& digits) {
-    while (!digits.empty() && digits.back() == 0) digits.pop_back();
-}
-
-Digits add(const Digits& a, const Digits& b) {
-    Digits result;
+Digits add(const Shifted& a, const Shifted& b) {
+    Digits result(std::max(a.size(), b.size()) + 1);
     std::uint64_t carry = 0;
-    for (std::size_t i = 0; i < std::max(a.size(), b.size()) || carry != 0; ++i) {
-        carry += (i < a.size() ? a[i] : 0) + std::uint64_t{i < b.size() ? b[i] : 0};
-        result.push_back(static_cast<std::uint32_t>(carry));
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        carry += std::uint64_t{a[i]} + b[i];
+        result[i] = static_cast<std::uint32_t>(carry);
         carry >>= kDigitBits;
     }
     return result;
 }
 
 /// a - b for a >= b.
-Digits subtract(const Digits& a, const Digits& b) {
-    Digits result;
+Digits subtract(const Shifted& a, const Shifted& b) {
+    Digits result(a.size());
     std::int64_t borrow = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::int64_t digit = std::int64_t{a[i]} - (i < b.size() ? b[i] : 0) - borrow;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        std::int64_t digit = std::int64_t{a[i]} - b[i] - borrow;
         borrow = digit < 0 ? 1 : 0;
         if (digit < 0) digit += std::int64_t{1} << kDigitBits;
-        result.push_back(static_cast<std::uint32_t>(digit));
+        result[i] = static_cast<std::uint32_t>(digit);
     }
-    drop_leading_zeros(result);
     return result;
 }
 
@@ -113,16 +125,18 @@ ExactNumber operator-(ExactNumber a) {
     return a;
 }
 
-ExactNumber operator+(const ExactNumber& a, const ExactNumber& b) {
-    if (a.magnitude_.empty()) return b;
-    if (b.magnitude_.empty()) return a;
+ExactNumber ExactNumber::sum(const ExactNumber& a, const ExactNumber& b, bool b_is_negative) {
     ExactNumber result;
-    result.exponent_ = std::min(a.exponent_, b.exponent_);
-    Digits x = a.magnitude_;
-    Digits y = b.magnitude_;
-    x.insert(x.begin(), static_cast<std::size_t>((a.exponent_ - result.exponent_) / kDigitBits), 0);
-    y.insert(y.begin(), static_cast<std::size_t>((b.exponent_ - result.exponent_) / kDigitBits), 0);
-    if (a.negative_ == b.negative_) {
+    result.exponent_ = a.magnitude_.empty()   ? b.exponent_
+                       : b.magnitude_.empty() ? a.exponent_
+                                              : std::min(a.exponent_, b.exponent_);
+    const auto shifted = [&](const ExactNumber& number) {
+        const int zeros = (number.exponent_ - result.exponent_) / kDigitBits;
+        return Shifted{number.magnitude_,
+                       number.magnitude_.empty() ? 0 : static_cast<std::size_t>(zeros)};
+    };
+    const Shifted x = shifted(a), y = shifted(b);
+    if (a.negative_ == b_is_negative) {
         result.magnitude_ = add(x, y);
         result.negative_ = a.negative_;
     } else if (compare(x, y) >= 0) {
@@ -130,14 +144,18 @@ ExactNumber operator+(const ExactNumber& a, const ExactNumber& b) {
         result.negative_ = a.negative_;
     } else {
         result.magnitude_ = subtract(y, x);
-        result.negative_ = b.negative_;
+        result.negative_ = b_is_negative;
     }
     result.normalise();
     return result;
 }
 
+ExactNumber operator+(const ExactNumber& a, const ExactNumber& b) {
+    return ExactNumber::sum(a, b, b.negative_);
+}
+
 ExactNumber operator-(const ExactNumber& a, const ExactNumber& b) {
-    return a + -b;
+    return ExactNumber::sum(a, b, !b.negative_);
 }
 
 ExactNumber operator*(const ExactNumber& a, const ExactNumber& b) {

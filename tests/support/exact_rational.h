@@ -22,14 +22,15 @@ public:
     friend ExactNumber operator+(const ExactNumber& a, const ExactNumber& b);
     friend ExactNumber operator-(const ExactNumber& a, const ExactNumber& b);
     friend ExactNumber operator*(const ExactNumber& a, const ExactNumber& b);
-    friend bool operator==(const ExactNumber& a, const ExactNumber& b) {
-        return (a - b).sign() == 0;
-    }
+    /// Equal numbers are stored alike.
+    friend bool operator==(const ExactNumber& a, const ExactNumber& b) = default;
     friend std::strong_ordering operator<=>(const ExactNumber& a, const ExactNumber& b) {
         return (a - b).sign() <=> 0;
     }
 
 private:
+    /// The sum of a, and of b with another sign.
+    static ExactNumber sum(const ExactNumber& a, const ExactNumber& b, bool b_is_negative);
     /// Removes zero digits at both ends.
     void normalise();
 

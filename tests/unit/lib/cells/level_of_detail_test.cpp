@@ -169,12 +169,17 @@ TEST(LevelOfDetail, AnyScale) {
     }
 }
 
-// Facets of a curved surface never agree; the keys of the deepest level fill 32 bits.
+// Facets of a curved surface never agree; the keys of the deepest level fill 32 bits. Two specks
+// far apart have few cones there.
 TEST(LevelOfDetail, TheDeepestLevelThatAKeyHoldsHasFacets) {
-    const OpenModel sphere = with_cones(icosphere(2), format::kMaxTetraLevel);
-    const double error = level_error(sphere.model, format::kMaxTetraLevel);
+    const OpenModel specks = with_cones(
+        joined(moved_by(icosphere(1), 1e-3, {3, 2, 1}), moved_by(icosphere(1), 1e-3, {-3, -2, -1})),
+        format::kMaxTetraLevel);
+    ASSERT_EQ(format::tetra_level(specks.model.tetra_tree().nodes.back().key),
+              format::kMaxTetraLevel);
+    const double error = level_error(specks.model, format::kMaxTetraLevel);
     EXPECT_GT(error, 0);
-    EXPECT_LE(error, level_error(sphere.model, format::kMaxTetraLevel - 1));
+    EXPECT_LE(error, level_error(specks.model, format::kMaxTetraLevel - 1));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "support/open_tiny.h"
 #include "support/placements.h"
 #include "support/random_pose.h"
+#include "support/rounds.h"
 
 #include "exact/triangle_distance.h"
 
@@ -59,9 +60,9 @@ Case random_case(std::mt19937& random, int round, int triangles = 10) {
 // The oracle: every pair of triangles in rational arithmetic; squares are compared.
 TEST(DistanceLaws, TheIntervalHoldsTheTruthAndIsNarrow) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    constexpr int kRounds = 500;  // many times slower there, and nothing new to see
+    const int kRounds = 500;  // many times slower there, and nothing new to see
 #else
-    constexpr int kRounds = 10'000;
+    const int kRounds = rounds(10'000, 4);
 #endif
     std::mt19937 random(20261121);
     int apart = 0;

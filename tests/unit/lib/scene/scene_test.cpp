@@ -14,11 +14,11 @@
 
 #include "cdprep/advanced/runtime_model.h"
 #include "support/aligned_bytes.h"
-#include "support/all_poses.h"
 #include "support/float_modes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
+#include "support/rounds.h"
 #include "support/run_threads.h"
 #include "support/same_contacts.h"
 #include "support/same_distance.h"
@@ -267,7 +267,7 @@ private:
 TEST(Scene, EqualsSingleQueriesAndTheirDifferences) {
     std::size_t begun = 0, kept = 0, apart = 0, stays = 0;
     std::map<Ask, std::size_t> begun_of;
-    const std::uint32_t scenes = test::runs_all_poses() ? 1000 : 12;
+    const std::uint32_t scenes = test::asks_all() ? 1000 : 12;
     for (std::uint32_t seed = 0; seed < scenes; ++seed) {
         const Plan plan = plan_for(24, 300);
         World world(seed, plan);

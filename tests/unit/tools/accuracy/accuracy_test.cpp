@@ -33,7 +33,7 @@ void keep(double share, const std::string& step) {
     if (told().steps.empty() || told().steps.back() != step) told().steps.push_back(step);
 }
 
-/// One study serves all tests: it takes a second.
+/// One study serves all tests: it takes seconds.
 const AccuracyStudy& studied() {
     static const AccuracyStudy study =
         study_accuracy(test::mesh_of(test::torus(1, 0.4, 24, 12)),

@@ -9,6 +9,7 @@
 #include "support/exact_hull_pair.h"
 #include "support/expect_distance.h"
 #include "support/hull_pairs.h"
+#include "support/rounds.h"
 #include "unit/tools/feature_hull_of.h"
 
 namespace cdprep::test {
@@ -54,13 +55,13 @@ void check(const SurfaceHull& a, const SurfaceHull& b, const Pose& pose,
     }
 }
 
-// By the definition, in integers: 100,000 pairs of hulls of dimensions 0 to 3, cold, from where
-// the last question ended, and from nonsense.
+// By the definition, in integers: pairs of hulls of dimensions 0 to 3, cold, from where the last
+// question ended, and from nonsense.
 TEST(ClosestFeatures, GridHullsAnswerTheNearestFeatures) {
-    constexpr int kPairs = 100000;
+    const int pairs = rounds(100'000, 5);
     std::mt19937 random(20240801);
     Seen seen;
-    for (int i = 0; i < kPairs; ++i) {
+    for (int i = 0; i < pairs; ++i) {
         SCOPED_TRACE(i);
         const HullPair pair = grid_pair(random);
         const auto truth = ExactHullPair<Integer128>(pair.a, pair.placed).squared_distance();
@@ -74,8 +75,8 @@ TEST(ClosestFeatures, GridHullsAnswerTheNearestFeatures) {
             if (found) seen.count(*found);
         }
     }
-    EXPECT_GT(seen.apart, 3 * kPairs * 3 / 10);
-    EXPECT_LT(seen.apart, 3 * kPairs * 7 / 10);
+    EXPECT_GT(seen.apart, 3 * pairs * 3 / 10);
+    EXPECT_LT(seen.apart, 3 * pairs * 7 / 10);
     EXPECT_GT(seen.parallel, seen.apart / 50);
     for (const int kind : seen.kinds) EXPECT_GT(kind, 0);
 }
