@@ -21,7 +21,7 @@ using import::Affine;
 constexpr Affine kNone = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
 /// A glTF file of two meshes, of a triangle each.
-class Folder {
+class GltfFolder {
 public:
     std::filesystem::path write(const std::string& nodes) const {
         const std::array<float, 12> points = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -61,7 +61,7 @@ Pose pose_at(const SceneFile& scene, std::size_t object) {
 }
 
 TEST(ReadAssembly, RigidTransformsArePoses) {
-    const Folder folder;
+    const GltfFolder folder;
     const AssemblyScene read =
         folder.read(R"({"mesh":0,"name":"a"},{"mesh":1,"name":"b","translation":[1,2,3]},)"
                     R"({"mesh":0,"name":"a","matrix":[0,1,0,0,-1,0,0,0,0,0,1,0,7,8,9,1]})");
@@ -85,7 +85,7 @@ TEST(ReadAssembly, RigidTransformsArePoses) {
 
 // By hand: 0.6 and 0.8 as floats deviate by some 1e-8, and a length of 1.00001 by 2e-5.
 TEST(ReadAssembly, TheRoundingOfFloatsIsNoScale) {
-    const Folder folder;
+    const GltfFolder folder;
     const AssemblyScene read = folder.read(
         R"({"mesh":0},{"mesh":0,"rotation":[0.6000000238418579,0,0,0.800000011920929]},)"
         R"({"mesh":0,"scale":[1.00001,1.00001,1.00001]})");
@@ -101,7 +101,7 @@ TEST(ReadAssembly, TheRoundingOfFloatsIsNoScale) {
 
 // A parent's scale moves its children too.
 TEST(ReadAssembly, AUniformScaleIsInTheModel) {
-    const Folder folder;
+    const GltfFolder folder;
     const AssemblyScene read = folder.read(
         R"({"children":[1,2],"scale":[0.001,0.001,0.001]},{"mesh":0,"translation":[1000,0,0]},)"
         R"({"mesh":0,"matrix":[0,1,0,0,-1,0,0,0,0,0,1,0,0,2000,0,1]})");
@@ -113,7 +113,7 @@ TEST(ReadAssembly, AUniformScaleIsInTheModel) {
 }
 
 TEST(ReadAssembly, OtherTransformsAreInTheModelWhole) {
-    const Folder folder;
+    const GltfFolder folder;
     const AssemblyScene read = folder.read(
         R"({"mesh":0,"scale":[-1,1,1]},{"mesh":0,"scale":[-1,1,1],"translation":[5,0,0]},)"
         R"({"mesh":0,"scale":[1,2,1]},{"mesh":1,"scale":[1,2,1]},{"mesh":0,"scale":[0,0,0]},)"
@@ -130,7 +130,7 @@ TEST(ReadAssembly, OtherTransformsAreInTheModelWhole) {
 }
 
 TEST(ReadAssembly, RefusesWhatIsNoAssembly) {
-    const Folder folder;
+    const GltfFolder folder;
     const auto refused = [&](const std::string& nodes, const std::string& words) {
         const auto read = read_assembly(folder.write(nodes), {});
         ASSERT_FALSE(read);
@@ -153,7 +153,7 @@ TEST(ReadAssembly, GltfIsToldByNameOrMagic) {
 
 // Two instances and a scaled copy are two models, and two files in a cache.
 TEST(ReadAssembly, ModelsAreBakedOnce) {
-    const Folder folder;
+    const GltfFolder folder;
     AssemblyScene read =
         folder.read(R"({"mesh":0},{"mesh":0,"translation":[1,0,0]},{"mesh":0,"scale":[2,2,2]})");
     read.scene.pairs = {{.asked = {.a = 0, .b = 0, .effects = Ask::collide}}};
