@@ -45,7 +45,7 @@ bool any_contact_near(TreePair& touched, const Pair& pair, Workspace& workspace)
     // If nothing is held, no gap is proved either: most pairs that do not touch are never asked
     // again, and a proof takes twice as long as a walk.
     const auto found = find_contact(a, b, pair.placement, workspace, pair.options);
-    touched = found.value_or(no_pair);
+    touched = found.value_or(kNoPair);
     return found.has_value();
 }
 

@@ -24,7 +24,7 @@ struct PairQuestion {
     const Pair& pair;
     const LayerPair& asks;  ///< the options of the effects
     Ask effects;
-    TreePair touched;  ///< triangles that touched in the last step, or no_pair
+    TreePair touched;  ///< triangles that touched in the last step, or kNoPair
 };
 
 /// What is known of two objects.
@@ -35,7 +35,7 @@ struct PairAnswer {
     Distance distance{};            ///< if `distance` holds
     ContactsVerdict contacts{};     ///< of the list of contacts
     std::uint64_t overlapping = 0;  ///< triangle pairs in the list
-    TreePair touched = no_pair;     ///< triangles found to touch
+    TreePair touched = kNoPair;     ///< triangles found to touch
 };
 
 [[nodiscard]] PairAnswer ask_pair(const PairQuestion& question, Workspace& workspace,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/object_box.h"
+#include "scene/object_box.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,9 @@
 #include <limits>
 
 #include "cdprep/advanced/model_views.h"
+#include "cdprep/format/float_environment.h"
 #include "core/numbers.h"
+#include "core/require.h"
 
 namespace cdprep {
 namespace {
@@ -34,7 +36,7 @@ float rounded_up(double x) noexcept {
 constexpr double kSlack = 0x1p-37;
 constexpr double kLeast = std::numeric_limits<double>::min();
 
-RootBox root_box(const Model& model, const Pose& world_from_model, double reach) noexcept {
+RootBox placed_box(const Model& model, const Pose& world_from_model, double reach) noexcept {
     const auto& nodes = model.bvh().nodes;
     RootBox root{};
     root.half = {-1, -1, -1};
@@ -63,7 +65,7 @@ RootBox root_box(const Model& model, const Pose& world_from_model, double reach)
     return root;
 }
 
-WorldBox world_box(const RootBox& root) noexcept {
+WorldBox box_around(const RootBox& root) noexcept {
     if (root.half[0] < 0) return {{1, 1, 1}, {-1, -1, -1}};
     WorldBox box{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -76,7 +78,7 @@ WorldBox world_box(const RootBox& root) noexcept {
     return box;
 }
 
-bool may_meet(const RootBox& a, const RootBox& b) noexcept {
+bool boxes_may_meet(const RootBox& a, const RootBox& b) noexcept {
     const double slack = kSlack * (a.size + b.size) + kLeast;
     std::array<double, 9> turn{}, size{};  // [axis of A][axis of B]
     std::array<double, 3> way{};           // from A to B along A's axes
@@ -109,6 +111,27 @@ bool may_meet(const RootBox& a, const RootBox& b) noexcept {
         }
     }
     return true;
+}
+
+RootBox root_box(const Model& model, const Pose& world_from_model, double reach) noexcept {
+    if (!(reach >= 0 && reach <= std::numeric_limits<double>::max())) {
+        stop_with("The reach of a box is a finite number, at least 0.");
+    }
+    if (model.triangle_count() > 0 && model.bvh().nodes.empty()) {
+        stop_with("The box of a model needs its BVH, whose sections were not opened.");
+    }
+    const format::FloatEnvironment environment;
+    return placed_box(model, world_from_model, reach);
+}
+
+WorldBox world_box(const RootBox& root) noexcept {
+    const format::FloatEnvironment environment;
+    return box_around(root);
+}
+
+bool may_meet(const RootBox& a, const RootBox& b) noexcept {
+    const format::FloatEnvironment environment;
+    return boxes_may_meet(a, b);
 }
 
 }  // namespace cdprep

@@ -29,7 +29,7 @@ struct Record {
     Ask called = Ask::nothing;  ///< effects whose query was called in this step
     Ask holds = Ask::nothing;
     Collision collision;
-    TreePair touched = no_pair;  ///< triangles that `collide` found, where the next search begins
+    TreePair touched = kNoPair;  ///< triangles that `collide` found, where the next search begins
     RecordList triangle_pairs;
     RecordList contacts;
     bool is_new = false;    ///< looked at in this step

@@ -28,8 +28,8 @@ void Scene::State::place(std::uint32_t slot) noexcept {
         boxes[slot] = {{1, 1, 1}, {-1, -1, -1}};
         filters[slot] = {0, 0};
     } else {
-        roots[slot] = root_box(*object.model, object.pose, plan->reach_of(object.layer));
-        boxes[slot] = world_box(roots[slot]);
+        roots[slot] = placed_box(*object.model, object.pose, plan->reach_of(object.layer));
+        boxes[slot] = box_around(roots[slot]);
         filters[slot] = plan->filter_of(object.layer);
     }
 }
@@ -144,7 +144,7 @@ void Scene::State::ask(std::uint32_t number, Workspace& workspace,
     Record& record = next.record[number];
     record.asked = effects_of(record);
     record.is_apart =
-        record.asked != Ask::nothing && !may_meet(roots[record.a.slot], roots[record.b.slot]);
+        record.asked != Ask::nothing && !boxes_may_meet(roots[record.a.slot], roots[record.b.slot]);
     if (record.is_apart || record.asked == Ask::nothing) return;
     const LayerPair& asks = plan->pairs()[record.pair];
     const ObjectSlot &a = objects[record.a.slot], &b = objects[record.b.slot];

@@ -8,12 +8,12 @@
 #include <optional>
 #include <span>
 
-#include "cdprep/advanced/object_box.h"
 #include "cdprep/broad_phase.h"
 #include "cdprep/scene.h"
 #include "scene/ask_pair.h"
 #include "scene/carver.h"
 #include "scene/list_pages.h"
+#include "scene/object_box.h"
 #include "scene/scene_records.h"
 
 namespace cdprep {

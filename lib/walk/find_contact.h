@@ -15,7 +15,7 @@ struct TreePair {
 };
 
 /// No pair: no model has triangles of these numbers.
-inline constexpr TreePair no_pair = {0xffffffff, 0xffffffff};
+inline constexpr TreePair kNoPair = {0xffffffff, 0xffffffff};
 
 /// Returns whether the cache holds a pair of triangles that both models have.
 [[nodiscard]] bool has_pair(const PairCache& cache, const Model& a, const Model& b) noexcept;
@@ -33,7 +33,7 @@ void remember_pair(PairCache& cache, const TreePair& pair) noexcept;
                                PairCache* cache) noexcept;
 
 /// Returns whether any triangles are in contact. Searches around `touched` first, a pair that was
-/// in contact before, or no_pair. Sets it to the pair found, or to no_pair. It changes speed, never
+/// in contact before, or kNoPair. Sets it to the pair found, or to kNoPair. It changes speed, never
 /// the result.
 [[nodiscard]] bool any_contact_near(TreePair& touched, const Pair& pair,
                                     Workspace& workspace) noexcept;

@@ -191,7 +191,7 @@ inline const float* box_around(const Tree& tree, const TreePlace& place) noexcep
     return &tree.nodes[node].lower[0][place.index % format::kBvhWidth];
 }
 
-/// What a file holds beyond what a test reads must not cost the test anything.
+/// Without `reads_swept`, swept spheres of the file cost nothing.
 inline kernels::NodeBoxes node_boxes(const Tree& tree, const TestedBoxes& side,
                                      bool reads_swept) noexcept {
     const float* oriented =

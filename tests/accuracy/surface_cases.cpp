@@ -218,8 +218,8 @@ void ask_findings(const HardCaseOptions& options, Scoreboard& board) {
 
 constexpr std::array kPresets = {"safe", "closed", "solid"};
 
-/// Every source triangle is accounted for. Corners out of range stand in these soups as no import
-/// leaves them.
+/// Every source triangle is accounted for. These soups have corners out of range, which no import
+/// leaves.
 void ask_repairs(const ZooAnimal& animal, std::span<const char* const> presets, Scoreboard& board) {
     for (const char* preset : presets) {
         mesh::RepairOptions options;

@@ -331,7 +331,7 @@ private:
         }
     }
 
-    /// All pairs of slots with objects, or some that are none.
+    /// All pairs of slots with objects, or some wrong ones.
     std::vector<cdprep_box_pair> candidates(bool is_hostile) {
         std::vector<cdprep_box_pair> pairs;
         for (const auto& [a, one] : objects_) {

@@ -118,8 +118,8 @@ def write_scenes(folder):
 def write_inputs(folder):
     for name in ("bolt.obj", "bracket.obj"):
         shutil.copy(ROOT / "samples/meshes" / name, folder / name)
-    for path in (ROOT / "samples/scenes").glob("*.*"):
-        shutil.copy(path, folder / path.name)
+    for name in ("meshes", "scenes"):  # scenes name meshes of the other folder
+        shutil.copytree(ROOT / "samples" / name, folder / name)
     write_scenes(folder)
     (folder / "cube.off").write_text(CUBE)
     write_ring(folder / "ring.off", 48, 20)
@@ -338,13 +338,19 @@ def studies():
 
 
 def simulations():
-    for scene in ("crates", "assembly", "parts", "unbuilt", "wrong", "none"):
+    for scene in ("scenes/crates", "scenes/assembly", "parts", "unbuilt", "wrong", "none"):
         for form in ("text", "json"):
             yield [f"simulate {scene}.json --plan --format {form}"]
         for form in ("text", "json", "ndjson"):
             yield [f"simulate {scene}.json --format {form} --progress none"]
-    yield ["simulate thousand.json --frames 2"]
+    yield ["simulate scenes/thousand.json --frames 2"]
     yield ["simulate parts.json --frames 3 --cache baked", "simulate parts.json --plan --cache baked"]
+
+
+def clashes():
+    for scene in ("scenes/assembly", "parts", "none"):
+        yield [f"query distance --scene {scene}.json --max-distance 100 --progress none"]
+        yield [f"query within --scene {scene}.json --tolerance 20 --progress none"]
 
 
 def stable(value):
@@ -415,7 +421,7 @@ def main():
         outputs = Outputs(program, inputs, kept)
         (inputs / "models").symlink_to(place_of_shared_folder() / "models")
         cases = [*bakes(), *words_of_bakes(), *questions(), *questions_in_words(), *reports(),
-                 *decompositions(), *imports(), *studies(), *simulations()]
+                 *decompositions(), *imports(), *studies(), *simulations(), *clashes()]
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             found = dict(pool.map(outputs.of, cases))
     must(len(found) == len(cases), "two cases have one name")

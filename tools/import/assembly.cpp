@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "import/assembly.h"
 
+#include <exception>
 #include <new>
 #include <optional>
 #include <utility>
@@ -48,6 +49,9 @@ Result<Assembly> Assembly::open(const std::filesystem::path& path, const ImportO
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::over_budget,
                      path.string() + ": there is not enough memory to read it."};
+    } catch (const std::exception& problem) {
+        return Error{ErrorCode::internal,
+                     path.string() + ": reading it failed: " + problem.what() + "."};
     }
 }
 

@@ -339,7 +339,9 @@ std::string answer_members(const PairAnswer& answer) {
 }
 
 std::string answer_words(const PairAnswer& answer) {
-    std::string text = answer.hit ? ": hit" : ": free";
+    const bool is_unknown =
+        !answer.hit && answer.containment && answer.containment->answer == Answer::unknown;
+    std::string text = answer.hit ? ": hit" : is_unknown ? ": unknown" : ": free";
     if (answer.count) text += ", " + number(*answer.count) + " pairs";
     if (answer.is_approximate) text += ", approximate: some may be missing";
     if (answer.containment) {

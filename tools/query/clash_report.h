@@ -12,9 +12,8 @@ namespace cdprep::report {
 struct ClashCounts {
     std::uint64_t queried = 0;
     std::uint64_t clashes = 0;
-    std::uint64_t undecided =
-        0;               ///< solids of which it is not known whether one contains the other
-    double seconds = 0;  ///< that the queries took, on all threads together
+    std::uint64_t undecided = 0;  ///< solids: one may contain the other, but nothing proves it
+    double seconds = 0;           ///< that the queries took, on all threads together
 
     void add(const ClashCounts& other) noexcept;
 };

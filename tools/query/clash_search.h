@@ -29,8 +29,8 @@ class ClashAsker {
 public:
     explicit ClashAsker(const ClashQuestion& question) : question_(question) {}
 
-    /// Returns the answer about a pair that clashes, or of which that is not known. The answer is
-    /// that of a single query. Its lists stay until the next call.
+    /// Returns the answer about a pair that clashes or may clash: that of a single query. Its lists
+    /// stay until the next call.
     [[nodiscard]] std::optional<ClashAnswer> ask(const Pair& pair, const LayerPair& asked);
 
 private:

@@ -12,6 +12,7 @@
 #include "cli/open_for.h"
 #include "cli/signals.h"
 #include "query/command.h"
+#include "query/stopwatch.h"
 
 namespace cdprep::cli {
 namespace {

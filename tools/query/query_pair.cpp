@@ -24,6 +24,7 @@
 #include "compare/cells/literal_octree.h"
 #include "query/command.h"
 #include "query/query_hulls.h"
+#include "query/stopwatch.h"
 #include "query/triangle_lists.h"
 #include "text/structure_name.h"
 
@@ -458,8 +459,10 @@ constexpr const char* kSceneNotes =
     "tolerance, max_distance, body and overlap. Options replace these. If the file has no pairs, "
     "every part is queried against every other. In a glTF file, each node with triangles is a "
     "part, named by its path. Later nodes of the same path get #2, #3 and so on. Nodes that use "
-    "one mesh share its model. A transform that is not rigid is applied to the vertices. The "
-    "answers are exact: parts that touch clash. The lines do not depend on the number of threads.";
+    "one mesh share its model. A transform that is not rigid is applied to the vertices. One that "
+    "deviates from a rigid one by at most 1e-5 is rounded to it; the summary states the largest "
+    "deviation as 'rounding'. The answers are exact for these parts: those that touch clash. The "
+    "lines do not depend on the number of threads.";
 
 void add_pair_format(const Command& command, std::string& word, bool serves_scenes) {
     if (!serves_scenes) {

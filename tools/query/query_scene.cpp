@@ -107,6 +107,9 @@ private:
             }
         }
         for (std::size_t i = 0; i < pairs.size(); ++i) {
+            // The plan drops a pair without effects.
+            const bool asks = pairs[i].asked.effects != Ask::nothing || !pairs[i].unbuilt.empty();
+            if (scene().has_pairs && !asks) continue;
             LayerPair asked = {.a = pairs[i].asked.a, .b = pairs[i].asked.b};
             if (const auto error = choose(i, pairs[i].asked, asked)) return *error;
             pairs[i] = {.asked = asked};
@@ -122,10 +125,9 @@ private:
             case Ask::within:
                 if (!question_.tolerance && !contains(file.effects, Ask::within)) {
                     const std::string pair =
-                        scene().has_pairs ? "pair " + std::to_string(number) + " of layers" : "it";
+                        scene().has_pairs ? ": pair " + std::to_string(number) + " of layers" : "";
                     return Error{ErrorCode::bad_argument,
-                                 scene().name + ": " + pair +
-                                     " states no tolerance of within. Give --tolerance."};
+                                 scene().name + pair + " states no tolerance. Give --tolerance."};
                 }
                 asked.tolerance = question_.tolerance.value_or(file.tolerance);
                 break;

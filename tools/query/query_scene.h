@@ -20,7 +20,7 @@ struct SceneArguments {
     ImportArguments import;
 };
 
-/// What the command line says of the query; what it does not say, the scene does.
+/// The query as the command line gives it. The scene gives the rest.
 struct SceneQuestion {
     ClashQuestion question;
     std::optional<double> tolerance;
@@ -37,8 +37,8 @@ inline constexpr double kDefaultReach = 0.01;
 /// the command.
 void add_scene(const Command& command, SceneArguments& arguments);
 
-/// Returns an error if an option is given that is only for a query about two models, or, without
-/// --scene, one that is only for a scene.
+/// Returns an error if an option does not fit: with --scene, one that is only for two models;
+/// without it, one that is only for a scene.
 [[nodiscard]] std::optional<Error> find_idle_for_scene(const Command& command, bool has_scene);
 
 /// Asks all pairs of parts whose layers are paired, and writes the clashes and a summary.

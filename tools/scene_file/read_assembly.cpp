@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "cdprep/format/limits.h"
+#include "import/mesh_endings.h"
 #include "text/number_text.h"
 
 namespace cdprep::scenes {
@@ -76,7 +77,7 @@ public:
 private:
     /// The models of nodes with equal meshes.
     struct Models {
-        std::map<double, std::uint32_t> by_size;    ///< of uniform scales; 1 is none
+        std::map<double, std::uint32_t> by_size;    ///< by their uniform scale
         std::map<Linear, std::uint32_t> by_linear;  ///< of all other transforms
     };
 
@@ -117,6 +118,10 @@ private:
                                     Pose& pose) {
         const double own = std::cbrt(determinant(linear));
         if (!(own > 0)) return std::nullopt;
+        // What is rigid as it stands is not rounded to the size of another model.
+        for (const double size : {1.0, own}) {
+            if (is_exact_pose(linear, size, m, pose)) return size;
+        }
         if (is_pose(linear, 1, m, pose)) return 1;
         const auto near = models.by_size.lower_bound(own * (1 - kFloatRounding));
         if (near != models.by_size.end() && is_pose(linear, near->first, m, pose)) {
@@ -125,18 +130,22 @@ private:
         return is_pose(linear, own, m, pose) ? std::optional(own) : std::nullopt;
     }
 
+    /// Returns whether a transform divided by a size is rigid.
+    static bool is_exact_pose(Linear linear, double size, const Affine& m, Pose& pose) {
+        for (double& x : linear) x /= size;
+        const Linear& r = linear;
+        const Result<Pose> exact = Pose::from_rows(
+            {r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], m[3], m[7], m[11]});
+        if (exact) pose = *exact;
+        return static_cast<bool>(exact);
+    }
+
     /// Returns whether a transform divided by a size is rigid, but for rounding.
     bool is_pose(Linear linear, double size, const Affine& m, Pose& pose) {
         for (double& x : linear) x /= size;
         const double off = deviation(linear);
         if (!(off <= kFloatRounding)) return false;
         const Linear& r = linear;
-        const Result<Pose> exact = Pose::from_rows(
-            {r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], m[3], m[7], m[11]});
-        if (exact) {
-            pose = *exact;
-            return true;
-        }
         const Result<Pose> nearest = nearest_pose(
             {r[0], r[1], r[2], m[3], r[3], r[4], r[5], m[7], r[6], r[7], r[8], m[11], 0, 0, 0, 1},
             kFloatRounding);
@@ -175,7 +184,8 @@ private:
 }  // namespace
 
 bool is_assembly(const fs::path& path) {
-    if (path.extension() == ".gltf" || path.extension() == ".glb") return true;
+    const std::string extension = import::lower_extension(path);
+    if (extension == ".gltf" || extension == ".glb") return true;
     std::array<char, 4> magic{};
     std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
     return std::string_view(magic.data(), magic.size()) == "glTF";

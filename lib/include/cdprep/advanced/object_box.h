@@ -18,8 +18,9 @@ struct RootBox {
 };
 
 /// Returns a box that contains all points of a moved model, as transform_point() rounds them, and
-/// reaches `reach` beyond them. The reach is finite, at least 0, in units of the models. If two
-/// models are at most d apart, their boxes with a reach of d / 2 each meet. Needs the BVH.
+/// reaches `reach` beyond them, in units of the models. If two models are at most d apart, their
+/// boxes with a reach of d / 2 each meet. A reach that is not finite or is negative, or a model
+/// opened without its BVH, ends the program with a sentence.
 [[nodiscard]] RootBox root_box(const Model& model, const Pose& world_from_model,
                                double reach) noexcept;
 

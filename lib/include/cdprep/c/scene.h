@@ -47,7 +47,8 @@ typedef struct cdprep_plan_options {
     cdprep_head head;
     const cdprep_layer_pair* layer_pairs; /* null */
     const cdprep_model_use* models;       /* null: scene_add() alone checks the models */
-    /* Null: messages and texts number the layers. Otherwise the names of layers 0, 1, ... */
+    /* Null: messages and texts number the layers. Otherwise the names of layers 0, 1, ..., in
+     * UTF-8; copied. An empty name gives the number. */
     const char* const* layer_names;
     uint32_t layer_pair_count; /* 0: at most 528 */
     uint32_t model_count;      /* 0 */
@@ -75,6 +76,7 @@ typedef int (*cdprep_text_visitor)(void* context, const char* sentence);
  * failure *plan is null. The plan takes some kilobytes. Takes O(layer pairs^2 + models) time.
  * Errors, such as of `options.layer_pairs[3].tolerance`:
  * - CDPREP_WHY_OUT_OF_RANGE: a layer, an effect, an enumerator, a number or a count.
+ * - CDPREP_WHY_NULL: a name of a layer, or an array with a count above 0, is null.
  * - CDPREP_WHY_NOT_FINITE: a tolerance, angle or maximum distance is NaN or infinite.
  * - CDPREP_WHY_NO_MEANING: Two layers form a second pair. Or a field is set that no effect of its
  *   pair uses. Or `serves` or `name` is set in addition to a model.
@@ -218,7 +220,7 @@ typedef struct cdprep_scene_distance {
 
 /* The contacts of two objects: a.slot < b.slot. A is the object with the lower slot; points and
  * normals are in the world. The items and numbers are those of a cdprep_contact_list. Two objects
- * whose search `work` ended early are listed even without contacts. */
+ * are also listed without contacts if `work` ended their search. */
 typedef struct cdprep_scene_contact {
     cdprep_object a, b;
     uint32_t layer_pair;
@@ -394,10 +396,10 @@ CDPREP_API int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** 
  * a < b, and no pair occurs twice. They must contain all pairs whose boxes meet; a pair that is
  * missing is not asked. Pairs whose boxes do not meet, or whose layers are not paired, are ignored.
  * Takes O(candidates + pairs log pairs) time, and the time of the queries.
- * Errors, such as of `candidates[3]`: CDPREP_WHY_OUT_OF_RANGE for a slot that is not below
- * max_objects, for a >= b, and for a pair that does not come after the one before it;
- * CDPREP_WHY_STALE for a slot without an object; CDPREP_WHY_BUSY. Then nothing has changed, and
- * `complete` is CDPREP_NO. */
+ * Errors, such as of `candidates[3]`. Then nothing has changed, and `complete` is CDPREP_NO:
+ * - CDPREP_WHY_OUT_OF_RANGE: a slot is not below max_objects, or a >= b, or the pair does not come
+ *   after the one before it.
+ * - CDPREP_WHY_STALE: a slot has no object. CDPREP_WHY_BUSY. */
 CDPREP_API int cdprep_scene_step_with(cdprep_scene* scene, const cdprep_box_pair* candidates,
                                       size_t count, cdprep_workspace* workspace, cdprep_step* step,
                                       cdprep_error* error);

@@ -224,7 +224,7 @@ TEST_F(CSceneHostile, OptionsOfContactsAreCheckedFieldByField) {
         cdprep_plan_options changed = options();
         changed.layer_pairs = &pair;
         Outcome result = outcome_of(&changed);
-        if (given == nullptr) result.why = CDPREP_WHY_NULL;  // null stands for the defaults
+        if (given == nullptr) result.why = CDPREP_WHY_NULL;  // null means the defaults
         return result;
     });
 }
@@ -949,7 +949,7 @@ TEST_F(CBroadPhaseHostile, OptionsAreCheckedFieldByField) {
         EXPECT_EQ(cdprep_broad_phase_make(given, nullptr, 0, &made, &error), sized);
         EXPECT_EQ(made == nullptr, sized != CDPREP_OK);
         cdprep_broad_phase_end(made);
-        if (given == nullptr) result.why = CDPREP_WHY_NULL;  // null stands for the defaults
+        if (given == nullptr) result.why = CDPREP_WHY_NULL;  // null means the defaults
         return result;
     });
 }

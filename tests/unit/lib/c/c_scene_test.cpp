@@ -43,9 +43,9 @@ TEST(CScene, AProgramInC99GetsTheResults) {
     EXPECT_EQ(wrong, nullptr) << wrong;
 }
 
-// Layers 0 and 1 collide and list triangles, 1 and 2 collide as solids and list contacts, 2 and 2
-// have a tolerance and a distance, and the contacts of 0 and 0 are ended by their work. The first
-// pair is dropped, so numbers in C are one higher than in C++.
+// Layers 0 and 1 collide and list triangles. 1 and 2 collide as solids and list contacts. 2 and 2
+// have a tolerance and a distance. Work ends the contacts of 0 and 0. The first pair is dropped, so
+// numbers in C are one higher than in C++.
 const std::vector<LayerPair> kPairs = {
     {.a = 5, .b = 6},
     {.a = 0,

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "cdprep/advanced/query_counts.h"
 #include "cdprep/pairs.h"
 #include "query/cached_search.h"
@@ -151,6 +153,33 @@ TEST(PairCacheMargin, WaitsLongerAfterEachFailure) {
     EXPECT_EQ(cache.wait, 0u);
     EXPECT_EQ(cache.failures, 0u);
     EXPECT_EQ(cache.proof, 7);
+}
+
+// A hint may be the pair of the last query, any other pair, or none that the models have.
+TEST_F(PairCacheSaves, NoAnswerDependsOnAHint) {
+    Workspace workspace;
+    std::mt19937 random(7);
+    int hits = 0;
+    TreePair last = kNoPair;
+    for (int i = 0; i < 300; ++i) {
+        const Pair pair{a.model, b.model, along_x(1.2 + i * 0.005)};
+        const bool expected =
+            find_contact(pair.a, pair.b, pair.placement, workspace, {}).has_value();
+        hits += expected ? 1 : 0;
+        for (TreePair hint :
+             {last, kNoPair, TreePair{0, b.model.triangle_count()},
+              TreePair{static_cast<std::uint32_t>(random()) % a.model.triangle_count(),
+                       static_cast<std::uint32_t>(random()) % b.model.triangle_count()}}) {
+            ASSERT_EQ(any_contact_near(hint, pair, workspace), expected) << i;
+            ASSERT_EQ(hint.a != kNoPair.a, expected);
+            if (!expected) continue;
+            const ContactTest touch(pair.a, pair.b, pair.placement, {}, nullptr);
+            ASSERT_TRUE(touch(hint.a, hint.b, false)) << i;
+            last = hint;
+        }
+    }
+    EXPECT_GT(hits, 100);
+    EXPECT_LT(hits, 300);
 }
 
 }  // namespace
