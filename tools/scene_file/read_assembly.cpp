@@ -39,6 +39,13 @@ double determinant(const Linear& m) {
            m[2] * (m[3] * m[7] - m[4] * m[6]);
 }
 
+/// Returns the size of a uniform scale, turned or not. Exact without a turn. 0 or less, or without
+/// meaning, for other transforms.
+double size_of(const Linear& m) {
+    const bool is_scale = m == Linear{m[0], 0, 0, 0, m[0], 0, 0, 0, m[0]};
+    return is_scale ? m[0] : std::cbrt(determinant(m));
+}
+
 /// Returns the largest entry of |M^T M - I|.
 double deviation(const Linear& m) {
     double most = 0;
@@ -116,7 +123,7 @@ private:
     /// transform. The size is that of an earlier model of these meshes, if that is near enough.
     std::optional<double> find_size(const Models& models, const Linear& linear, const Affine& m,
                                     Pose& pose) {
-        const double own = std::cbrt(determinant(linear));
+        const double own = size_of(linear);
         if (!(own > 0)) return std::nullopt;
         // What is rigid as it stands is not rounded to the size of another model.
         for (const double size : {1.0, own}) {
