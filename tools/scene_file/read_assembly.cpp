@@ -125,16 +125,17 @@ private:
                                     Pose& pose) {
         const double own = size_of(linear);
         if (!(own > 0)) return std::nullopt;
+        const auto near = models.by_size.lower_bound(own * (1 - kFloatRounding));
+        const std::array<double, 3> sizes = {1, near == models.by_size.end() ? own : near->first,
+                                             own};
         // What is rigid as it stands is not rounded to the size of another model.
-        for (const double size : {1.0, own}) {
+        for (const double size : sizes) {
             if (is_exact_pose(linear, size, m, pose)) return size;
         }
-        if (is_pose(linear, 1, m, pose)) return 1;
-        const auto near = models.by_size.lower_bound(own * (1 - kFloatRounding));
-        if (near != models.by_size.end() && is_pose(linear, near->first, m, pose)) {
-            return near->first;
+        for (const double size : sizes) {
+            if (is_pose(linear, size, m, pose)) return size;
         }
-        return is_pose(linear, own, m, pose) ? std::optional(own) : std::nullopt;
+        return std::nullopt;
     }
 
     /// Returns whether a transform divided by a size is rigid.
