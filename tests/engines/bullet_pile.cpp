@@ -3,8 +3,7 @@
 // fills in. Fails if one leaves the box, or is faster than 2 m/s after the first second. Prints
 // what still moves at the end: after 2.5 s, or after 10 s with CDPREP_ALL_POSES=yes.
 //
-// Usage: bullet_pile [NAME...]; the models are those beside the checkout, or in CDPREP_SHARED. A
-// program that is slower by a factor simulates as many frames fewer: CDPREP_SLOWDOWN=10.
+// Usage: bullet_pile [NAME...]; the models are those beside the checkout, or in CDPREP_SHARED.
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
@@ -17,7 +16,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 #include <new>
 #include <string>
@@ -207,13 +205,6 @@ private:
     std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
-/// How many frames there are.
-int frame_count() {
-    const int frames = test::rounds(kFrames, 4);
-    const char* slowdown = std::getenv("CDPREP_SLOWDOWN");
-    return slowdown ? std::min(frames, kFrames / std::max(1, std::atoi(slowdown))) : frames;
-}
-
 /// The greatest speed that a point of the body can have.
 double speed_of(const btRigidBody& body) {
     const auto& shape = static_cast<const BoundedShape&>(*body.getCollisionShape());
@@ -255,7 +246,7 @@ bool drop(const std::string& name, Shape& shape) {
     }
     double fastest = 0;
     bool stays = true;
-    const int frames = frame_count();
+    const int frames = test::rounds(kFrames, 4);
     for (int frame = 0; frame < frames; ++frame) {
         world.step();
         for (const btRigidBody* body : falling) {

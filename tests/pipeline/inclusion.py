@@ -15,7 +15,7 @@ import sys
 import tempfile
 import time
 
-from shared_models import bake, must, shared_folder
+from shared_models import IS_SLOW, bake, must, shared_folder
 
 SIDES = ("seed/skull.ply", "seed/armadillo.ply")
 # Two-sided shells, of which nothing is inside, stand among them.
@@ -43,8 +43,9 @@ def main():
     models = shared_folder() / "models"
     scratch = tempfile.TemporaryDirectory()
     folder = pathlib.Path(scratch.name)
-    for by, names, count in (("sides", SIDES, 1_000_000 if EVERYTHING else 20_000),
-                             ("rays", RAYS, 5_000 if EVERYTHING else 400)):
+    share = 5 if IS_SLOW else 1
+    for by, names, count in (("sides", SIDES, 1_000_000 if EVERYTHING else 20_000 // share),
+                             ("rays", RAYS, 5_000 if EVERYTHING else 400 // share)):
         points = on_surface = inside = 0
         for name in names:
             baked = folder / (pathlib.Path(name).stem + ".cdp.h5")

@@ -23,9 +23,9 @@ import sys
 import tempfile
 import time
 
-from shared_models import must
+from shared_models import SLOWDOWN, must
 
-SECONDS = 0.2 * float(os.environ.get("CDPREP_SLOWDOWN", "1"))
+SECONDS = 0.2 * SLOWDOWN
 MOMENTS = 4 if os.environ.get("CDPREP_ALL_POSES") == "yes" else 2
 TRIES = 5
 LONGEST = 3  # seconds of a command in which it is stopped

@@ -14,10 +14,11 @@ import tempfile
 import time
 
 from killed_bake import digest, write_sheet
-from shared_models import bake, must, shared_models_if_there
+from shared_models import IS_SLOW, bake, must, shared_models_if_there
 
 
-THREADS = (2, 3, 4, 16) if os.environ.get("CDPREP_ALL_POSES") == "yes" else (2, 5)
+EVERYTHING = os.environ.get("CDPREP_ALL_POSES") == "yes"
+THREADS = (2, 3, 4, 16) if EVERYTHING else (5,) if IS_SLOW else (2, 5)
 
 
 def main():

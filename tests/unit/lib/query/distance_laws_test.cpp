@@ -59,11 +59,7 @@ Case random_case(std::mt19937& random, int round, int triangles = 10) {
 
 // The oracle: every pair of triangles in rational arithmetic; squares are compared.
 TEST(DistanceLaws, TheIntervalHoldsTheTruthAndIsNarrow) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    const int kRounds = 500;  // many times slower there, and nothing new to see
-#else
     const int kRounds = rounds(10'000, 4);
-#endif
     std::mt19937 random(20261121);
     int apart = 0;
     for (int round = 0; round < kRounds; ++round) {

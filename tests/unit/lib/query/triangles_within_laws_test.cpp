@@ -27,11 +27,7 @@ std::vector<TrianglePair> all_within(const Model& a, const Model& b, const Place
     return pairs;
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-const int kShare = 10;  // many times slower there, and nothing new to see
-#else
-const int kShare = asks_all() ? 1 : 3;
-#endif
+const int kShare = (asks_all() ? 1 : 3) * kSlowdown;
 
 /// The squares of all distances, in rational numbers, in the order of the pairs.
 std::vector<ExactRational> squared_distances(const TestMesh& a, const TestMesh& b,
