@@ -49,6 +49,7 @@ constexpr std::uint32_t kUpdatesOfOrder = 8;
 constexpr std::uint32_t kLeaversOfOrder = 2;
 
 constexpr std::uint32_t kInsertionSort = 16;
+constexpr std::uint32_t kFewPairs = 16;  ///< so many boxes for each pair: no pair is counted
 
 // Work for which a thread is worth its start, and jobs that it takes at a time.
 constexpr std::uint32_t kPairsOfTask = 32'768;
@@ -72,17 +73,26 @@ bool has_nan(const WorldBox& box) noexcept {
     return false;
 }
 
-/// Stores a box as kernels take it, and its move. Infinite coordinates would meet those of absent
-/// boxes.
+/// Returns a coordinate that is not infinite: those of absent boxes would meet it. Two instructions,
+/// where std::clamp() branches.
+float finite(float value) noexcept {
+    const float above = value > -kLargest ? value : -kLargest;
+    return above < kLargest ? above : kLargest;
+}
+
+/// Stores a box as kernels take it, and its move.
 void store(const WorldBox& box, float* padded, Move& move) noexcept {
-    const bool absent = is_absent(box);  // by the numbers as given
+    if (is_absent(box)) {  // by the numbers as given
+        std::copy_n(kAbsentBox.begin(), kPaddedBox, padded);
+        move.fill(0);
+        return;
+    }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::size_t upper = kPaddedUpper + axis;
-        const float before = padded[axis] + padded[upper];
-        padded[axis] = absent ? kAbsentBox[axis] : std::clamp(box.lower[axis], -kLargest, kLargest);
-        padded[upper] =
-            absent ? kAbsentBox[upper] : std::clamp(box.upper[axis], -kLargest, kLargest);
-        move[axis] = 0.5F * (padded[axis] + padded[kPaddedUpper + axis] - before);
+        const float before = padded[axis] + padded[kPaddedUpper + axis];
+        const float lower = finite(box.lower[axis]), upper = finite(box.upper[axis]);
+        padded[axis] = lower;
+        padded[kPaddedUpper + axis] = upper;
+        move[axis] = 0.5F * (lower + upper - before);
     }
 }
 
@@ -121,6 +131,16 @@ void sort_run(BoxPair* first, BoxPair* last) noexcept {
     }
 }
 
+/// Returns the place of a pair in a sorted list. Looks at the last ones first, in growing steps.
+BoxPair* place_from_back(BoxPair* first, BoxPair* last, const BoxPair& pair) noexcept {
+    std::ptrdiff_t step = 1;
+    while (last - first > step && pair < last[-step]) {
+        last -= step;
+        step *= 2;
+    }
+    return std::upper_bound(last - std::min(step, last - first), last, pair);
+}
+
 }  // namespace
 
 struct BroadPhase::State {
@@ -154,7 +174,7 @@ struct BroadPhase::State {
                                  std::span<const std::uint32_t> moved, ParallelFor run) noexcept;
 
     void forget(std::uint32_t boxes) noexcept;
-    bool refilter(std::uint32_t number, std::span<const BoxFilter> new_filters) noexcept;
+    void refilter(std::uint32_t number, std::span<const BoxFilter> new_filters) noexcept;
     void find_leavers() noexcept;
     void add_leaver(std::uint32_t number) noexcept;
     BroadPhaseUpdate finish(ParallelFor run) noexcept;
@@ -196,6 +216,7 @@ struct BroadPhase::State {
     std::uint32_t kept_count = 0;
     bool has_kept = false;                  ///< `kept` and the tree are those of the larger boxes
     bool has_order = false;                 ///< the tree has an order
+    bool has_filters = false;               ///< otherwise all are the default
     bool keeps = true;                      ///< the way that is chosen
     std::uint32_t of_many = 0, of_few = 0;  ///< updates in a row
     std::uint32_t wait = 0;                 ///< updates before pairs may be kept again
@@ -211,17 +232,18 @@ void BroadPhase::State::forget(std::uint32_t boxes) noexcept {
     has_kept = has_order = false;
     keeps = true;
     of_many = of_few = wait = 0;
+    if (std::exchange(has_filters, false)) std::fill_n(filters, limits.boxes, BoxFilter{});
     for (std::size_t i = 0; i < count; ++i) {
         std::copy_n(kAbsentBox.begin(), kPaddedBox, exact + i * kPaddedBox);
         std::copy_n(kAbsentBox.begin(), kPaddedBox, larger + i * kPaddedBox);
     }
 }
 
-/// Takes the filter of a box. Returns whether it has changed.
-bool BroadPhase::State::refilter(std::uint32_t number,
+/// Takes the filter of a box. A box with another filter leaves.
+void BroadPhase::State::refilter(std::uint32_t number,
                                  std::span<const BoxFilter> new_filters) noexcept {
     const BoxFilter filter = new_filters.empty() ? BoxFilter{} : new_filters[number];
-    return std::exchange(filters[number], filter) != filter;
+    if (std::exchange(filters[number], filter) != filter) add_leaver(number);
 }
 
 void BroadPhase::State::add_leaver(std::uint32_t number) noexcept {
@@ -248,8 +270,9 @@ BroadPhaseUpdate BroadPhase::State::update_all(std::span<const WorldBox> boxes,
     if (boxes.size() != count) forget(static_cast<std::uint32_t>(boxes.size()));
     for (std::size_t i = 0; i < count; ++i) store(boxes[i], exact + i * kPaddedBox, moves[i]);
     find_leavers();
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (refilter(i, new_filters)) add_leaver(i);
+    if (has_filters || !new_filters.empty()) {
+        for (std::uint32_t i = 0; i < count; ++i) refilter(i, new_filters);
+        has_filters = !new_filters.empty();
     }
     return finish(run);
 }
@@ -267,8 +290,9 @@ BroadPhaseUpdate BroadPhase::State::update_some(std::span<const WorldBox> boxes,
         store(boxes[number], exact + std::size_t{number} * kPaddedBox, moves[number]);
     }
     find_leavers();
-    for (const std::uint32_t number : moved) {
-        if (refilter(number, new_filters)) add_leaver(number);
+    if (has_filters || !new_filters.empty()) {
+        for (const std::uint32_t number : moved) refilter(number, new_filters);
+        has_filters = true;  // of the boxes that did not move
     }
     return finish(run);
 }
@@ -386,8 +410,9 @@ std::uint64_t BroadPhase::State::find_all(ParallelFor run) noexcept {
                         });
 }
 
-/// Sorts pairs, by counting those of each lower number.
+/// Sorts pairs: many by counting those of each lower number.
 void BroadPhase::State::sort(const BoxPair* from, std::uint64_t pairs, BoxPair* to) noexcept {
+    if (pairs * kFewPairs < count) return std::sort(to, std::copy(from, from + pairs, to));
     std::fill_n(numbers, count + 1, 0);
     for (std::uint64_t i = 0; i < pairs; ++i) ++numbers[from[i].a];
     std::uint32_t sum = 0;
@@ -464,22 +489,26 @@ bool BroadPhase::State::search_leavers(ParallelFor run) noexcept {
     return has_kept;
 }
 
-/// Merges new pairs with the kept ones of boxes that stayed. Returns false if there are too many.
+/// Drops the kept pairs of boxes that left, and merges the new ones with the others. Returns false
+/// if there are too many.
 bool BroadPhase::State::merge_found(std::uint32_t pairs) noexcept {
     sort(found, pairs, pages);
-    const BoxPair *fresh = pages, *const fresh_end = pages + pairs;
-    BoxPair *to = found, *const end = found + limits.pairs;
-    for (std::uint32_t i = 0; i < kept_count; ++i) {
+    BoxPair* stay = kept;
+    for (std::uint32_t i = 0; i < kept_count; ++i) {  // without branches that depend on the pair
         const BoxPair pair = kept[i];
-        if ((leaves[pair.a] | leaves[pair.b]) != 0) continue;
-        while (fresh < fresh_end && *fresh < pair && to < end) *to++ = *fresh++;
-        if (to == end) return false;
-        *to++ = pair;
+        *stay = pair;
+        stay += 1 ^ (leaves[pair.a] | leaves[pair.b]);
     }
-    if (fresh_end - fresh > end - to) return false;
-    to = std::copy(fresh, fresh_end, to);
-    kept_count = static_cast<std::uint32_t>(to - found);
-    std::copy(found, found + kept_count, kept);
+    const auto staying = static_cast<std::uint32_t>(stay - kept);
+    if (staying > limits.pairs - pairs) return false;
+    kept_count = staying + pairs;
+    BoxPair* to = kept + kept_count;
+    for (std::uint32_t i = pairs; i > 0; --i) {  // from the back, so that all stay in one place
+        BoxPair* const at = place_from_back(kept, stay, pages[i - 1]);
+        to = std::move_backward(at, stay, to);
+        stay = at;
+        *--to = pages[i - 1];
+    }
     return true;
 }
 
