@@ -15,10 +15,13 @@
 // Prints a CSV table, means over a set's poses. pairs: that overlap; found: of them by the
 // literal form; recall: the share. cs_a, cs_b: triangles of A and of B in those pairs;
 // literal_cs_a, literal_cs_b: in those found. Triangles of B: all_b; box_b: that touch A's
-// axis-aligned box; leaf_b: in leaves of the hierarchy that A's oriented box does not clip;
-// pcs_b: triangles that it does not clip; held_b: of the model with fewer triangles, in
-// leaves with boxes that meet cells of the other (repaired). listed: triangles of A that the
-// literal form's cells list (its PCS_A, added up), and the repaired form's. Microseconds.
+// axis-aligned box; cluster_b: in clusters of 64 triangles that A's oriented box does not clip;
+// slab_b: in those of these whose 26-DOP meets that of a cluster of A; leaf_b: in leaves of the
+// hierarchy that A's oriented box does not clip; pcs_b: triangles that it does not clip; held_b: of
+// the model with fewer triangles, in leaves with boxes that meet cells of the other (repaired).
+// listed: triangles of A that the literal form's cells list (its PCS_A, added up), and the repaired
+// form's. lost: pairs that the clusters, slabs or leaves of A and B do not keep; stops if there is
+// one. Microseconds.
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -122,6 +125,7 @@ void Study::ask(const Pose& pose, int rounds, Row& row) {
     const study::Pruning pruning = study::prune(a_, b_, pose, search_, workspace_, missed_);
     const std::size_t repaired = count(Contender::repaired, placement);
     if (static_cast<double>(repaired) != pruning.pairs) stop("The pairs differ.");
+    if (pruning.lost > 0) stop("A step of pruning loses a pair.");
     row.sum += pruning;
     time(placement, rounds, row);
 }
@@ -130,7 +134,7 @@ struct Mean {
     const char* name;
     double study::Pruning::*member;
 };
-constexpr std::array<Mean, 13> kMeans = {{
+constexpr std::array<Mean, 16> kMeans = {{
     {"pairs", &study::Pruning::pairs},
     {"found", &study::Pruning::found},
     {"cs_a", &study::Pruning::cs_a},
@@ -139,11 +143,14 @@ constexpr std::array<Mean, 13> kMeans = {{
     {"literal_cs_b", &study::Pruning::literal_cs_b},
     {"all_b", &study::Pruning::all_b},
     {"box_b", &study::Pruning::box_b},
+    {"cluster_b", &study::Pruning::cluster_b},
+    {"slab_b", &study::Pruning::slab_b},
     {"leaf_b", &study::Pruning::leaf_b},
     {"pcs_b", &study::Pruning::pcs_b},
     {"held_b", &study::Pruning::held_b},
     {"listed_literal", &study::Pruning::listed_literal},
     {"listed_repaired", &study::Pruning::listed_repaired},
+    {"lost", &study::Pruning::lost},
 }};
 
 void print(const std::string& pair, const char* kind, std::size_t poses, const Row& row) {

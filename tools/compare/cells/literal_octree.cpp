@@ -2,71 +2,19 @@
 #include "compare/cells/literal_octree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "cdprep/cells/octree_search.h"
 #include "cdprep/exact/triangles.h"
 #include "cdprep/format/float_environment.h"
-#include "mesh/vectors.h"
+#include "compare/cells/potential_set.h"
 
 namespace cdprep::study {
 namespace {
 
-using format::kBvhWidth;
-using mesh::dot;
-using mesh::largest_of;
-using mesh::minus;
-
-/// The box that contains a model's triangles.
-struct OrientedBox {
-    std::array<Double3, 3> axis;
-    Double3 centre;
-    std::array<double, 3> half;
-};
-
-OrientedBox box_of(const Model& model) {
-    if (const format::Bounds* bounds = model.record().bounds) {
-        const Double3& half = bounds->half_extent;
-        return {bounds->axis, bounds->oriented_centre, {half.x, half.y, half.z}};
-    }
-    const format::FileHeader& header = model.header();
-    const double half = std::ldexp(1.0, -header.frame_exponent);
-    return {{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, header.frame_origin, {half, half, half}};
-}
-
-/// Returns an upper bound of the |coordinates| of a model.
-double reach_of(const Model& model) {
-    return largest_of(model.header().frame_origin) +
-           std::ldexp(1.0, -model.header().frame_exponent);
-}
-
-Pose a_from_b_of(const Placement& placement) {
-    return placement.a_is_moved() ? relative_pose(placement.pose_a(), placement.pose_b())
-                                  : placement.pose_b();
-}
-
-Corners stored_corners(const MeshView& mesh, std::uint32_t triangle) {
-    Corners corners;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t vertex = mesh.triangles[triangle].vertex[i];
-        if (mesh.positions_f32.empty()) {
-            corners[i] = mesh.positions_f64[vertex];
-        } else {
-            const Float3& p = mesh.positions_f32[vertex];
-            corners[i] = {p.x, p.y, p.z};
-        }
-    }
-    return corners;
-}
-
 std::uint32_t source_number(const Model& model, std::uint32_t triangle) {
     const auto source = model.source().triangle;
     return source.empty() ? triangle : source[triangle];
-}
-
-Corners moved(const Corners& t, const Pose& pose) {
-    return {transform_point(pose, t[0]), transform_point(pose, t[1]), transform_point(pose, t[2])};
 }
 
 bool boxes_meet(const Corners& s, const Corners& t) {
@@ -133,66 +81,6 @@ private:
 };
 
 }  // namespace
-
-PotentialSet::PotentialSet(const Model& a, const Model& b, const Placement& placement) : b_(b) {
-    const Pose a_from_b = a_from_b_of(placement);
-    const std::array<double, 9>& r = a_from_b.rotation();
-    // Rounding moves a vertex by less than 2^-47 of the numbers that are added. Planes and products
-    // add as much again.
-    const double slack =
-        0x1p-43 * (reach_of(a) + reach_of(b) + largest_of(a_from_b.translation())) + 0x1p-1060;
-    const OrientedBox box = box_of(a);
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Double3& axis = box.axis[k];
-        slab_[k].normal = {dot(axis, {r[0], r[3], r[6]}), dot(axis, {r[1], r[4], r[7]}),
-                           dot(axis, {r[2], r[5], r[8]})};
-        slab_[k].offset = dot(axis, minus(a_from_b.translation(), box.centre));
-        slab_[k].limit = box.half[k] + slack;
-    }
-}
-
-bool PotentialSet::holds(const Corners& t) const {
-    return std::ranges::none_of(slab_, [&](const Slab& slab) {
-        const auto [low, high] =
-            std::minmax({dot(slab.normal, t[0]) + slab.offset, dot(slab.normal, t[1]) + slab.offset,
-                         dot(slab.normal, t[2]) + slab.offset});
-        return low > slab.limit || high < -slab.limit;
-    });
-}
-
-bool PotentialSet::clips(const format::BvhNode& node, std::uint32_t lane) const {
-    const Double3& o = b_.header().frame_origin;
-    const double unit = std::ldexp(1.0, -b_.header().frame_exponent);
-    const auto middle = [&](std::size_t axis) {
-        return unit * (0.5 * (double{node.lower[axis][lane]} + node.upper[axis][lane]));
-    };
-    const auto half = [&](std::size_t axis) {
-        return unit * (0.5 * (double{node.upper[axis][lane]} - node.lower[axis][lane]));
-    };
-    const Double3 centre = {o.x + middle(0), o.y + middle(1), o.z + middle(2)};
-    return std::ranges::any_of(slab_, [&](const Slab& slab) {
-        const Double3& n = slab.normal;
-        const double reach =
-            std::fabs(n.x) * half(0) + std::fabs(n.y) * half(1) + std::fabs(n.z) * half(2);
-        return std::fabs(dot(n, centre) + slab.offset) > slab.limit + reach;
-    });
-}
-
-std::uint32_t PotentialSet::leaves_below(std::uint32_t height, std::uint32_t index) const {
-    const BvhView& bvh = b_.bvh();
-    if (height == 0) return std::min(kBvhWidth, b_.triangle_count() - index * kBvhWidth);
-    const std::uint32_t level = height - 1;
-    const format::BvhNode& node = bvh.nodes[bvh.shape.first[level] + index];
-    std::uint32_t triangles = 0;
-    for (std::uint32_t lane = 0; lane < bvh.shape.used_boxes(level, index); ++lane) {
-        if (!clips(node, lane)) triangles += leaves_below(level, index * kBvhWidth + lane);
-    }
-    return triangles;
-}
-
-std::size_t PotentialSet::triangles_in_leaves() const {
-    return b_.triangle_count() == 0 ? 0 : leaves_below(b_.bvh().shape.levels, 0);
-}
 
 bool visit_literal_overlaps(const Model& a, const Model& b, const Placement& placement,
                             const LiteralOptions& options, PairVisitor visit) {
