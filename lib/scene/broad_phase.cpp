@@ -30,12 +30,12 @@ using kernels::kPaddedUpper;
 constexpr float kLargest = std::numeric_limits<float>::max();
 
 // The margin of a larger box on all sides, relative to the mean edge of the box.
-constexpr float kMargin = 0.03F;
+constexpr float kMargin = 0.02F;
 // In the direction of its last move, the margin grows by this many moves, up to a share of the mean
 // edge. The number of moves depends on the box, so that equal motions end in different updates.
-constexpr std::uint32_t kLeastMovesAhead = 20;
-constexpr std::uint32_t kMoveSteps = 32;
-constexpr float kMostAhead = 0.4F;
+constexpr std::uint32_t kLeastMovesAhead = 30;
+constexpr std::uint32_t kMoveSteps = 40;
+constexpr float kMostAhead = 0.5F;
 // The largest margin of a box whose direction is unknown. It also depends on the box.
 constexpr float kMostMargin = 0.15F;
 
