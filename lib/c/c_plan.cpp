@@ -66,6 +66,7 @@ constexpr std::array kOptionsFields = {
     Field{"max_objects", offsetof(cdprep_plan_options, max_objects), Holds::choice,
           kMostWorldBoxes},
     Field{"lanes", offsetof(cdprep_plan_options, lanes), Holds::choice, kMostLanes},
+    Field{"origin", offsetof(cdprep_plan_options, origin), Holds::number, 0, 3},
 };
 
 constexpr Name kOptions = {"options"};
@@ -293,6 +294,7 @@ std::optional<Plan> compiled(Refusals& refusals, const Asked& asked) {
                                   .threads = options.lanes,
                                   .triangle_pairs = options.max_triangle_pairs,
                                   .contacts = options.max_contacts},
+                       .origin = {options.origin[0], options.origin[1], options.origin[2]},
                        .layer_names = asked.layer_names});
     for (const std::string& refusal : compiled.refusals) {
         refusals.accept([&](Call& call) {

@@ -65,15 +65,17 @@ RootBox placed_box(const Model& model, const Pose& world_from_model, double reac
     return root;
 }
 
-WorldBox box_around(const RootBox& root) noexcept {
+WorldBox box_around(const RootBox& root, const Double3& origin) noexcept {
     if (root.half[0] < 0) return {{1, 1, 1}, {-1, -1, -1}};
+    const std::array<double, 3> from = {origin.x, origin.y, origin.z};
     WorldBox box{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        double wide = kSlack * root.size;
+        double wide = kSlack * (root.size + std::abs(from[axis]));
         for (std::size_t k = 0; k < 3; ++k)
             wide += std::abs(root.axes[3 * axis + k]) * root.half[k];
-        box.lower[axis] = rounded_down(root.middle[axis] - wide);
-        box.upper[axis] = rounded_up(root.middle[axis] + wide);
+        const double middle = root.middle[axis] - from[axis];
+        box.lower[axis] = rounded_down(middle - wide);
+        box.upper[axis] = rounded_up(middle + wide);
     }
     return box;
 }
@@ -124,9 +126,9 @@ RootBox root_box(const Model& model, const Pose& world_from_model, double reach)
     return placed_box(model, world_from_model, reach);
 }
 
-WorldBox world_box(const RootBox& root) noexcept {
+WorldBox world_box(const RootBox& root, const Double3& origin) noexcept {
     const format::FloatEnvironment environment;
-    return box_around(root);
+    return box_around(root, origin);
 }
 
 bool may_meet(const RootBox& a, const RootBox& b) noexcept {

@@ -10,7 +10,7 @@ namespace cdprep {
 
 [[nodiscard]] RootBox placed_box(const Model& model, const Pose& world_from_model,
                                  double reach) noexcept;
-[[nodiscard]] WorldBox box_around(const RootBox& root) noexcept;
+[[nodiscard]] WorldBox box_around(const RootBox& root, const Double3& origin) noexcept;
 [[nodiscard]] bool boxes_may_meet(const RootBox& a, const RootBox& b) noexcept;
 
 }  // namespace cdprep

@@ -84,6 +84,10 @@ private:
                 "; at most 536870912 are possible.");
         }
         if (options_.limits.threads == 0) add("limits.threads is 0; at least 1 is needed.");
+        for (const double x : {options_.origin.x, options_.origin.y, options_.origin.z}) {
+            if (std::abs(x) <= format::kMaxCoordinate) continue;
+            add("origin holds " + text_of(x) + "; it must be finite, and at most 2^1000.");
+        }
     }
 
     /// The start of a sentence about a pair of layers.
@@ -240,6 +244,7 @@ std::string unbuilt_effect(std::string_view name) {
 
 Plan::Plan(const PlanOptions& options)
     : limits_(options.limits),
+      origin_(options.origin),
       layer_names_(options.layer_names.begin(), options.layer_names.end()) {
     for (const LayerPair& pair : options.pairs) {
         if (pair.effects == Ask::nothing) continue;

@@ -29,7 +29,7 @@ void Scene::State::place(std::uint32_t slot) noexcept {
         filters[slot] = {0, 0};
     } else {
         roots[slot] = placed_box(*object.model, object.pose, plan->reach_of(object.layer));
-        boxes[slot] = box_around(roots[slot]);
+        boxes[slot] = box_around(roots[slot], plan->origin());
         filters[slot] = plan->filter_of(object.layer);
     }
 }

@@ -25,6 +25,13 @@ std::uint64_t count_possible(std::span<const Part> parts, const Plan& plan) {
     return count;
 }
 
+/// Returns a point near the parts, to which their boxes are relative.
+Double3 origin_of(std::span<const Part> parts) {
+    if (parts.empty()) return {};
+    const auto [x, y, z] = root_box(*parts[0].model, parts[0].pose, 0).middle;
+    return {x, y, z};
+}
+
 }  // namespace
 
 Result<std::vector<Part>> parts_of(const scenes::SceneFile& scene, const Plan& plan,
@@ -41,10 +48,11 @@ Result<std::vector<Part>> parts_of(const scenes::SceneFile& scene, const Plan& p
 }
 
 double size_of(std::span<const Part> parts) {
+    const Double3 origin = origin_of(parts);
     std::array<double, 3> lower{}, upper{};
     bool is_empty = true;
     for (const Part& part : parts) {
-        const WorldBox box = world_box(root_box(*part.model, part.pose, 0));
+        const WorldBox box = world_box(root_box(*part.model, part.pose, 0), origin);
         if (box.lower[0] > box.upper[0]) continue;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double low = box.lower[axis], high = box.upper[axis];
@@ -61,9 +69,10 @@ Result<PartPairs> PartPairs::find(std::span<const Part> parts, const Plan& plan)
     found.possible_ = count_possible(parts, plan);
     std::vector<WorldBox> boxes;
     std::vector<BoxFilter> filters;
+    const Double3 origin = origin_of(parts);
     for (const Part& part : parts) {
         found.roots_.push_back(root_box(*part.model, part.pose, plan.reach_of(part.layer)));
-        boxes.push_back(world_box(found.roots_.back()));
+        boxes.push_back(world_box(found.roots_.back(), origin));
         filters.push_back(plan.filter_of(part.layer));
     }
     const auto count = static_cast<std::uint32_t>(parts.size());

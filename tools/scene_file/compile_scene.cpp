@@ -29,8 +29,15 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
     std::vector<std::string> names;
     for (const std::string& layer : scene.layers) names.push_back(report::printable(layer));
     const std::vector<std::string_view> layers(names.begin(), names.end());
-    Plan::Compiled compiled =
-        Plan::compile({.pairs = pairs, .models = models, .limits = limits, .layer_names = layers});
+    Double3 origin{};  // near the objects, as far as is known here
+    if (!scene.objects.empty()) {
+        if (const auto pose = pose_of(scene, scene.objects[0], 0)) origin = pose->translation();
+    }
+    Plan::Compiled compiled = Plan::compile({.pairs = pairs,
+                                             .models = models,
+                                             .limits = limits,
+                                             .origin = origin,
+                                             .layer_names = layers});
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
         const LayerPair& pair = pairs[i];
         for (const std::string& effect : scene.pairs[i].unbuilt) {

@@ -62,6 +62,9 @@ struct PlanOptions {
     std::span<const LayerPair> pairs;
     std::span<const ModelUse> models = {};
     SceneLimits limits;
+    /// A point near the objects, if they are far from 0: the boxes of objects are relative to it,
+    /// so that they stay tight in float. Changes no answer.
+    Double3 origin{};
     /// Of layers 0, 1, ..., for refusals and Plan::describe(). A layer without a name is a number
     /// there.
     std::span<const std::string_view> layer_names = {};
@@ -84,6 +87,9 @@ public:
 
     [[nodiscard]] const SceneLimits& limits() const noexcept {
         return limits_;
+    }
+    [[nodiscard]] const Double3& origin() const noexcept {
+        return origin_;
     }
     /// The pairs of layers that ask for something, in their order.
     [[nodiscard]] std::span<const LayerPair> pairs() const noexcept {
@@ -110,6 +116,7 @@ private:
     explicit Plan(const PlanOptions& options);
 
     SceneLimits limits_;
+    Double3 origin_{};
     std::vector<LayerPair> pairs_;
     std::vector<std::string> layer_names_;
     /// [a][b]: 1 more than the pair's number.

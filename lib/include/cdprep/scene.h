@@ -177,8 +177,8 @@ public:
     /// If pairs are listed twice, needed_pairs may be larger than is needed.
     SceneStep step_with(std::span<const BoxPair> candidates, std::span<Workspace> workspaces,
                         ParallelFor parallel_for = serial_for) noexcept;
-    /// Returns the box of each slot in the next step, for such a broad phase; free slots have
-    /// absent boxes.
+    /// Returns the box of each slot in the next step, for such a broad phase, relative to the
+    /// plan's origin. Free slots have absent boxes.
     [[nodiscard]] std::span<const WorldBox> boxes() noexcept;
 
     [[nodiscard]] std::span<const SceneHit> hits() const noexcept;

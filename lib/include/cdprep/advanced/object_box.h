@@ -25,8 +25,9 @@ struct RootBox {
                                double reach) noexcept;
 
 /// Returns the axis-aligned box around a root box, for BroadPhase; absent if there are no
-/// triangles.
-[[nodiscard]] WorldBox world_box(const RootBox& root) noexcept;
+/// triangles. It is relative to the origin, which must be the same for all boxes. Far from it, the
+/// rounding to float widens the boxes: at 10^7 by a unit on each side.
+[[nodiscard]] WorldBox world_box(const RootBox& root, const Double3& origin = {}) noexcept;
 
 /// Returns false if two root boxes are certainly apart: by the fifteen directions of Gottschalk,
 /// Lin and Manocha 1996.

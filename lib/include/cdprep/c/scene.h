@@ -60,6 +60,9 @@ typedef struct cdprep_plan_options {
     uint32_t max_triangle_pairs;       /* 0: of overlap: in all lists of a step together */
     uint32_t max_contacts;             /* 0: of contacts, likewise */
     const cdprep_allocator* allocator; /* null: the heap; copied; also of scenes with this plan */
+    /* 0: a point near the objects, if they are far from 0. The boxes of objects are relative to it,
+     * so that they stay tight in float. Changes no answer. */
+    double origin[3];
 } cdprep_plan_options;
 
 CDPREP_API void cdprep_plan_options_init(cdprep_plan_options* options, size_t size);
@@ -77,7 +80,7 @@ typedef int (*cdprep_text_visitor)(void* context, const char* sentence);
  * Errors, such as of `options.layer_pairs[3].tolerance`:
  * - CDPREP_WHY_OUT_OF_RANGE: a layer, an effect, an enumerator, a number or a count.
  * - CDPREP_WHY_NULL: a name of a layer, or an array with a count above 0, is null.
- * - CDPREP_WHY_NOT_FINITE: a tolerance, angle or maximum distance is NaN or infinite.
+ * - CDPREP_WHY_NOT_FINITE: a tolerance, angle, maximum distance or the origin is NaN or infinite.
  * - CDPREP_WHY_NO_MEANING: Two layers form a second pair. Or a field is set that no effect of its
  *   pair uses. Or `serves` or `name` is set in addition to a model.
  * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: a model does not serve an effect of its layers.
@@ -385,9 +388,10 @@ CDPREP_API int cdprep_broad_phase_update(cdprep_broad_phase* broad_phase,
 /* --- Scenes with a broad phase of the caller -------------------------------------------------- */
 
 /* Stores the address of an array of boxes and the number of its elements, which is max_objects. Box
- * i is that of slot i in the next step. It contains the object as it is now, and its part of the
- * tolerances. Free slots have absent boxes. The array belongs to the scene, and stays until the
- * scene changes. Takes O(changed objects) time. Errors: CDPREP_WHY_BUSY. */
+ * i is that of slot i in the next step, relative to the plan's origin. It contains the object as it
+ * is now, and its part of the tolerances. Free slots have absent boxes. The array belongs to the
+ * scene, and stays until the scene changes. Takes O(changed objects) time. Errors:
+ * CDPREP_WHY_BUSY. */
 CDPREP_API int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** boxes,
                                   size_t* count, cdprep_error* error);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -289,6 +290,10 @@ TEST_F(CSceneHostile, PlanOptionsAreCheckedFieldByField) {
                        o.layer_name_count = 2;
                    },
                    CDPREP_WHY_NULL, "options.layer_names[1]"});
+    for (const double number : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+        all.push_back({"an origin", [=](O& o) { o.origin[1] = number; }, CDPREP_WHY_NOT_FINITE,
+                       "options.origin[1]"});
+    }
     all.push_back({"no pairs", [](O& o) { o.layer_pairs = nullptr; }, CDPREP_WHY_NULL,
                    "options.layer_pairs"});
     all.push_back(

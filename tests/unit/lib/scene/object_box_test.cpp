@@ -19,6 +19,14 @@ bool meet(const WorldBox& a, const WorldBox& b) {
     return true;
 }
 
+Pose shifted(const Pose& pose, const Double3& by) {
+    const auto& r = pose.rotation();
+    const Double3& t = pose.translation();
+    return Pose::from_rows({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], t.x + by.x,
+                            t.y + by.y, t.z + by.z})
+        .value();
+}
+
 // The law of broad phases: what is near has boxes that meet. Counts show that neither test is idle.
 TEST(ObjectBox, BoxesOfModelsThatAreNearMeet) {
     const test::OpenModel bar = test::open_tiny(test::torus(1, 0.1, 12, 6));
@@ -27,11 +35,14 @@ TEST(ObjectBox, BoxesOfModelsThatAreNearMeet) {
     int near = 0, apart = 0, apart_by_turned = 0;
     Workspace workspace;
     for (int round = 0; round < 3000; ++round) {
-        const Pose a = test::random_pose(random, 2), b = test::random_pose(random, 2);
+        const double far = round % 3 == 0 ? 1e7 : 0;
+        const Double3 origin = {far, round % 2 == 0 ? 0 : 3, -far};
+        const Pose a = shifted(test::random_pose(random, 2), {far, 0, -far}),
+                   b = shifted(test::random_pose(random, 2), {far, 0, -far});
         const double d = std::uniform_real_distribution<double>(0, 1)(random);
         const Pair pair{bar.model, round % 2 == 0 ? bar.model : ball.model, Placement::world(a, b)};
         const RootBox root_a = root_box(pair.a, a, d / 2), root_b = root_box(pair.b, b, d / 2);
-        const bool meets = meet(world_box(root_a), world_box(root_b));
+        const bool meets = meet(world_box(root_a, origin), world_box(root_b, origin));
         if (distance(pair, workspace, {.max_distance = d})) {
             ++near;
             ASSERT_TRUE(meets && may_meet(root_a, root_b)) << round;

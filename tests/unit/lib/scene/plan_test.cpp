@@ -54,6 +54,13 @@ TEST(Plan, DropsWhatNobodyAsksFor) {
         "not computed, for no pair of layers asks: collide, overlap, within, distance, contacts\n");
 }
 
+TEST(Plan, RefusesAnOriginThatIsNoPoint) {
+    constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(Plan::compile({.limits = kLimits, .origin = {1, kNoNumber, -HUGE_VAL}}).refusals,
+              Sentences({"origin holds nan; it must be finite, and at most 2^1000.",
+                         "origin holds -inf; it must be finite, and at most 2^1000."}));
+}
+
 TEST(Plan, AsksForSolidsWhereTheyAreRead) {
     const auto made = compiled({{.effects = Ask::collide, .body = Body::solid},
                                 {.a = 1, .effects = Ask::contacts, .body = Body::solid}});

@@ -578,6 +578,39 @@ TEST(Scene, FloatModesChangeNothing) {
 }
 
 // The greatest numbers that a plan accepts reach everything.
+/// The slots and candidates of a row of balls, three apart, far from 0.
+struct FarRow {
+    std::vector<std::array<std::uint32_t, 2>> hits;
+    std::uint64_t candidates;
+};
+
+FarRow far_row(const Model& ball, const Double3& origin) {
+    const std::vector<LayerPair> pairs = {{.effects = Ask::within, .tolerance = 1.25}};
+    const Plan plan =
+        *Plan::compile({.pairs = pairs, .limits = {.objects = 20, .pairs = 200}, .origin = origin})
+             .plan;
+    Scene scene(plan);
+    std::vector<Workspace> workspaces(1);
+    for (int i = 0; i < 20; ++i) {
+        const Double3 at = {1e8 + 3 * i, -1e8, 2e8};
+        EXPECT_TRUE(scene.add({&ball, 0, Pose::from_quaternion(1, 0, 0, 0, at).value()}));
+    }
+    EXPECT_TRUE(scene.step(workspaces).complete);
+    FarRow row{{}, scene.counts().candidates};
+    for (const SceneHit& hit : scene.hits()) row.hits.push_back({hit.a.slot, hit.b.slot});
+    return row;
+}
+
+// Boxes in float are wide there, unless they are relative to a point nearby.
+TEST(Scene, AnOriginNearbySparesCandidatesAlone) {
+    const test::OpenModel ball = test::open_tiny(test::icosphere(3));
+    const FarRow far = far_row(ball.model, {}), near = far_row(ball.model, {1e8, -1e8, 2e8});
+    EXPECT_EQ(near.candidates, 19U);
+    EXPECT_GT(far.candidates, 4 * near.candidates);
+    EXPECT_EQ(near.hits.size(), 19U);
+    EXPECT_EQ(far.hits, near.hits);
+}
+
 TEST(Scene, TakesAnyDistance) {
     const test::OpenModel ball = test::open_tiny(test::icosphere(1));
     constexpr double kMost = std::numeric_limits<double>::max();
