@@ -16,7 +16,7 @@
 // literal form; recall: the share. cs_a, cs_b: triangles of A and of B in those pairs;
 // literal_cs_a, literal_cs_b: in those found. Triangles of B: all_b; box_b: that touch A's
 // axis-aligned box; cluster_b: in clusters of 64 triangles that A's oriented box does not clip;
-// slab_b: in those of these whose 26-DOP meets that of a cluster of A; leaf_b: in leaves of the
+// slab_b: in those of these that groups_in_slabs() keeps; leaf_b: in leaves of the
 // hierarchy that A's oriented box does not clip; pcs_b: triangles that it does not clip; held_b: of
 // the model with fewer triangles, in leaves with boxes that meet cells of the other (repaired).
 // listed: triangles of A that the literal form's cells list (its PCS_A, added up), and the repaired

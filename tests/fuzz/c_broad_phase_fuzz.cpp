@@ -58,7 +58,7 @@ public:
         cdprep_box_update_init(&u, sizeof u);
         u.boxes = boxes_.data();
         u.count = count_;
-        has_filters_ = has_filters_ || draw_.one_in(8);
+        if (draw_.one_in(8)) has_filters_ = !has_filters_;
         if (has_filters_) u.filters = filters_.data();
         const bool knows_moved = count_ == last_count_ && had_filters_ == has_filters_;
         if (knows_moved && draw_.one_in(2)) {

@@ -175,7 +175,7 @@ def matrix(rotation, translation):
 class Heap:
     """Parts in exact poses, two meshes used by many nodes, below a moved root."""
 
-    def __init__(self, program, folder, count=11, reach=7):
+    def __init__(self, program, folder, count=11, reach=7, shift=(8, -4, 0.5)):
         self.meshes = [star(1), star(2), cube()]
         files = []
         for i, mesh in enumerate(self.meshes):
@@ -184,7 +184,6 @@ class Heap:
                  files[-1], "--effects", "collide,overlap,distance,within")
         places = random.Random(5)
         self.parts, self.nodes, self.objects = {}, [], []
-        shift = (8, -4, 0.5)
         for i in range(count):
             mesh, rotation = i % 3, QUARTERS[places.randrange(4)]
             at = tuple(places.randrange(-reach, reach + 1) / 4 for _ in range(3))
@@ -241,6 +240,19 @@ def the_heap(program, folder):
     document = json.loads(nothing.stdout)
     check_schema(document, "one part")
     must(document["clashes"] == [] and document["summary"]["pairs_possible"] == 0, f"{document}")
+
+
+def the_distant_heap(program, folder):
+    """Far from 0 no more pairs of boxes meet: there, a float is 16 times a part."""
+    summaries = []
+    for shift in ((0, 0, 0), (2**27, -2**27, 2**27)):
+        heap = Heap(program, folder, 60, 12, shift)
+        found, summary = clashes(program, "overlap", heap.glb, "--count")
+        must(len(found) > 10, f"{summary}")
+        summaries.append((found, summary["candidates"]))
+    (near, few), (far, some) = summaries
+    must(near == far, "other clashes far from 0")
+    must(few <= some <= 1.1 * few, f"{few} candidates near 0, {some} far from it")
 
 
 def the_default_distance(program, folder):
@@ -518,8 +530,8 @@ def an_interrupt(program, folder):
 
 def main():
     program = sys.argv[1]
-    for check in (the_heap, the_default_distance, the_forms, the_transforms, the_names,
-                  the_touching, the_pairs, mistakes, an_interrupt):
+    for check in (the_heap, the_distant_heap, the_default_distance, the_forms, the_transforms,
+                  the_names, the_touching, the_pairs, mistakes, an_interrupt):
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))
 

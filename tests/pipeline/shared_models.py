@@ -12,7 +12,7 @@ SKIPPED = 77  # ctest: SKIP_RETURN_CODE
 # How many times as long a program takes that has sanitizers, where memory and threads are looked
 # at: CDPREP_SLOWDOWN=10. Whether answers about large models are right is seen without them.
 SLOWDOWN = float(os.environ.get("CDPREP_SLOWDOWN", "1"))
-IS_SLOW = SLOWDOWN > 1
+IS_SLOW = SLOWDOWN > 1 and os.environ.get("CDPREP_ALL_POSES") != "yes"
 
 
 def place_of_shared_folder():

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <string_view>
 
@@ -12,17 +13,17 @@ inline bool asks_all() {
     return all != nullptr && std::string_view(all) == "yes";
 }
 
-/// How many times fewer rounds a program with sanitizers does: it takes so many times as long,
-/// and looks at memory and threads. Whether answers are right is seen without sanitizers.
+/// A program with sanitizers does so many times fewer rounds, for it looks at memory and threads.
+/// Whether answers are right is seen without sanitizers.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr int kSlowdown = 5;
 #else
 inline constexpr int kSlowdown = 1;
 #endif
 
-/// The number of rounds that a test does: by default a share of all.
+/// The number of rounds that a test does, at least one: by default a share of all.
 inline int rounds(int all, int share) {
-    return (asks_all() ? all : all / share) / kSlowdown;
+    return std::max(1, (asks_all() ? all : all / share) / kSlowdown);
 }
 
 }  // namespace cdprep::test

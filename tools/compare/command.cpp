@@ -184,7 +184,8 @@ void add_compare(const Command& app, Exit& exit) {
         "decompositions, Table 3 that of hulls, hierarchies and convex pieces. Table 4 shows the "
         "times of collisions and overlapping triangles for each pair. Published figures stand "
         "beside ours if a model has the published numbers of vertices and triangles. The table "
-        "'talk' shows pruning with hashed octrees. All models are scaled to a diagonal of 1. The "
+        "'talk' shows what each step of pruning leaves. All models are scaled to a diagonal of 1. "
+        "The "
         "exit code is 6 when exact strategies disagree.",
         {"cdprep compare bunny.ply horse.ply --quick",
          "cdprep compare scans/*.ply --format html -o tables.html"});

@@ -28,13 +28,12 @@ struct Pruning {
     double literal_cs_b = 0;
     double all_b = 0;      ///< triangles of B
     double box_b = 0;      ///< of them, those that touch A's axis-aligned box
-    double cluster_b = 0;  ///< in clusters of the BVH, 64 triangles, that A's oriented box does not
-                           ///< clip
-    double slab_b = 0;     ///< in those of these clusters whose 26-DOP meets that of a cluster of A
+    double cluster_b = 0;  ///< in clusters of 64 that A's oriented box does not clip
+    double slab_b = 0;     ///< in those of these clusters that groups_in_slabs() keeps
     double leaf_b = 0;     ///< in leaves of the BVH that A's oriented box does not clip
     double pcs_b = 0;      ///< that it does not clip: the potentially colliding set
     double held_b = 0;     ///< of the model with fewer triangles, in leaves with boxes that meet
-                           /// cells of the other: the repaired form keeps these
+                           ///< cells of the other: the repaired form keeps these
     double listed_literal = 0;   ///< triangles of A that the cells found list, each time
     double listed_repaired = 0;  ///< the same for the repaired form
     double lost = 0;  ///< pairs of which the leaves, clusters or slabs do not keep both triangles

@@ -27,9 +27,12 @@ std::uint64_t count_possible(std::span<const Part> parts, const Plan& plan) {
 
 /// Returns a point near the parts, to which their boxes are relative.
 Double3 origin_of(std::span<const Part> parts) {
-    if (parts.empty()) return {};
-    const auto [x, y, z] = root_box(*parts[0].model, parts[0].pose, 0).middle;
-    return {x, y, z};
+    for (const Part& part : parts) {
+        if (part.model->triangle_count() == 0) continue;
+        const auto [x, y, z] = root_box(*part.model, part.pose, 0).middle;
+        return {x, y, z};
+    }
+    return {};
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
     std::vector<std::string> names;
     for (const std::string& layer : scene.layers) names.push_back(report::printable(layer));
     const std::vector<std::string_view> layers(names.begin(), names.end());
-    Double3 origin{};  // near the objects, as far as is known here
+    // Models are not open yet, so the first object's translation stands for all objects.
+    Double3 origin{};
     if (!scene.objects.empty()) {
         if (const auto pose = pose_of(scene, scene.objects[0], 0)) origin = pose->translation();
     }

@@ -12,7 +12,8 @@
 
 namespace cdprep {
 
-/// A closed, axis-aligned box in the coordinates of a scene. It may be flat or a point. Infinite
+/// A closed, axis-aligned box. All boxes of a broad phase are in the same coordinates; those of a
+/// scene are relative to Plan::origin(). A box may be flat or a point. Infinite
 /// numbers count as the largest finite ones. If lower > upper along an axis, as given, the box is
 /// absent: it forms no pair.
 struct WorldBox {

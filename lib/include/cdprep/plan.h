@@ -62,8 +62,8 @@ struct PlanOptions {
     std::span<const LayerPair> pairs;
     std::span<const ModelUse> models = {};
     SceneLimits limits;
-    /// A point near the objects, if they are far from 0: the boxes of objects are relative to it,
-    /// so that they stay tight in float. Changes no answer.
+    /// A point near the objects, finite and at most 2^1000. Their boxes are relative to it, so that
+    /// they stay tight in float. It changes which pairs need room, but no result.
     Double3 origin{};
     /// Of layers 0, 1, ..., for refusals and Plan::describe(). A layer without a name is a number
     /// there.

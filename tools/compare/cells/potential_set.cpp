@@ -40,10 +40,10 @@ double reach_of(const Model& model) {
            std::ldexp(1.0, -model.header().frame_exponent);
 }
 
-/// Returns an upper bound of the rounding of a plane's distance. Rounding moves a vertex by less
-/// than 2^-47 of the numbers that are added. Planes and products add as much again.
+/// Returns an upper bound of the error of a plane's distance. A rotation deviates by up to 1e-12,
+/// so the inverse of a pose does; rounding is far less. 2^-37 covers three such products.
 double slack_of(const Model& a, const Model& b, const Pose& a_from_b) {
-    return 0x1p-43 * (reach_of(a) + reach_of(b) + largest_of(a_from_b.translation())) + 0x1p-1060;
+    return 0x1p-37 * (reach_of(a) + reach_of(b) + largest_of(a_from_b.translation())) + 0x1p-1060;
 }
 
 std::uint32_t triangles_of_group(std::uint32_t height) {
@@ -57,7 +57,7 @@ std::pair<std::uint32_t, std::uint32_t> range_of(const Model& model, std::uint32
     return {number * size, std::min(model.triangle_count(), (number + 1) * size)};
 }
 
-/// An interval that contains nothing.
+/// An interval, at first empty.
 struct Interval {
     double lower = std::numeric_limits<double>::infinity();
     double upper = -std::numeric_limits<double>::infinity();

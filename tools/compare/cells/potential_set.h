@@ -71,9 +71,8 @@ struct GroupsOfBoth {
 [[nodiscard]] GroupsOfBoth groups_in_boxes(const Model& a, const Model& b,
                                            const Placement& placement, std::uint32_t height);
 
-/// Returns those of the groups whose extent along each of 13 directions meets that of a group of
-/// the other model: the 26-DOP of a group instead of its box. After N. Govindaraju et al.,
-/// "CULLIDE" (2003), who look along directions whether an object is visible.
+/// Returns those groups whose extents meet others along all of 13 directions. Along each direction
+/// it is that of any group of the other model. The directions are those of a 26-DOP.
 [[nodiscard]] GroupsOfBoth groups_in_slabs(const Model& a, const Model& b,
                                            const Placement& placement, const GroupsOfBoth& groups);
 

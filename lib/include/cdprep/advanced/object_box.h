@@ -25,8 +25,9 @@ struct RootBox {
                                double reach) noexcept;
 
 /// Returns the axis-aligned box around a root box, for BroadPhase; absent if there are no
-/// triangles. It is relative to the origin, which must be the same for all boxes. Far from it, the
-/// rounding to float widens the boxes: at 10^7 by a unit on each side.
+/// triangles. It is relative to the origin, finite and at most 2^1000, which must be the same for
+/// all boxes. Far from it, rounding to float widens the boxes: at 10^7 by about a unit on each
+/// side.
 [[nodiscard]] WorldBox world_box(const RootBox& root, const Double3& origin = {}) noexcept;
 
 /// Returns false if two root boxes are certainly apart: by the fifteen directions of Gottschalk,

@@ -60,8 +60,8 @@ typedef struct cdprep_plan_options {
     uint32_t max_triangle_pairs;       /* 0: of overlap: in all lists of a step together */
     uint32_t max_contacts;             /* 0: of contacts, likewise */
     const cdprep_allocator* allocator; /* null: the heap; copied; also of scenes with this plan */
-    /* 0: a point near the objects, if they are far from 0. The boxes of objects are relative to it,
-     * so that they stay tight in float. Changes no answer. */
+    /* 0: a point near the objects. Their boxes are relative to it, so that they stay tight in
+     * float. It changes which pairs need room, but no result. */
     double origin[3];
 } cdprep_plan_options;
 

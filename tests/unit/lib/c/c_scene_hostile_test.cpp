@@ -290,6 +290,8 @@ TEST_F(CSceneHostile, PlanOptionsAreCheckedFieldByField) {
                        o.layer_name_count = 2;
                    },
                    CDPREP_WHY_NULL, "options.layer_names[1]"});
+    all.push_back({"an origin too far", [](O& o) { o.origin[2] = -0x1.0000000000001p1000; },
+                   CDPREP_WHY_OUT_OF_RANGE, "options.origin[2]"});
     for (const double number : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
         all.push_back({"an origin", [=](O& o) { o.origin[1] = number; }, CDPREP_WHY_NOT_FINITE,
                        "options.origin[1]"});

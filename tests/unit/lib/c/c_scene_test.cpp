@@ -67,6 +67,7 @@ const std::vector<LayerPair> kPairs = {
 
 constexpr std::uint32_t kMostTrianglePairs = 500;  // sometimes too few
 constexpr std::uint32_t kMostContacts = 60;        // likewise
+constexpr std::array kOrigin = {0.3, -1.7, 40.0};
 
 cdprep_contact_options in_c(const ContactOptions& contacts) {
     cdprep_contact_options to;
@@ -136,7 +137,8 @@ public:
                                 .limits = {.objects = 24,
                                            .pairs = max_pairs,
                                            .triangle_pairs = kMostTrianglePairs,
-                                           .contacts = kMostContacts}})
+                                           .contacts = kMostContacts},
+                                .origin = {kOrigin[0], kOrigin[1], kOrigin[2]}})
                      .plan),
           scene_(plan_) {
         for (const AlignedBytes& file : files_) {
@@ -153,6 +155,7 @@ public:
         options.max_triangle_pairs = kMostTrianglePairs;
         options.max_contacts = kMostContacts;
         options.lanes = plan_lanes;
+        std::copy(kOrigin.begin(), kOrigin.end(), options.origin);
         cdprep_plan* plan = nullptr;
         EXPECT_EQ(cdprep_plan_compile(&options, nullptr, nullptr, &plan, nullptr), CDPREP_OK);
         EXPECT_EQ(cdprep_scene_make(plan, nullptr, 0, &c_scene_, nullptr), CDPREP_OK);
@@ -252,6 +255,8 @@ private:
         std::size_t count = 0;
         EXPECT_EQ(cdprep_scene_boxes(c_scene_, &boxes, &count, nullptr), CDPREP_OK);
         EXPECT_EQ(count, 24u);
+        const auto expected = scene_.boxes();
+        EXPECT_EQ(std::memcmp(boxes, expected.data(), expected.size_bytes()), 0);
         std::set<std::uint32_t> slots;
         for (const cdprep_object& id : ids_) slots.insert(id.slot);
         std::vector<cdprep_box_pair> pairs;

@@ -200,6 +200,39 @@ TEST(BroadPhase, FiltersAreMutual) {
     ASSERT_EQ(pairs_of(broad_phase.update(boxes)), test::brute_force_pairs(boxes));
 }
 
+// Filters come and go, with all boxes named or some, and with other numbers of boxes.
+TEST(BroadPhase, FiltersComeAndGo) {
+    std::mt19937 random(31);
+    const std::vector<WorldBox> all = grid_boxes(120, 31);
+    std::vector<BoxFilter> own(all.size());
+    for (BoxFilter& filter : own) {
+        filter = {std::uint32_t{1} << random() % 3, static_cast<std::uint32_t>(random() % 8)};
+    }
+    BroadPhase broad_phase = made_for(all.size(), 8'000);
+    std::size_t count = all.size();
+    std::vector<BoxFilter> last(count);  // as the broad phase knows them
+    ASSERT_TRUE(broad_phase.update(all).complete);
+    for (int step = 0; step < 2'000; ++step) {
+        const bool names_some = random() % 3 > 0;
+        if (!names_some) count = random() % 4 > 0 ? count : 40 + random() % 80;
+        const std::span<const WorldBox> boxes(all.data(), count);
+        const std::span<const BoxFilter> filters(own.data(), random() % 2 == 0 ? count : 0);
+        const auto filter_of = [&](std::size_t i) {
+            return filters.empty() ? BoxFilter{} : filters[i];
+        };
+        std::vector<std::uint32_t> moved;
+        for (int i = 0; i < 9; ++i) moved.push_back(static_cast<std::uint32_t>(random() % count));
+        last.resize(count);
+        for (std::size_t i = 0; i < count && !names_some; ++i) last[i] = filter_of(i);
+        for (std::size_t i = 0; i < moved.size() && names_some; ++i) {
+            last[moved[i]] = filter_of(moved[i]);
+        }
+        const Pairs found = pairs_of(names_some ? broad_phase.update_moved(boxes, filters, moved)
+                                                : broad_phase.update(boxes, filters));
+        ASSERT_EQ(found, test::brute_force_pairs(boxes, last)) << step;
+    }
+}
+
 TEST(BroadPhase, SaysHowMuchRoomIsNeeded) {
     const std::vector<WorldBox> boxes(50, cube(0, 0, 0, 1));
     constexpr std::size_t kAll = 50 * 49 / 2;

@@ -577,7 +577,6 @@ TEST(Scene, FloatModesChangeNothing) {
     }
 }
 
-// The greatest numbers that a plan accepts reach everything.
 /// The slots and candidates of a row of balls, three apart, far from 0.
 struct FarRow {
     std::vector<std::array<std::uint32_t, 2>> hits;
@@ -611,14 +610,18 @@ TEST(Scene, AnOriginNearbySparesCandidatesAlone) {
     EXPECT_EQ(far.hits, near.hits);
 }
 
+// The greatest numbers that a plan accepts reach everything.
 TEST(Scene, TakesAnyDistance) {
     const test::OpenModel ball = test::open_tiny(test::icosphere(1));
     constexpr double kMost = std::numeric_limits<double>::max();
     for (const double limit : {kMost, 0x1p1000}) {
         const std::vector<LayerPair> pairs = {
             {.effects = Ask::distance | Ask::within, .tolerance = limit, .max_distance = limit}};
+        const double far = limit == kMost ? 0x1p1000 : -0x1p1000;
         const Plan plan =
-            *Plan::compile({.pairs = pairs, .limits = {.objects = 3, .pairs = 9}}).plan;
+            *Plan::compile(
+                 {.pairs = pairs, .limits = {.objects = 3, .pairs = 9}, .origin = {far, -far, far}})
+                 .plan;
         Scene scene(plan);
         std::vector<Workspace> workspaces(1);
         for (const double x : {0.0, 1e30, -1e200}) {

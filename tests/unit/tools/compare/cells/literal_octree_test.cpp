@@ -3,10 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "cdprep/advanced/query_counts.h"
-#include "core/moved_model.h"
 #include "support/brute_force.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "core/moved_model.h"
 #include "support/brute_force.h"
@@ -107,6 +110,10 @@ TEST(PotentialSet, TouchingIsKeptAndApartIsNot) {
     EXPECT_GE(count(1), 6);  // a face and all that share its edges
     EXPECT_LT(count(1), 12);
     EXPECT_EQ(count(1.01), 0);
+    const Placement apart =
+        Placement::b_moves(Pose::from_quaternion(1, 0, 0, 0, {1.01, 0, 0}).value());
+    const GroupsOfBoth groups = groups_in_boxes(model.model, model.model, apart, kLeaf);
+    EXPECT_TRUE(groups.a.numbers.empty() && groups.b.numbers.empty());
     EXPECT_EQ(count(0), 12);
 }
 
@@ -122,9 +129,10 @@ std::vector<bool> in_groups(const Model& model, const TriangleGroups& groups) {
 // A law: groups in boxes and in slabs keep both triangles of each pair, and slabs leave out more.
 TEST(GroupsOfBoth, KeepEveryPairThatOverlaps) {
     std::mt19937 random(43);
-    const OpenModel a = open_tiny(icosphere(4)), b = open_tiny(torus(1.5, 0.3, 60, 24));
+    const OpenModel a = with_bounds(icosphere(4), false);
+    const OpenModel b = with_bounds(torus(1.5, 0.3, 60, 24), false);
     Workspace workspace;
-    std::size_t in_boxes = 0, in_slabs = 0, overlapping = 0;
+    std::size_t all = 0, in_boxes = 0, in_slabs = 0, overlapping = 0;
     for (int round = 0; round < 60; ++round) {
         const Pose p = random_pose(random, 2), q = random_pose(random, 1);
         const Placement placement = std::array{Placement::b_moves(p), Placement::a_moves(p),
@@ -141,11 +149,13 @@ TEST(GroupsOfBoth, KeepEveryPairThatOverlaps) {
                     ASSERT_TRUE(of_a[pair.a] && of_b[pair.b]) << round << ", height " << height;
                 }
             }
+            all += a.model.triangle_count() + b.model.triangle_count();
             in_boxes += boxes.a.triangles_of(a.model) + boxes.b.triangles_of(b.model);
             in_slabs += slabs.a.triangles_of(a.model) + slabs.b.triangles_of(b.model);
         }
     }
     EXPECT_GT(overlapping, 5'000U);
+    EXPECT_LT(in_boxes * 10, all * 8);
     EXPECT_LT(in_slabs * 10, in_boxes * 9);
 }
 
