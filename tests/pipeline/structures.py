@@ -21,7 +21,8 @@ from bounds import random_pose
 from killed_bake import digest, write_sheet
 from known_meshes import CUBE
 from poses_truth import truth
-from shared_models import IS_SLOW, answers, bake, must, run, shared_folder_if_there, shared_models_if_there
+from shared_models import (IS_SLOW, answers, bake, must, run, shared_folder_if_there,
+                           shared_models_if_there)
 
 OCTREE = {"octree_grid", "octree_nodes", "octree_references", "octree_boxes"}
 SECTIONS = {

@@ -16,6 +16,7 @@
 #include "compare/cells/literal_octree.h"
 #include "compare/cells/potential_set.h"
 #include "study/cells.h"
+#include "study/source_triangles.h"
 
 namespace cdprep::study {
 namespace {
@@ -31,14 +32,6 @@ static_assert(sizeof(Pruning) == kMembers.size() * sizeof(double));
 
 double as_double(std::size_t count) {
     return static_cast<double>(count);
-}
-
-/// Returns the places of triangles in tree order, by source number.
-std::vector<std::uint32_t> tree_places(const Model& model) {
-    const auto source = model.source().triangle;
-    std::vector<std::uint32_t> places(model.triangle_count());
-    for (std::uint32_t i = 0; i < places.size(); ++i) places[source.empty() ? i : source[i]] = i;
-    return places;
 }
 
 double distinct(const std::vector<TrianglePair>& pairs, std::uint32_t TrianglePair::*side) {
@@ -103,10 +96,10 @@ private:
 /// Returns how many of the pairs have a triangle that one of the steps does not keep.
 std::size_t lost_pairs(const Model& a, const Model& b, const std::vector<TrianglePair>& pairs,
                        std::initializer_list<const GroupsOfBoth*> steps) {
-    const auto place_a = tree_places(a), place_b = tree_places(b);
+    const SourceTriangles of_a(a), of_b(b);
     return static_cast<std::size_t>(std::ranges::count_if(pairs, [&](const TrianglePair& pair) {
         return std::ranges::any_of(steps, [&](const GroupsOfBoth* step) {
-            return !step->a.has(place_a[pair.a]) || !step->b.has(place_b[pair.b]);
+            return !step->a.has(of_a.place(pair.a)) || !step->b.has(of_b.place(pair.b));
         });
     }));
 }

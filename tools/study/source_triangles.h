@@ -22,6 +22,10 @@ public:
     [[nodiscard]] const Model& model() const noexcept {
         return *model_;
     }
+    /// Returns the place of a triangle in tree order.
+    [[nodiscard]] std::uint32_t place(std::uint32_t number) const {
+        return place_[number];
+    }
     [[nodiscard]] Corners corners(std::uint32_t number) const {
         const auto& vertex = model_->mesh().triangles[place_[number]].vertex;
         return {position(vertex[0]), position(vertex[1]), position(vertex[2])};
