@@ -9,6 +9,7 @@
 #include "core/triangle_facts.h"
 #include "exact/point_triangle_distance.h"
 #include "pieces/piece_parts.h"
+#include "walk/triangles_at_vertex.h"
 
 namespace cdprep {
 namespace {
@@ -312,11 +313,26 @@ std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feat
     return most;
 }
 
-std::optional<Double3> ContactSide::upright(const PieceFeature& feature,
-                                            const Double3& direction) const noexcept {
+bool ContactSide::goes_on_beyond(const PieceFeature& feature, const Double3& direction,
+                                 Workspace::Storage& scratch) const noexcept {
+    if (feature.kind != FeatureKind::vertex) return true;
+    const auto triangles = model_->model->mesh().triangles;
+    const std::uint32_t vertex = triangles[feature.triangle].vertex[feature.corner];
+    const Double3 at = model_->position(vertex);
+    return !visit_triangles_at(*model_->model, vertex, scratch, [&](std::uint32_t t) {
+        for (const std::uint32_t other : triangles[t].vertex) {
+            const Double3 way = model_->position(other) - at;
+            if (dot(way, direction) > kLevel * largest_of(way)) return false;
+        }
+        return true;
+    });
+}
+
+std::optional<Double3> ContactSide::upright(const PieceFeature& feature, const Double3& direction,
+                                            Workspace::Storage& scratch) const noexcept {
     if (feature.kind == FeatureKind::face) return std::nullopt;
     const auto first = find_lean(feature, direction, 0, Over::flat_or_reflex);
-    if (!first) return std::nullopt;
+    if (!first || !goes_on_beyond(feature, direction, scratch)) return std::nullopt;
     if (feature.kind == FeatureKind::edge) return first->face;
     // Removes the lean over one edge. If the result leans over another edge, takes the direction
     // that is upright on both.

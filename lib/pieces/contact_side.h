@@ -177,15 +177,18 @@ public:
                                            const Double3& direction) const noexcept;
 
     /// Returns a unit direction at a feature, changed so that it does not lean over edges where the
-    /// surface continues. Returns nothing when it does not lean over any.
+    /// surface continues. Returns nothing when it does not lean over any, or if the feature is a
+    /// vertex beyond which the surface does not go.
     [[nodiscard]] std::optional<Double3> upright(const PieceFeature& feature,
-                                                 const Double3& direction) const noexcept;
+                                                 const Double3& direction,
+                                                 Workspace::Storage& scratch) const noexcept;
 
     /// Returns whether upright() would change a unit direction at a feature.
-    [[nodiscard]] bool leans_over_edge(const PieceFeature& feature,
-                                       const Double3& direction) const noexcept {
+    [[nodiscard]] bool leans_over_edge(const PieceFeature& feature, const Double3& direction,
+                                       Workspace::Storage& scratch) const noexcept {
         return feature.kind != FeatureKind::face &&
-               find_lean(feature, direction, 0, Over::flat_or_reflex).has_value();
+               find_lean(feature, direction, 0, Over::flat_or_reflex).has_value() &&
+               goes_on_beyond(feature, direction, scratch);
     }
     /// Returns whether a unit direction at a feature leans over an edge where the surface continues
     /// in the same plane.
@@ -243,6 +246,10 @@ private:
     [[nodiscard]] static bool is_among(format::EdgeConvexity edge, format::EdgeConvexity inward,
                                        Over over) noexcept;
     [[nodiscard]] bool is_inner(std::uint32_t triangle, unsigned edge) const noexcept;
+    /// Returns whether the surface reaches farther along a unit direction than a feature over whose
+    /// edges the direction leans. Of a vertex, other triangles there decide.
+    [[nodiscard]] bool goes_on_beyond(const PieceFeature& feature, const Double3& direction,
+                                      Workspace::Storage& scratch) const noexcept;
 
     const MovedModel* model_;
     std::span<const std::uint32_t> triangles_;  ///< tree order

@@ -245,7 +245,7 @@ private:
         Contacts(const ContactSearch& search, Manifold manifold) noexcept
             : search_(search),
               question_{&search.pair_.placement, search.options_, search.pair_.options.degenerate,
-                        search.workspace_.storage().counts} {
+                        search.workspace_.storage()} {
             question_.options.manifold = manifold;
             for (PlacedHull& hull : placed()) hull.piece = PlacedHull::kNoPiece;
         }

@@ -291,7 +291,7 @@ void add_scans(Maker& maker) {
                                               rough_ball(3, {1.5, 1, 0.75}, 0.05, 2)};
     int number = 0;
     for (const MeshPointer& scan : scans) {
-        for (const double depth : {0.005, 0.0125, 0.025}) {
+        for (const double depth : {0.005, 0.0125, 0.025, -0.005}) {
             for (int turn = 0; turn < 3; ++turn) {
                 const Double3 axis = {1, 0.3 * turn, -0.2};
                 const double angle = 0.7 + 1.1 * number;
@@ -304,8 +304,7 @@ void add_scans(Maker& maker) {
                 HardContact hard = named("S16 " + std::string(scan == scans[0] ? "ball" : "blob") +
                                              " depth " + text(depth) + " turn " + text(turn),
                                          floor, scan, pose, -depth);
-                // Only pieces that overlap: of others, faces beside reflex edges tell the normal.
-                hard.tolerance = 0;
+                hard.tolerance = depth < 0 ? -3 * depth : 0;
                 hard.b.is_convex = false;
                 hard.b.in_triangles = number++ % 2 == 1;
                 hard.normals = hard.allowed = {kUp};

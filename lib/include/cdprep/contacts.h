@@ -25,7 +25,9 @@ struct ContactFeature {
 struct ManifoldPoint {
     Double3 on_a;
     Double3 on_b;
-    double distance;  ///< from on_a to on_b along the normal, rounded; negative: overlap
+    /// From on_a to on_b along the normal, rounded; negative: overlap. In a cluster, the normal is
+    /// that of the member with the point, which may differ by the options' cluster_angle.
+    double distance;
     /// Stays the same for the same point of the same contact after a small motion. It is made of
     /// source numbers: that of the vertex at the point, or those of the ends of the two edges that
     /// cross there. 0 for the only point of a contact. In a cluster, it also differs between points
@@ -139,10 +141,13 @@ struct ContactsVerdict {
 /// that does not snag. The candidates are the face normals of both hulls and the directions
 /// perpendicular to an edge of each. If the hulls overlap but the pieces do not, the contact has
 /// the distance of the triangles. If several pairs of points are equally near, as between parallel
-/// faces, the contact has one of them.
+/// faces, the contact has one of them. The normal of a gap is that of the shortest line, unless it
+/// snags there: then it is perpendicular to the edges across which it tilted. The normal of a face
+/// is changed for flat edges only.
 ///
-/// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. It also
-/// snags if it leads through a part of the hull that no triangle covers. If the shortest
+/// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
+/// vertex it does not snag if no triangle of the mesh reaches farther along it. It also snags if it
+/// leads through a part of the hull that no triangle covers. If the shortest
 /// translation snags, the shortest one that does not is used, and contact_internal_edge is set. A
 /// translation that tilts across a reflex edge is used nevertheless if it is less than half as long
 /// as that one. It must not tilt across a flat edge or lead deeper into a solid. `upper` is still

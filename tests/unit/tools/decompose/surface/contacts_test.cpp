@@ -534,6 +534,29 @@ TEST(Contacts, AGapHasANormalTowardsTheOtherSide) {
     }
 }
 
+// By hand: two triangles of one plane, each a piece, rise from a corner and an edge on a box. Their
+// common edge continues the plane over the corner, but nothing there is below it.
+TEST(Contacts, ACornerOfAPlaneIsPushedUp) {
+    TestMesh wide = unit_cube();
+    for (Double3& p : wide.positions) p = {40 * p.x - 20, 40 * p.y - 20, p.z - 1};
+    const OpenModel box = open_with_pieces(wide);
+    TestMesh leaning;
+    leaning.positions = {
+        {4.3125, -1.75, 0.0625}, {4.1875, -1.6875, 0}, {4.375, -1.625, 0}, {4.5, -1.6875, 0.0625}};
+    leaning.triangles = {{{0, 1, 2}}, {{0, 2, 3}}};
+    const OpenModel above = open_with_pieces(leaning, PiecesOf::triangles);
+    for (const double height : {0.0, 0.004, -0.004}) {
+        SCOPED_TRACE(height);
+        const auto found = all_contacts(box, above, shifted({0, 0, height}), 0.0085);
+        ASSERT_EQ(found.size(), 2U);
+        for (const Contact& contact : found) {
+            expect_near(contact.normal, {0, 0, 1}, 1e-9);
+            EXPECT_NEAR(contact.lower, height, 1e-12);
+            EXPECT_EQ(contact.flags & contact_internal_edge, 0U);
+        }
+    }
+}
+
 // By hand: a box slides over the top of an L and on along the outside of its arms, across the edges
 // between pieces: each is flat, and every piece that is met from outside pushes along the common
 // face. A wall that a corner of the box has come near to in the solid does not.
