@@ -18,8 +18,9 @@ void ContactChoice::add(const ContactCandidate& candidate) noexcept {
 std::span<ContactCandidate> ContactChoice::take_exact(std::size_t taken,
                                                       std::size_t most) noexcept {
     const auto all = room_.first(count_);
-    const auto exact = std::partition(all.begin() + static_cast<std::ptrdiff_t>(taken), all.end(),
-                                      [](const ContactCandidate& c) { return c.is_exact; });
+    const auto exact =
+        std::partition(all.begin() + static_cast<std::ptrdiff_t>(taken), all.end(),
+                       [](const ContactCandidate& c) { return c.known == Known::exactly; });
     std::sort(all.begin() + static_cast<std::ptrdiff_t>(taken), exact, is_deeper);
     const auto count = std::min(most, static_cast<std::size_t>(exact - all.begin()));
     std::sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), is_deeper);

@@ -426,6 +426,15 @@ double most_depth_of_pieces(const ContactSide& a, const ContactSide& b,
     return most;
 }
 
+double most_depth_by_faces(ContactSide& a, ContactSide& b, const NearPieces& near) noexcept {
+    const Double3 origin = a.corner(0);
+    const PieceShape* shape_a = a.shape(origin);
+    const PieceShape* shape_b = shape_a == nullptr ? nullptr : b.shape(origin);
+    if (shape_b == nullptr) return kInfinity;
+    const double most = shortest_way_by_faces(*shape_a, *shape_b);
+    return near.touch ? std::max(0.0, most) : most;
+}
+
 Contact contact_of_pieces(ContactSide& a, ContactSide& b, const NearPieces& near,
                           const ContactQuestion& question) noexcept {
     return PairOfPieces(a, b, near, question).answer();

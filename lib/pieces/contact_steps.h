@@ -34,6 +34,10 @@ struct ContactQuestion {
 [[nodiscard]] double most_depth_of_pieces(const ContactSide& a, const ContactSide& b,
                                           const NearPieces& near) noexcept;
 
+/// Returns a closer bound by the faces of both hulls, or infinity if they cannot be tested.
+[[nodiscard]] double most_depth_by_faces(ContactSide& a, ContactSide& b,
+                                         const NearPieces& near) noexcept;
+
 /// Returns the contact of two pieces. Two of their triangles are within the tolerance.
 [[nodiscard]] Contact contact_of_pieces(ContactSide& a, ContactSide& b, const NearPieces& near,
                                         const ContactQuestion& question) noexcept;

@@ -130,12 +130,13 @@ public:
 
     /// Finds the contacts of a list with a limit, with their manifolds. Valid until the next query.
     [[nodiscard]] std::span<Contact> list() noexcept {
+        using Known = ContactCandidate::Known;
         Workspace::Storage& storage = workspace_.storage();
         ContactChoice choice(storage.contact_candidates);
         Contacts contacts(*this, options_.manifold);
         each_page([&](const NearPieces& near) {
             const Double3 at = moved_a_.corners(near.a)[0];
-            choice.add({contacts.most_depth(near), false, kNoSlot, at, near, 0});
+            choice.add({contacts.most_depth(near), Known::roughly, kNoSlot, at, near, 0});
             return true;
         });
         std::uint32_t slots = 0;
@@ -147,12 +148,25 @@ public:
                 storage.computed_contacts[slots] = contact;
                 candidate.slot = slots++;
             }
-            return candidate.is_exact = true;
+            candidate.known = Known::exactly;
+            return true;
+        };
+        // Bounds save time where many contacts would be computed. They would use up a limit that
+        // allows few.
+        const bool allows_all =
+            options_.work == 0 || options_.work > verdict_.work + verdict_.found * kWorkOfContact;
+        const auto bound = [&](ContactCandidate& candidate) {
+            if (!allows_all) return compute(candidate);
+            verdict_.work += kWorkOfBound;
+            candidate.depth =
+                std::min(candidate.depth, contacts.most_depth_by_faces(candidate.near));
+            candidate.known = Known::by_faces;
+            return true;
         };
         const std::size_t most = std::min(options_.most, kMostListedContacts);
         const std::size_t deep = list_deep(std::span(storage.listed_contacts).first(most));
         std::size_t count = deep;
-        for (const ContactCandidate& chosen : choice.choose(most - deep, compute)) {
+        for (const ContactCandidate& chosen : choice.choose(most - deep, bound, compute)) {
             storage.listed_contacts[count++] = chosen.slot == kNoSlot
                                                    ? contacts.of(chosen.near)
                                                    : storage.computed_contacts[chosen.slot];
@@ -259,6 +273,11 @@ private:
             const ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key),
                                 &placed()[1]);
             return most_depth_of_pieces(a_of(near), b, near);
+        }
+        /// Returns a closer bound.
+        [[nodiscard]] double most_depth_by_faces(const NearPieces& near) noexcept {
+            ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key), &placed()[1]);
+            return cdprep::most_depth_by_faces(a_of(near), b, near);
         }
 
     private:

@@ -100,7 +100,25 @@ private:
     std::array<NearEdge, PieceShape::kMostEdges> edge_;
 };
 
+/// Returns how far the other hull reaches behind a face.
+double way_through(const PieceShape& of, const PieceShape::Face& face, const PieceShape& other) {
+    return dot(face.normal, of.corners()[face.corner]) + highest(other.corners(), -face.normal);
+}
+
 }  // namespace
+
+double shortest_way_by_faces(const PieceShape& a, const PieceShape& b) noexcept {
+    const double reach = a.reach() + b.reach();
+    double shortest = kInfinity;
+    const auto look = [&](const PieceShape& of, const PieceShape& other) {
+        for (const PieceShape::Face& face : of.faces()) {
+            shortest = std::min(shortest, way_through(of, face, other) + face.error * reach);
+        }
+    };
+    look(a, b);
+    look(b, a);
+    return shortest + a.position_error() + b.position_error() + 16 * kUnit * reach;
+}
 
 bool WaysOut::find(const PieceShape& a, const PieceShape& b, bool they_meet) noexcept {
     if (a.faces().size() * b.corners().size() + b.faces().size() * a.corners().size() +
@@ -136,8 +154,7 @@ void WaysOut::add(const WayOut& way) noexcept {
 void WaysOut::add_faces(const PieceShape& of, const PieceShape& other, WayKind kind) noexcept {
     for (std::size_t i = 0; i < of.faces().size(); ++i) {
         const PieceShape::Face& face = of.faces()[i];
-        const double way =
-            dot(face.normal, of.corners()[face.corner]) + highest(other.corners(), -face.normal);
+        const double way = way_through(of, face, other);
         least_ = std::min(least_, way - face.error * reach_);
         const auto place = static_cast<std::uint8_t>(i);
         add({kind == WayKind::face_a ? face.normal : -face.normal, way, kind, place, place});

@@ -78,4 +78,8 @@ private:
     std::array<double, kMost> order_;  ///< the length; of edges, a little more
 };
 
+/// Returns a bound of the shortest way out of two hulls, or minus their distance, by the normals of
+/// their faces. Takes a fraction of the time of WaysOut::find().
+[[nodiscard]] double shortest_way_by_faces(const PieceShape& a, const PieceShape& b) noexcept;
+
 }  // namespace cdprep

@@ -105,8 +105,15 @@ struct PlacedHull {
 
 /// A pair of pieces whose contact may be listed.
 struct ContactCandidate {
-    double depth;   ///< minus Contact::upper, or at least that
-    bool is_exact;  ///< the contact was computed
+    /// How closely a depth is known. A bound is at least the depth.
+    enum class Known : std::uint8_t {
+        roughly,   ///< a bound that costs little
+        by_faces,  ///< a bound by all faces of both hulls
+        exactly,   ///< the contact was computed
+    };
+
+    double depth;  ///< minus Contact::upper, or a bound
+    Known known;
     /// Its place in Storage::computed_contacts, or kNoSlot.
     std::uint32_t slot;
     Double3 at;  ///< a corner of a triangle there

@@ -112,6 +112,20 @@ TEST_F(ContactList, FewComputedContactsAreEnough) {
     EXPECT_GE(list.verdict.computed, 4U);
 }
 
+// A budget for all contacts ends nothing, so the list is the same, and so is the work.
+TEST_F(ContactList, ABudgetForAllChangesNothing) {
+    const List free = ask(pair(), with(4));
+    ContactOptions options = with(4);
+    options.work = 2 * all_.verdict.work;
+    const List limited = ask(pair(), options);
+    EXPECT_EQ(limited.verdict.work, free.verdict.work);
+    EXPECT_EQ(limited.verdict.computed, free.verdict.computed);
+    ASSERT_EQ(limited.contacts.size(), free.contacts.size());
+    for (std::size_t i = 0; i < free.contacts.size(); ++i) {
+        EXPECT_TRUE(is_same(limited.contacts[i], free.contacts[i])) << i;
+    }
+}
+
 TEST_F(ContactList, IsTheSameThroughEitherHierarchy) {
     const List by_boxes = ask(pair(), with(20)), by_pieces = ask(pair(Structure::pieces), with(20));
     ASSERT_EQ(by_boxes.contacts.size(), by_pieces.contacts.size());
