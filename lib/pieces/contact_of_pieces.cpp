@@ -99,11 +99,11 @@ private:
             return answer_overlap(ways, std::max(0.0, ways.least()), contact);
         }
         const TwoHulls hulls = {a_.hull(), b_.hull()};
-        const auto nearest = hull_nearest(hulls.a, hulls.b, {}, nullptr, question_.scratch.counts);
+        const auto nearest = hull_nearest(hulls.a, hulls.b, {}, nullptr, question_.counts);
         if (!nearest->meet || !(both_contained || near_.touch)) {
             return answer_apart(*nearest, contact);
         }
-        const Penetration depth = hull_depth(hulls, nearest->simplex, {}, question_.scratch.counts);
+        const Penetration depth = hull_depth(hulls, nearest->simplex, {}, question_.counts);
         find_some(depth, ways);
         return answer_overlap(ways, depth.lower, contact);
     }
@@ -128,8 +128,7 @@ private:
                         : nearest_triangles(a_, b_, {near_.a, near_.b}, question_.degenerate);
         const ConvexPoints of_a = a_.points_of(pair.a), of_b = b_.points_of(pair.b);
         const TwoHulls triangles(of_a, of_b, *question_.placement);
-        const auto nearest =
-            hull_nearest(triangles.a, triangles.b, {}, nullptr, question_.scratch.counts);
+        const auto nearest = hull_nearest(triangles.a, triangles.b, {}, nullptr, question_.counts);
         const VertexSet at_a = vertices_of(nearest->simplex, &Difference::a, of_a.corners);
         const VertexSet at_b = vertices_of(nearest->simplex, &Difference::b, of_b.corners);
         return {{feature_of(a_, pair.a, at_a), feature_of(b_, pair.b, at_b)}, *nearest};
@@ -191,8 +190,8 @@ private:
 
     [[nodiscard]] std::optional<Double3> upright_normal(const Meeting& meeting,
                                                         const Double3& normal) const noexcept {
-        const auto by_a = a_.upright(meeting.a, normal, question_.scratch);
-        auto by_b = b_.upright(meeting.b, -normal, question_.scratch);
+        const auto by_a = a_.upright(meeting.a, normal);
+        auto by_b = b_.upright(meeting.b, -normal);
         if (by_b) by_b = -*by_b;
         const bool takes_b = by_b && (!by_a || dot(*by_b, normal) > dot(*by_a, normal));
         const auto& upright = takes_b ? by_b : by_a;
@@ -215,7 +214,7 @@ private:
         const PieceShape* shape_a = a_.shape(origin);
         const PieceShape* shape_b = shape_a == nullptr ? nullptr : b_.shape(origin);
         if (shape_b == nullptr || !ways.find(*shape_a, *shape_b, near_.touch)) return false;
-        if (question_.scratch.counts != nullptr) question_.scratch.counts->hull_pairs += 1;
+        if (question_.counts != nullptr) question_.counts->hull_pairs += 1;
         const double shortest = ways.shortest()[0].length;
         const double size = shape_a->reach() + shape_b->reach();
         return shortest - ways.least() <=
@@ -276,8 +275,8 @@ private:
     }
     /// Returns whether a direction leans over an edge where a surface continues.
     [[nodiscard]] bool leans(const Meeting& meeting, const Double3& direction) const noexcept {
-        return a_.leans_over_edge(meeting.a, direction, question_.scratch) ||
-               b_.leans_over_edge(meeting.b, -direction, question_.scratch);
+        return a_.leans_over_edge(meeting.a, direction) ||
+               b_.leans_over_edge(meeting.b, -direction);
     }
     /// Returns whether B leaves A along a direction by the end of a plane that continues.
     [[nodiscard]] bool leaves_along_plane(const Meeting& meeting,

@@ -30,11 +30,15 @@ unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
 
 }  // namespace
 
-ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece, PlacedHull* large) noexcept
+ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece, PlacedHull* large,
+                         Workspace::Storage& scratch) noexcept
     : model_(&model),
+      scratch_(&scratch),
+      piece_(piece),
       triangles_(part_of_piece(model.model->pieces().triangles, *model.model, piece,
                                &format::Piece::first_triangle)),
       contained_((model.model->pieces().pieces[piece].flags & format::piece_contained) != 0),
+      is_exact_(model.model->pieces().pieces[piece].outer_error == 0),
       hull_(feature_hull(*model.model, piece)) {
     assert(!triangles_.empty());
     place(piece, large);
@@ -106,9 +110,24 @@ ConvexPoints ContactSide::points_of(std::uint32_t triangle) const noexcept {
     return points;
 }
 
+std::span<const std::uint32_t> ContactSide::triangles_around(std::uint32_t vertex,
+                                                             Fan& room) const noexcept {
+    if (triangles_.size() <= kMostPlacedTriangles) return triangles_;
+    const std::span<const std::uint32_t> piece_of = model_->model->pieces().of_triangle;
+    std::size_t count = 0;
+    const bool fit = visit_triangles_at(*model_->model, vertex, *scratch_, [&](std::uint32_t t) {
+        if (piece_of[t] != piece_) return true;
+        if (count == room.size()) return false;
+        room[count++] = t;
+        return true;
+    });
+    return fit ? std::span<const std::uint32_t>(room).first(count) : triangles_;
+}
+
 std::optional<PieceFeature> ContactSide::find_feature(const VertexSet& set) const noexcept {
     if (set.count == 0 || set.count > 3) return std::nullopt;
-    for (const std::uint32_t t : triangles_) {
+    Fan room;
+    for (const std::uint32_t t : triangles_around(set.vertex[0], room)) {
         const format::Triangle& triangle = model_->model->mesh().triangles[t];
         unsigned has = 0;
         for (std::size_t i = 0; i < set.count; ++i) {
@@ -137,22 +156,48 @@ std::uint32_t ContactSide::nearest_triangle(const Double3& near) const noexcept 
     return best;
 }
 
+std::span<const std::uint32_t> ContactSide::triangles_facing(const Double3& direction,
+                                                             Fan& room) const noexcept {
+    constexpr auto kLeast = static_cast<float>(kAligned) - 4 * kCosineError;
+    std::array<float, PlacedHull::kMostFacets> room_for_cosines;
+    // The triangles of an exact piece are on faces of its hull.
+    const std::span<const float> cosines =
+        is_exact_ ? face_cosines(direction, room_for_cosines) : std::span<const float>();
+    if (cosines.empty() || !large_->is_covered) return triangles_;
+    const auto all = facets();
+    std::size_t count = 0;
+    for (std::size_t f = 0; f < all.size(); ++f) {
+        if (!(std::fabs(cosines[f]) > kLeast)) continue;
+        const bool is_alone =
+            f + 1 == all.size() || (all[f + 1].flags & format::facet_first_of_face) != 0;
+        VertexSet corners;
+        for (const std::uint32_t corner : all[f].corner) corners.add(points().corners[corner]);
+        const auto triangle = is_alone ? find_feature(corners) : std::nullopt;
+        if (!triangle || count == room.size()) return triangles_;
+        room[count++] = triangle->triangle;
+    }
+    return std::span<const std::uint32_t>(room).first(count);
+}
+
 std::optional<PieceFeature> ContactSide::find_face(const Double3& direction,
                                                    const Double3* near) const noexcept {
     std::optional<PieceFeature> best;
     double least = std::numeric_limits<double>::infinity();
     const MovedModel still(*model_->model, nullptr);
     const Double3 local = turned_back(model_->pose, direction);
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    Fan room;
+    const auto triangles = triangles_facing(direction, room);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
         if (i >= placed_triangles_count_ &&
-            is_surely_turned(still.corners(triangles_[i]), local, kAligned)) {
+            is_surely_turned(still.corners(triangles[i]), local, kAligned)) {
             continue;
         }
-        const PlacedTriangle t = placed(i);
+        const PlacedTriangle t =
+            i < placed_triangles_count_ ? placed_triangle_[i] : moved(triangles[i]);
         const double along = dot(t.normal, direction);
         // A surface that bounds no solid can be met from either side.
         if ((is_contained() ? along : std::fabs(along)) < kAligned) continue;
-        const PieceFeature face = {FeatureKind::face, triangles_[i], 0};
+        const PieceFeature face = {FeatureKind::face, triangles[i], 0};
         if (near == nullptr) return face;
         const double distance = point_triangle_distance(*near, t.at).computed;
         if (distance < least) least = distance, best = face;
@@ -185,8 +230,10 @@ VertexSet ContactSide::farthest_vertices(const Double3& direction) const noexcep
 
 void ContactSide::set_face_normals() const noexcept {
     const auto all = facets();
+    large_->is_covered = true;
     for (std::size_t f = 0; f < all.size(); ++f) {
         const auto& c = all[f].corner;
+        if ((all[f].flags & format::facet_virtual) != 0) large_->is_covered = false;
         const bool is_first = all[f].flags == format::facet_first_of_face;
         const Double3 n =
             is_first ? unit_normal({corner(c[0]), corner(c[1]), corner(c[2])}) : Double3{0, 0, 0};
@@ -222,36 +269,43 @@ double ContactSide::reach(const Double3& direction, const Double3& from) const n
 
 // --- Edges inside the surface --------------------------------------------------------
 
-/// Calls visit(i, edges) for the piece's triangles that have the feature, by their places in
-/// triangles_. `edges` has a bit for each of their edges that has it.
+/// Calls visit(triangle, placed, edges) for the piece's triangles that have the feature. `edges`
+/// has a bit for each of their edges that has it.
 template <class Visit>
 void ContactSide::each_around(const PieceFeature& feature, Visit&& visit) const noexcept {
-    const format::Triangle& own = model_->model->mesh().triangles[feature.triangle];
-    const std::uint32_t from = own.vertex[feature.corner];
-    const std::uint32_t to = own.vertex[(feature.corner + 1) % 3];
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-        if (feature.kind == FeatureKind::face) {
-            if (triangles_[i] == feature.triangle) visit(i, 0U);
-            continue;
-        }
-        const format::Triangle& triangle = model_->model->mesh().triangles[triangles_[i]];
+    if (feature.kind == FeatureKind::face) {
+        visit(feature.triangle, moved(feature.triangle), 0U);
+        return;
+    }
+    const auto mesh = model_->model->mesh().triangles;
+    const std::uint32_t from = mesh[feature.triangle].vertex[feature.corner];
+    const std::uint32_t to = mesh[feature.triangle].vertex[(feature.corner + 1) % 3];
+    Fan room;
+    const auto around = triangles_around(from, room);
+    for (std::size_t i = 0; i < around.size(); ++i) {
+        const format::Triangle& triangle = mesh[around[i]];
         const unsigned k = corner_of(triangle, from);
         if (k == 3) continue;
         const unsigned previous = (k + 2) % 3;
+        unsigned edges = 0;
         if (feature.kind == FeatureKind::vertex) {
-            visit(i, 1U << k | 1U << previous);
+            edges = 1U << k | 1U << previous;
         } else if (triangle.vertex[(k + 1) % 3] == to) {
-            visit(i, 1U << k);
+            edges = 1U << k;
         } else if (triangle.vertex[previous] == to) {
-            visit(i, 1U << previous);
+            edges = 1U << previous;
+        } else {
+            continue;
         }
+        visit(around[i], i < placed_triangles_count_ ? placed_triangle_[i] : moved(around[i]),
+              edges);
     }
 }
 
 double ContactSide::facing(const PieceFeature& feature, const Double3& direction) const noexcept {
     double most = -1;
-    each_around(feature, [&](std::size_t i, unsigned) {
-        most = std::max(most, dot(placed(i).normal, direction));
+    each_around(feature, [&](std::uint32_t, const PlacedTriangle& triangle, unsigned) {
+        most = std::max(most, dot(triangle.normal, direction));
     });
     return most;
 }
@@ -273,7 +327,9 @@ bool ContactSide::is_seen_from_behind(const PieceFeature& feature,
 bool ContactSide::is_inner(std::uint32_t triangle, unsigned edge) const noexcept {
     const auto& vertex = model_->model->mesh().triangles[triangle].vertex;
     const std::uint32_t from = vertex[edge], to = vertex[(edge + 1) % 3];
-    return std::any_of(triangles_.begin(), triangles_.end(), [&](std::uint32_t t) {
+    Fan room;
+    const auto around = triangles_around(from, room);
+    return std::any_of(around.begin(), around.end(), [&](std::uint32_t t) {
         const format::Triangle& other = model_->model->mesh().triangles[t];
         return t != triangle && corner_of(other, from) < 3 && corner_of(other, to) < 3;
     });
@@ -290,10 +346,9 @@ std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feat
                                                         const Double3& direction, double least,
                                                         Over over) const noexcept {
     std::optional<Lean> most;
-    each_around(feature, [&](std::size_t i, unsigned edges) {
-        const std::uint32_t t = triangles_[i];
+    each_around(feature, [&](std::uint32_t t, const PlacedTriangle& triangle, unsigned edges) {
         const std::uint8_t bits = model_->model->mesh().edge_convexity[t];
-        const auto [at, front] = placed(i);
+        const auto& [at, front] = triangle;
         const bool from_front = is_contained() || dot(front, direction) >= 0;
         // Seen from behind, a convex edge is reflex.
         const EdgeConvexity inward = from_front ? EdgeConvexity::reflex : EdgeConvexity::convex;
@@ -313,13 +368,13 @@ std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feat
     return most;
 }
 
-bool ContactSide::goes_on_beyond(const PieceFeature& feature, const Double3& direction,
-                                 Workspace::Storage& scratch) const noexcept {
+bool ContactSide::goes_on_beyond(const PieceFeature& feature,
+                                 const Double3& direction) const noexcept {
     if (feature.kind != FeatureKind::vertex) return true;
     const auto triangles = model_->model->mesh().triangles;
     const std::uint32_t vertex = triangles[feature.triangle].vertex[feature.corner];
     const Double3 at = model_->position(vertex);
-    return !visit_triangles_at(*model_->model, vertex, scratch, [&](std::uint32_t t) {
+    return !visit_triangles_at(*model_->model, vertex, *scratch_, [&](std::uint32_t t) {
         for (const std::uint32_t other : triangles[t].vertex) {
             const Double3 way = model_->position(other) - at;
             if (dot(way, direction) > kLevel * largest_of(way)) return false;
@@ -328,11 +383,11 @@ bool ContactSide::goes_on_beyond(const PieceFeature& feature, const Double3& dir
     });
 }
 
-std::optional<Double3> ContactSide::upright(const PieceFeature& feature, const Double3& direction,
-                                            Workspace::Storage& scratch) const noexcept {
+std::optional<Double3> ContactSide::upright(const PieceFeature& feature,
+                                            const Double3& direction) const noexcept {
     if (feature.kind == FeatureKind::face) return std::nullopt;
     const auto first = find_lean(feature, direction, 0, Over::flat_or_reflex);
-    if (!first || !goes_on_beyond(feature, direction, scratch)) return std::nullopt;
+    if (!first || !goes_on_beyond(feature, direction)) return std::nullopt;
     if (feature.kind == FeatureKind::edge) return first->face;
     // Removes the lean over one edge. If the result leans over another edge, takes the direction
     // that is upright on both.

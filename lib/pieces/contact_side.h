@@ -80,7 +80,8 @@ public:
     static constexpr double kLevel = 1e-9;
 
     /// `large` keeps the moved corners of a large piece from call to call; it may be null.
-    ContactSide(const MovedModel& model, std::uint32_t piece, PlacedHull* large) noexcept;
+    ContactSide(const MovedModel& model, std::uint32_t piece, PlacedHull* large,
+                Workspace::Storage& scratch) noexcept;
     ContactSide(const ContactSide&) = delete;  // placed_points_ refer to placed_
     ContactSide& operator=(const ContactSide&) = delete;
     ~ContactSide() = default;
@@ -136,7 +137,7 @@ public:
     }
 
     /// Returns the feature that one to three vertices span, if a triangle of the piece has them
-    /// all. The first of several triangles counts.
+    /// all. If several do, always returns the same of them.
     [[nodiscard]] std::optional<PieceFeature> find_feature(const VertexSet& set) const noexcept;
 
     /// Returns a triangle of the piece that faces a unit direction squarely: the nearest to a point
@@ -180,15 +181,14 @@ public:
     /// surface continues. Returns nothing when it does not lean over any, or if the feature is a
     /// vertex beyond which the surface does not go.
     [[nodiscard]] std::optional<Double3> upright(const PieceFeature& feature,
-                                                 const Double3& direction,
-                                                 Workspace::Storage& scratch) const noexcept;
+                                                 const Double3& direction) const noexcept;
 
     /// Returns whether upright() would change a unit direction at a feature.
-    [[nodiscard]] bool leans_over_edge(const PieceFeature& feature, const Double3& direction,
-                                       Workspace::Storage& scratch) const noexcept {
+    [[nodiscard]] bool leans_over_edge(const PieceFeature& feature,
+                                       const Double3& direction) const noexcept {
         return feature.kind != FeatureKind::face &&
                find_lean(feature, direction, 0, Over::flat_or_reflex).has_value() &&
-               goes_on_beyond(feature, direction, scratch);
+               goes_on_beyond(feature, direction);
     }
     /// Returns whether a unit direction at a feature leans over an edge where the surface continues
     /// in the same plane.
@@ -219,10 +219,21 @@ private:
     void set_face_normals() const noexcept;
     /// Returns triangle triangles()[i] as moved.
     [[nodiscard]] PlacedTriangle placed(std::size_t i) const noexcept {
-        if (i < placed_triangles_count_) return placed_triangle_[i];
-        const Corners at = model_->corners(triangles_[i]);
+        return i < placed_triangles_count_ ? placed_triangle_[i] : moved(triangles_[i]);
+    }
+    [[nodiscard]] PlacedTriangle moved(std::uint32_t triangle) const noexcept {
+        const Corners at = model_->corners(triangle);
         return {at, unit_normal(at)};
     }
+    using Fan = std::array<std::uint32_t, 64>;
+    /// Returns triangles of the piece, with all that have a vertex among them: all triangles of a
+    /// small piece, in order, and of a large piece those alone, in `room` if they fit.
+    [[nodiscard]] std::span<const std::uint32_t> triangles_around(std::uint32_t vertex,
+                                                                  Fan& room) const noexcept;
+    /// Returns triangles of the piece, with all that face a unit direction squarely among them: all
+    /// triangles, or those of the few faces of a large hull that may, in `room`.
+    [[nodiscard]] std::span<const std::uint32_t> triangles_facing(const Double3& direction,
+                                                                  Fan& room) const noexcept;
     /// Returns the greatest cosine of the angle between a unit direction and the normal of a
     /// triangle with the feature.
     [[nodiscard]] double facing(const PieceFeature& feature,
@@ -248,12 +259,15 @@ private:
     [[nodiscard]] bool is_inner(std::uint32_t triangle, unsigned edge) const noexcept;
     /// Returns whether the surface reaches farther along a unit direction than a feature over whose
     /// edges the direction leans. Of a vertex, other triangles there decide.
-    [[nodiscard]] bool goes_on_beyond(const PieceFeature& feature, const Double3& direction,
-                                      Workspace::Storage& scratch) const noexcept;
+    [[nodiscard]] bool goes_on_beyond(const PieceFeature& feature,
+                                      const Double3& direction) const noexcept;
 
     const MovedModel* model_;
+    Workspace::Storage* scratch_;
+    std::uint32_t piece_;
     std::span<const std::uint32_t> triangles_;  ///< tree order
     bool contained_;
+    bool is_exact_;  ///< all triangles lie on the hull's boundary
     FeatureHull hull_;
     ConvexPoints
         placed_points_;  ///< in placed_ or a PlacedHull; empty for a hull too large for both

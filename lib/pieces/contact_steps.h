@@ -26,7 +26,7 @@ struct ContactQuestion {
     const Placement* placement;
     ContactOptions options;
     Degenerate degenerate;
-    Workspace::Storage& scratch;
+    QueryCounts* counts;  ///< or null
 };
 
 /// Returns a bound of -Contact::upper: of the shortest translation that separates two pieces, or

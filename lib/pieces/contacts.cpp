@@ -242,8 +242,9 @@ private:
                                  &format::Piece::first_triangle)
                 .size();
         };
-        return kWorkOfContact + triangles(pair_.a, static_cast<std::uint32_t>(near.key >> 32)) +
-               triangles(pair_.b, static_cast<std::uint32_t>(near.key));
+        const std::size_t both = triangles(pair_.a, static_cast<std::uint32_t>(near.key >> 32)) +
+                                 triangles(pair_.b, static_cast<std::uint32_t>(near.key));
+        return kWorkOfContact + both / kTrianglesOfWork;
     }
     /// Counts a contact. Returns false if there is no work left for it.
     [[nodiscard]] bool begin_contact(std::uint64_t work) noexcept {
@@ -259,24 +260,26 @@ private:
         Contacts(const ContactSearch& search, Manifold manifold) noexcept
             : search_(search),
               question_{&search.pair_.placement, search.options_, search.pair_.options.degenerate,
-                        search.workspace_.storage()} {
+                        search.workspace_.storage().counts} {
             question_.options.manifold = manifold;
             for (PlacedHull& hull : placed()) hull.piece = PlacedHull::kNoPiece;
         }
 
         [[nodiscard]] Contact of(const NearPieces& near) noexcept {
-            ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key), &placed()[1]);
+            ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key), &placed()[1],
+                          search_.workspace_.storage());
             return contact_of_pieces(a_of(near), b, near, question_);
         }
         /// Returns a bound of how deep the contact is; negative if it is that far apart.
         [[nodiscard]] double most_depth(const NearPieces& near) noexcept {
             const ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key),
-                                &placed()[1]);
+                                &placed()[1], search_.workspace_.storage());
             return most_depth_of_pieces(a_of(near), b, near);
         }
         /// Returns a closer bound.
         [[nodiscard]] double most_depth_by_faces(const NearPieces& near) noexcept {
-            ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key), &placed()[1]);
+            ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key), &placed()[1],
+                          search_.workspace_.storage());
             return cdprep::most_depth_by_faces(a_of(near), b, near);
         }
 
@@ -287,7 +290,7 @@ private:
         [[nodiscard]] ContactSide& a_of(const NearPieces& near) noexcept {
             const auto piece_a = static_cast<std::uint32_t>(near.key >> 32);
             if (!a_ || piece_a_ != piece_a) {
-                a_.emplace(search_.moved_a_, piece_a, &placed()[0]);
+                a_.emplace(search_.moved_a_, piece_a, &placed()[0], search_.workspace_.storage());
             }
             piece_a_ = piece_a;
             return *a_;

@@ -241,10 +241,11 @@ private:
 };
 
 /// Sets the piece and the feature of one side: those of a triangle.
-void put_triangle(const MovedModel& model, std::uint32_t triangle, std::uint32_t& piece,
-                  ContactFeature& feature) noexcept {
+void put_triangle(const MovedModel& model, std::uint32_t triangle, Workspace::Storage& scratch,
+                  std::uint32_t& piece, ContactFeature& feature) noexcept {
     piece = model.model->pieces().of_triangle[triangle];
-    feature = ContactSide(model, piece, nullptr).in_source({FeatureKind::face, triangle, 0});
+    feature =
+        ContactSide(model, piece, nullptr, scratch).in_source({FeatureKind::face, triangle, 0});
 }
 
 }  // namespace
@@ -266,14 +267,14 @@ Contact deep_contact(const Pair& pair, const Enclosed& enclosed, Manifold manifo
     constexpr std::uint64_t kNoTriangle = 0xffffffffU;
     const std::uint64_t id = source_number(*inner.model, own->triangle);
     if (enclosed.is_of_a) {
-        put_triangle(inner, own->triangle, contact.piece_a, contact.feature_a);
-        put_triangle(outer, wall->triangle, contact.piece_b, contact.feature_b);
+        put_triangle(inner, own->triangle, scratch, contact.piece_a, contact.feature_a);
+        put_triangle(outer, wall->triangle, scratch, contact.piece_b, contact.feature_b);
         contact.id = id << 32 | kNoTriangle;
         contact.point_a = last;
         contact.point_b = last - way.length * way.normal;
     } else {
-        put_triangle(outer, wall->triangle, contact.piece_a, contact.feature_a);
-        put_triangle(inner, own->triangle, contact.piece_b, contact.feature_b);
+        put_triangle(outer, wall->triangle, scratch, contact.piece_a, contact.feature_a);
+        put_triangle(inner, own->triangle, scratch, contact.piece_b, contact.feature_b);
         contact.id = kNoTriangle << 32 | id;
         contact.point_a = last + way.length * way.normal;
         contact.point_b = last;

@@ -97,9 +97,11 @@ struct PlacedHull {
 
     std::uint32_t piece = kNoPiece;
     bool has_normals = false;
-    Double3 reach;  ///< the largest |x|, |y|, |z| of the corners
+    bool is_covered = false;  ///< by triangles, on all faces; known with the normals
+    Double3 reach;            ///< the largest |x|, |y|, |z| of the corners
     std::array<format::HullBlock, kMostBlocks> blocks;
-    /// x, y, z of the normals of faces, rounded: for the first facet of a face. 0 for other facets.
+    /// x, y, z of the normals of covered faces, rounded: for the first facet of a face. 0 for other
+    /// facets.
     std::array<std::array<float, kMostFacets>, 3> normals;
 };
 

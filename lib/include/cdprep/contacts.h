@@ -94,9 +94,9 @@ struct ContactOptions {
     /// over the surface. 0: all contacts, in the order of their pieces.
     std::uint32_t most = 0;
     /// The maximum work, 0 for no limit. Each pair of near triangles counts 1. Each contact counts
-    /// kWorkOfContact and, between two pieces, 1 for each of their triangles. With `most`, a
-    /// bound of a contact's depth counts kWorkOfBound. The search for near triangles takes at most
-    /// half of the work, and the last contact may exceed it.
+    /// kWorkOfContact and, between two pieces, 1 for every kTrianglesOfWork of their triangles.
+    /// With `most`, a bound of a contact's depth counts kWorkOfBound. The search for near triangles
+    /// takes at most half of the work, and the last contact may exceed it.
     std::uint64_t work = 0;
     /// Joins contacts that are linked by common pieces and whose normals differ by at most this, in
     /// radians. A joined contact has at most four points. 0: joins none. Needs `most`.
@@ -104,6 +104,7 @@ struct ContactOptions {
 };
 
 inline constexpr std::uint64_t kWorkOfContact = 32;
+inline constexpr std::uint64_t kTrianglesOfWork = 8;
 inline constexpr std::uint64_t kWorkOfBound = 8;  ///< computed only if `work` allows all contacts
 
 /// How complete a list of contacts is, and what the limits left out.

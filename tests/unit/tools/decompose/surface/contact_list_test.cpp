@@ -53,9 +53,9 @@ protected:
     /// Returns what a contact counts by the definition of work.
     [[nodiscard]] std::uint64_t work_of(const Contact& contact) const {
         const auto pieces = ring_.model.pieces().of_triangle;
-        return kWorkOfContact + static_cast<std::uint64_t>(
-                                    std::count(pieces.begin(), pieces.end(), contact.piece_a) +
-                                    std::count(pieces.begin(), pieces.end(), contact.piece_b));
+        const auto triangles = std::count(pieces.begin(), pieces.end(), contact.piece_a) +
+                               std::count(pieces.begin(), pieces.end(), contact.piece_b);
+        return kWorkOfContact + static_cast<std::uint64_t>(triangles) / kTrianglesOfWork;
     }
 
     OpenModel ring_ = open_with_pieces(torus(1, 0.4, 40, 24));
