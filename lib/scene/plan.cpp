@@ -238,6 +238,7 @@ std::string effects_text(const LayerPair& pair) {
 
 std::string unbuilt_effect(std::string_view name) {
     std::vector<std::string> built;
+    built.reserve(std::size(kSceneEffects));
     for (const Ask effect : kSceneEffects) built.push_back(name_of(effect));
     return std::string(name) + " is not built in a scene. Built are " + list_of(built) + ".";
 }

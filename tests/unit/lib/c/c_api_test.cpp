@@ -127,9 +127,9 @@ TEST(CApi, ReadsWhatWasFoundWhenAModelWasBaked) {
 
 // Written by hand: two nodes, three groups, one material, and no more.
 TEST(CApi, ReadsNamesAndTextsThatThereAre) {
-    const std::array<format::Instance, 2> nodes = {
-        {{.mesh = 0, .name = 1, .first_triangle = 0, .triangle_count = 1},
-         {.mesh = 0, .name = 0, .first_triangle = 1, .triangle_count = 1}}};
+    std::array<format::Instance, 2> nodes{};
+    nodes[0].name = 1;
+    nodes[0].triangle_count = nodes[1].triangle_count = nodes[1].first_triangle = 1;
     const auto as_names = [](SectionId id, const std::string& names) {
         return as_section(id, std::span<const char>(names));
     };
