@@ -48,7 +48,7 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
         }
     }
     if (!compiled.refusals.empty()) compiled.plan.reset();
-    for (std::string& refusal : compiled.refusals) refusal = scene.name + ": " + refusal;
+    for (std::string& refusal : compiled.refusals) refusal.insert(0, scene.name + ": ");
     return compiled;
 }
 

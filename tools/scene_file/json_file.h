@@ -12,6 +12,7 @@
 namespace cdprep::scenes {
 
 /// The content of a JSON file, and the line of each value.
+// NOLINTNEXTLINE(bugprone-exception-escape): moving what was parsed does not throw
 struct JsonFile {
     std::string name;  ///< for messages
     nlohmann::json root;

@@ -116,10 +116,10 @@ Result<Pose> Motion::at(double time_s, const Double3& offset) const {
     if (speed == 0 || time_s == 0) return moved_to(before.pose, place);
     const double half = speed * time_s / 2;
     const Double3 axis = scaled(turn_, std::sin(half) / speed);
-    const Result<Pose> turn = Pose::from_quaternion(std::cos(half), axis.x, axis.y, axis.z, {});
+    Result<Pose> turn = Pose::from_quaternion(std::cos(half), axis.x, axis.y, axis.z, {});
     if (!turn) return turn;
     const Result<Pose> start = moved_to(before.pose, {});
-    const Result<Pose> turned = composed_pose(*turn, *start);
+    Result<Pose> turned = composed_pose(*turn, *start);
     if (!turned) return turned;
     return moved_to(*turned, place);
 }

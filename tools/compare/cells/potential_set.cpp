@@ -108,6 +108,7 @@ TriangleGroups near_others(const TriangleGroups& groups, const std::vector<Exten
     for (std::size_t d = 0; d < kDirections.size(); ++d) {
         // Sorted by where they begin; `upper` is the last end so far.
         std::vector<Interval> sorted;
+        sorted.reserve(others.size());
         for (const Extents& extents : others) sorted.push_back(extents[d]);
         std::ranges::sort(sorted, {}, &Interval::lower);
         double end = -std::numeric_limits<double>::infinity();
