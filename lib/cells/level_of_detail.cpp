@@ -182,15 +182,15 @@ private:
     double reach_ = 0;
 };
 
-/// Returns whether the cones of a level, cut off at their outer facets, may meet.
-bool may_meet(const Model& a, const Model& b, const Placement& placement, std::uint32_t level,
-              Workspace::Storage& scratch) noexcept {
+/// Returns whether the cones of a level of each model, cut off at their outer facets, may meet.
+bool may_meet(const Model& a, const Model& b, const Placement& placement,
+              const std::array<std::uint32_t, 2>& levels, Workspace::Storage& scratch) noexcept {
     const PlacedBoxes placed = place_boxes(a, b, placement);
     if (placed.apart) return false;
     // A triangle at a centre is below no facet.
     if (a.tetra_tree().tree->centre_count > 0 || b.tetra_tree().tree->centre_count > 0) return true;
-    const TetraTreeCells in_a(a, {level, true});
-    const TetraTreeCells in_b(b, {level, true});
+    const TetraTreeCells in_a(a, {levels[0], true});
+    const TetraTreeCells in_b(b, {levels[1], true});
     if (in_a.is_empty() || in_b.is_empty()) return false;
     CellWalk<Search::first, TetraTreeCells, TetraTreeCells, AllLanes> walk(
         in_a, in_b, placed, Descent::larger, AllLanes{});
@@ -225,12 +225,12 @@ CoarseCollision collide_at_level(const Pair& pair, std::uint32_t level,
     static_cast<void>(require_cells(workspace));
     if (a.triangle_count() == 0 || b.triangle_count() == 0) return {Answer::no, 0, 0};
     CoarseCollision result{Answer::unknown, level_error(a, level), level_error(b, level)};
-    if (!may_meet(a, b, placement, level, workspace.storage())) {
+    const Facets facets_a(a, level);
+    const Facets facets_b(b, level);
+    if (!may_meet(a, b, placement, {facets_a.level(), facets_b.level()}, workspace.storage())) {
         result.answer = Answer::no;
         return result;
     }
-    const Facets facets_a(a, level);
-    const Facets facets_b(b, level);
     const Core core_a(a, placement.pose_a(), facets_a);
     const Core core_b(b, placement.pose_b(), facets_b);
     if (!core_a.is_certain() || !core_b.is_certain()) return result;

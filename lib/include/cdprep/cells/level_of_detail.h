@@ -27,6 +27,7 @@ struct CoarseCollision {
 /// Level 0 has one outer and one inner facet per octant. Each further level splits every cone of
 /// the tree into four; a leaf stays as it is. The outer facet cuts a cone at its greatest radius,
 /// the inner one at its least (format::TetraNode). All triangles of the cone lie between them.
+/// Beyond the deepest level, the facets are those of the deepest level.
 [[nodiscard]] double level_error(const Model& model, std::uint32_t level) noexcept;
 
 /// Returns whether two solids collide, as far as one level of their tetra-trees proves it. Reads no

@@ -109,6 +109,11 @@ TEST(LevelOfDetail, ThreeAnswersOfTwoSpheres) {
     EXPECT_EQ(answer(0.5, 0), Answer::yes);
     EXPECT_EQ(answer(1.9, 0), Answer::unknown);
     EXPECT_EQ(answer(1.7, 5), Answer::yes);
+    // Beyond the deepest level, also where its first key is no 32-bit number.
+    for (const std::uint32_t level : {6U, 14U, 15U, 16U, 77U, UINT32_MAX}) {
+        EXPECT_EQ(answer(2.15, level), Answer::no) << level;
+        EXPECT_EQ(answer(1.7, level), Answer::yes) << level;
+    }
 }
 
 TEST(LevelOfDetail, OpenOrHollowModelsAreNeverCertainToCollide) {
