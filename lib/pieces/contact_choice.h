@@ -15,8 +15,8 @@ namespace cdprep {
 /// Chooses the contacts of a list with a limit: the deepest, and others spread over the surface.
 ///
 /// Most candidates are only known to be no deeper than a bound. Those that may be the deepest are
-/// examined, the one with the largest bound first: they get a closer bound, and are computed if
-/// they may still be the deepest.
+/// examined, the one with the largest bound first. They get a closer bound. If they may still be
+/// the deepest, they are computed.
 class ContactChoice {
 public:
     explicit ContactChoice(std::span<ContactCandidate> room) noexcept : room_(room) {}

@@ -21,6 +21,19 @@ using format::EdgeConvexity;
 constexpr double kAligned = 1 - 1e-10;
 /// The greatest lean of a unit direction that is rounding alone.
 constexpr double kNoLean = 1e-12;
+/// The rise of an edge by its length, up to which it is level but for rounding.
+constexpr double kNoRise = 1e-9;
+/// The most that rounding may turn the normal of a face, in radians, for the face to tell which
+/// directions its triangles face.
+constexpr double kSureTurn = 1e-3;
+
+/// Returns whether rounding turns the normal of a triangle by less than kSureTurn, if its corners
+/// are off by at most `error`. See PieceShape::Face::error.
+bool turns_little(const Corners& t, double error) {
+    const Double3 e = t[1] - t[0], f = t[2] - t[0];
+    const double sides = length(e) + length(f), product = length(e) * length(f);
+    return 4 * error * sides + 0x1p-49 * product < kSureTurn * length(cross(e, f));
+}
 
 unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
     unsigned k = 0;
@@ -98,7 +111,8 @@ double ContactSide::position_error() const noexcept {
 
 void ContactSide::place_triangles() noexcept {
     if (placed_triangles_count_ > 0 || triangles_.size() > kMostPlacedTriangles) return;
-    for (std::size_t i = 0; i < triangles_.size(); ++i) placed_triangle_[i] = placed(i);
+    for (std::size_t i = 0; i < triangles_.size(); ++i)
+        placed_triangle_[i] = placed(i, triangles_[i]);
     placed_triangles_count_ = triangles_.size();
 }
 
@@ -112,7 +126,7 @@ ConvexPoints ContactSide::points_of(std::uint32_t triangle) const noexcept {
 
 std::span<const std::uint32_t> ContactSide::triangles_around(std::uint32_t vertex,
                                                              Fan& room) const noexcept {
-    if (triangles_.size() <= kMostPlacedTriangles) return triangles_;
+    if (!is_large()) return triangles_;
     const std::span<const std::uint32_t> piece_of = model_->model->pieces().of_triangle;
     std::size_t count = 0;
     const bool fit = visit_triangles_at(*model_->model, vertex, *scratch_, [&](std::uint32_t t) {
@@ -121,7 +135,9 @@ std::span<const std::uint32_t> ContactSide::triangles_around(std::uint32_t verte
         room[count++] = t;
         return true;
     });
-    return fit ? std::span<const std::uint32_t>(room).first(count) : triangles_;
+    if (!fit) return triangles_;
+    std::sort(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(count));
+    return std::span<const std::uint32_t>(room).first(count);
 }
 
 std::optional<PieceFeature> ContactSide::find_feature(const VertexSet& set) const noexcept {
@@ -148,7 +164,7 @@ std::uint32_t ContactSide::nearest_triangle(const Double3& near) const noexcept 
     std::uint32_t best = triangles_[0];
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-        const Corners at = placed(i).at;
+        const Corners at = placed(i, triangles_[i]).at;
         if (!(axis_gap({near, near}, box_around(at)) < least)) continue;
         const double distance = point_triangle_distance(near, at).computed;
         if (distance < least) least = distance, best = triangles_[i];
@@ -158,12 +174,12 @@ std::uint32_t ContactSide::nearest_triangle(const Double3& near) const noexcept 
 
 std::span<const std::uint32_t> ContactSide::triangles_facing(const Double3& direction,
                                                              Fan& room) const noexcept {
-    constexpr auto kLeast = static_cast<float>(kAligned) - 4 * kCosineError;
+    if (!is_large() || !is_exact_) return triangles_;
     std::array<float, PlacedHull::kMostFacets> room_for_cosines;
     // The triangles of an exact piece are on faces of its hull.
-    const std::span<const float> cosines =
-        is_exact_ ? face_cosines(direction, room_for_cosines) : std::span<const float>();
-    if (cosines.empty() || !large_->is_covered) return triangles_;
+    const std::span<const float> cosines = face_cosines(direction, room_for_cosines);
+    if (cosines.empty() || !large_->has_sure_faces) return triangles_;
+    constexpr float kLeast = 1 - static_cast<float>(kSureTurn * kSureTurn) - kCosineError;
     const auto all = facets();
     std::size_t count = 0;
     for (std::size_t f = 0; f < all.size(); ++f) {
@@ -192,8 +208,7 @@ std::optional<PieceFeature> ContactSide::find_face(const Double3& direction,
             is_surely_turned(still.corners(triangles[i]), local, kAligned)) {
             continue;
         }
-        const PlacedTriangle t =
-            i < placed_triangles_count_ ? placed_triangle_[i] : moved(triangles[i]);
+        const PlacedTriangle t = placed(i, triangles[i]);
         const double along = dot(t.normal, direction);
         // A surface that bounds no solid can be met from either side.
         if ((is_contained() ? along : std::fabs(along)) < kAligned) continue;
@@ -230,13 +245,18 @@ VertexSet ContactSide::farthest_vertices(const Double3& direction) const noexcep
 
 void ContactSide::set_face_normals() const noexcept {
     const auto all = facets();
-    large_->is_covered = true;
+    large_->has_sure_faces = true;
+    const double position_error = this->position_error();
     for (std::size_t f = 0; f < all.size(); ++f) {
-        const auto& c = all[f].corner;
-        if ((all[f].flags & format::facet_virtual) != 0) large_->is_covered = false;
-        const bool is_first = all[f].flags == format::facet_first_of_face;
-        const Double3 n =
-            is_first ? unit_normal({corner(c[0]), corner(c[1]), corner(c[2])}) : Double3{0, 0, 0};
+        Double3 n = {0, 0, 0};
+        if ((all[f].flags & format::facet_virtual) != 0) {
+            large_->has_sure_faces = false;
+        } else if (all[f].flags == format::facet_first_of_face) {
+            const auto& c = all[f].corner;
+            const Corners at = {corner(c[0]), corner(c[1]), corner(c[2])};
+            n = unit_normal(at);
+            if (!turns_little(at, position_error)) large_->has_sure_faces = false;
+        }
         large_->normals[0][f] = static_cast<float>(n.x);
         large_->normals[1][f] = static_cast<float>(n.y);
         large_->normals[2][f] = static_cast<float>(n.z);
@@ -274,7 +294,7 @@ double ContactSide::reach(const Double3& direction, const Double3& from) const n
 template <class Visit>
 void ContactSide::each_around(const PieceFeature& feature, Visit&& visit) const noexcept {
     if (feature.kind == FeatureKind::face) {
-        visit(feature.triangle, moved(feature.triangle), 0U);
+        visit(feature.triangle, placed(triangles_.size(), feature.triangle), 0U);
         return;
     }
     const auto mesh = model_->model->mesh().triangles;
@@ -297,8 +317,7 @@ void ContactSide::each_around(const PieceFeature& feature, Visit&& visit) const 
         } else {
             continue;
         }
-        visit(around[i], i < placed_triangles_count_ ? placed_triangle_[i] : moved(around[i]),
-              edges);
+        visit(around[i], placed(i, around[i]), edges);
     }
 }
 
@@ -377,7 +396,7 @@ bool ContactSide::goes_on_beyond(const PieceFeature& feature,
     return !visit_triangles_at(*model_->model, vertex, *scratch_, [&](std::uint32_t t) {
         for (const std::uint32_t other : triangles[t].vertex) {
             const Double3 way = model_->position(other) - at;
-            if (dot(way, direction) > kLevel * largest_of(way)) return false;
+            if (dot(way, direction) > kNoRise * largest_of(way)) return false;
         }
         return true;
     });

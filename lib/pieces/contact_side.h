@@ -137,7 +137,7 @@ public:
     }
 
     /// Returns the feature that one to three vertices span, if a triangle of the piece has them
-    /// all. If several do, always returns the same of them.
+    /// all. The first of several triangles counts.
     [[nodiscard]] std::optional<PieceFeature> find_feature(const VertexSet& set) const noexcept;
 
     /// Returns a triangle of the piece that faces a unit direction squarely: the nearest to a point
@@ -217,21 +217,23 @@ private:
     void place(std::uint32_t piece, PlacedHull* large) noexcept;
     void place_into(std::span<format::HullBlock> blocks) const noexcept;
     void set_face_normals() const noexcept;
-    /// Returns triangle triangles()[i] as moved.
-    [[nodiscard]] PlacedTriangle placed(std::size_t i) const noexcept {
-        return i < placed_triangles_count_ ? placed_triangle_[i] : moved(triangles_[i]);
-    }
-    [[nodiscard]] PlacedTriangle moved(std::uint32_t triangle) const noexcept {
+    /// Returns a triangle as moved. `i` is its place in triangles(), or not below their count.
+    [[nodiscard]] PlacedTriangle placed(std::size_t i, std::uint32_t triangle) const noexcept {
+        if (i < placed_triangles_count_) return placed_triangle_[i];
         const Corners at = model_->corners(triangle);
         return {at, unit_normal(at)};
     }
+    [[nodiscard]] bool is_large() const noexcept {
+        return triangles_.size() > kMostPlacedTriangles;
+    }
     using Fan = std::array<std::uint32_t, 64>;
-    /// Returns triangles of the piece, with all that have a vertex among them: all triangles of a
-    /// small piece, in order, and of a large piece those alone, in `room` if they fit.
+    /// Returns some triangles of the piece, among them all that have the vertex. Those of a small
+    /// piece are all its triangles. Those of a large one have it and are put into `room`, if they
+    /// fit.
     [[nodiscard]] std::span<const std::uint32_t> triangles_around(std::uint32_t vertex,
                                                                   Fan& room) const noexcept;
-    /// Returns triangles of the piece, with all that face a unit direction squarely among them: all
-    /// triangles, or those of the few faces of a large hull that may, in `room`.
+    /// Returns some triangles of the piece, among them all that face a unit direction squarely. For
+    /// a large hull these are the few that may, in `room`.
     [[nodiscard]] std::span<const std::uint32_t> triangles_facing(const Double3& direction,
                                                                   Fan& room) const noexcept;
     /// Returns the greatest cosine of the angle between a unit direction and the normal of a

@@ -134,7 +134,9 @@ public:
         Workspace::Storage& storage = workspace_.storage();
         ContactChoice choice(storage.contact_candidates);
         Contacts contacts(*this, options_.manifold);
+        std::uint64_t work_of_all = 0;
         each_page([&](const NearPieces& near) {
+            work_of_all += work_of(near) + kWorkOfBound;
             const Double3 at = moved_a_.corners(near.a)[0];
             choice.add({contacts.most_depth(near), Known::roughly, kNoSlot, at, near, 0});
             return true;
@@ -151,10 +153,11 @@ public:
             candidate.known = Known::exactly;
             return true;
         };
+        const std::size_t most = std::min(options_.most, kMostListedContacts);
+        const std::size_t deep = list_deep(std::span(storage.listed_contacts).first(most));
         // Bounds save time where many contacts would be computed. They would use up a limit that
         // allows few.
-        const bool allows_all =
-            options_.work == 0 || options_.work > verdict_.work + verdict_.found * kWorkOfContact;
+        const bool allows_all = options_.work == 0 || options_.work > verdict_.work + work_of_all;
         const auto bound = [&](ContactCandidate& candidate) {
             if (!allows_all) return compute(candidate);
             verdict_.work += kWorkOfBound;
@@ -163,8 +166,6 @@ public:
             candidate.known = Known::by_faces;
             return true;
         };
-        const std::size_t most = std::min(options_.most, kMostListedContacts);
-        const std::size_t deep = list_deep(std::span(storage.listed_contacts).first(most));
         std::size_t count = deep;
         for (const ContactCandidate& chosen : choice.choose(most - deep, bound, compute)) {
             storage.listed_contacts[count++] = chosen.slot == kNoSlot
@@ -235,7 +236,8 @@ private:
         } while (gathered_.is_limited() && verdict_.searched);
         return verdict_.searched;
     }
-    /// Returns the work of a contact of two pieces. Features are sought among their triangles.
+    /// Returns the work of a contact of two pieces. It grows with their triangles, but slowly: few
+    /// of those of a large piece are looked at.
     [[nodiscard]] std::uint64_t work_of(const NearPieces& near) const noexcept {
         const auto triangles = [](const Model& model, std::uint32_t piece) {
             return part_of_piece(model.pieces().triangles, model, piece,

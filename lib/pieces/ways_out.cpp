@@ -14,6 +14,10 @@
 // is off by an angle d, and the reach of A' - B' along it by at most d R, where R is the largest
 // distance between two corners.
 //
+// shortest_way_by_faces() needs a bound from above: the plane of a face of A is off by e_A, and so
+// is the end of A, that of B by e_B. The error of a face's normal counts twice what corners add to
+// it, which covers the second e_A.
+//
 // The nearest point of the border of A' - B' lies in the face whose plane is nearest. If that is a
 // face of two edges, these edges come as near to each other as the plane is to the origin. So edges
 // that are farther apart than a known way out need not be tested where A and B meet.

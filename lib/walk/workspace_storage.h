@@ -97,8 +97,10 @@ struct PlacedHull {
 
     std::uint32_t piece = kNoPiece;
     bool has_normals = false;
-    bool is_covered = false;  ///< by triangles, on all faces; known with the normals
-    Double3 reach;            ///< the largest |x|, |y|, |z| of the corners
+    /// Triangles cover all faces, and no face's normal is off by more than little; known with the
+    /// normals.
+    bool has_sure_faces = false;
+    Double3 reach;  ///< the largest |x|, |y|, |z| of the corners
     std::array<format::HullBlock, kMostBlocks> blocks;
     /// x, y, z of the normals of covered faces, rounded: for the first facet of a face. 0 for other
     /// facets.

@@ -94,9 +94,10 @@ struct ContactOptions {
     /// over the surface. 0: all contacts, in the order of their pieces.
     std::uint32_t most = 0;
     /// The maximum work, 0 for no limit. Each pair of near triangles counts 1. Each contact counts
-    /// kWorkOfContact and, between two pieces, 1 for every kTrianglesOfWork of their triangles.
-    /// With `most`, a bound of a contact's depth counts kWorkOfBound. The search for near triangles
-    /// takes at most half of the work, and the last contact may exceed it.
+    /// kWorkOfContact and, between two pieces, 1 for every kTrianglesOfWork of their triangles. The
+    /// search for near triangles takes at most half of the work, and the last contact may exceed
+    /// it. If the work allows all contacts and `most` fewer than half of them, closer bounds of
+    /// depths count kWorkOfBound each.
     std::uint64_t work = 0;
     /// Joins contacts that are linked by common pieces and whose normals differ by at most this, in
     /// radians. A joined contact has at most four points. 0: joins none. Needs `most`.
@@ -105,7 +106,7 @@ struct ContactOptions {
 
 inline constexpr std::uint64_t kWorkOfContact = 32;
 inline constexpr std::uint64_t kTrianglesOfWork = 8;
-inline constexpr std::uint64_t kWorkOfBound = 8;  ///< computed only if `work` allows all contacts
+inline constexpr std::uint64_t kWorkOfBound = 8;
 
 /// How complete a list of contacts is, and what the limits left out.
 struct ContactsVerdict {
@@ -144,21 +145,20 @@ struct ContactsVerdict {
 /// that does not snag. The candidates are the face normals of both hulls and the directions
 /// perpendicular to an edge of each. If the hulls overlap but the pieces do not, the contact has
 /// the distance of the triangles. If several pairs of points are equally near, as between parallel
-/// faces, the contact has one of them. The normal of a gap is that of the shortest line, unless it
-/// snags there: then it is perpendicular to the edges across which it tilted. The normal of a face
-/// is changed for flat edges only.
+/// faces, the contact has one of them. The normal of a gap is that of the shortest line. If
+/// it snags there, it is turned until it no longer tilts across these edges. If either feature is a
+/// face, the normal is turned only if it tilts across a flat edge.
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
-/// vertex it does not snag if no triangle of the mesh reaches farther along it. It also snags if it
-/// leads through a part of the hull that no triangle covers. If the shortest
-/// translation snags, the shortest one that does not is used, and contact_internal_edge is set. A
-/// translation that tilts across a reflex edge is used nevertheless if it is less than half as long
-/// as that one. It must not tilt across a flat edge or lead deeper into a solid. `upper` is still
-/// minus the length of the shortest separating translation. If that one does not snag, `lower` and
-/// `upper` are equal up to rounding. Bodies may overlap by more than the size of
-/// a piece. Then a contact separates its two pieces only, not the bodies: push by the deepest, and
-/// query again. Inside a solid, the inner side of a wall may be near (contact_from_behind); such a
-/// contact should not push.
+/// vertex it does not snag if no triangle there reaches farther than the vertex. It also snags if
+/// it leads through a part of the hull that no triangle covers. If the shortest translation snags,
+/// the shortest one that does not is used, and contact_internal_edge is set. A translation that
+/// tilts across a reflex edge is used nevertheless if it is less than half as long as that one. It
+/// must not tilt across a flat edge or lead deeper into a solid. `upper` is still minus the length
+/// of the shortest separating translation. If that one does not snag, `lower` and `upper` are equal
+/// up to rounding. Bodies may overlap by more than the size of a piece. Then a contact separates
+/// its two pieces only, not the bodies: push by the deepest, and query again. Inside a solid, the
+/// inner side of a wall may be near (contact_from_behind); such a contact should not push.
 ///
 /// With Body::solid, a component that is proven to be inside the other model makes a contact of its
 /// own (contact_deep). No such contact is made if any triangles of the two models touch. A deep

@@ -71,9 +71,9 @@ typedef struct cdprep_contact_options {
     uint32_t manifold; /* 0: none; 4: contacts come with up to four points */
     uint32_t most;     /* 256: the maximum length of a list, 1 to 256 */
     /* 0: no limit; otherwise the maximum work. Each pair of near triangles counts 1. Each contact
-     * counts 32 and, between two pieces, 1 for every 8 of their triangles. Each bound of a
-     * contact's depth counts 8; they are computed only if the limit allows all contacts. The search
-     * for near triangles takes at most half of the work, and the last contact may exceed it. */
+     * counts 32 and, between two pieces, 1 for every 8 of their triangles. The search for near
+     * triangles takes at most half of the work, and the last contact may exceed it. If the work
+     * allows all contacts and `most` fewer than half of them, closer bounds of depths count 8. */
     uint64_t work;
     /* 0: no clusters. Otherwise joins contacts that are linked by common pieces and whose normals
      * differ by at most this, in radians. A joined contact has at most four points. */

@@ -103,8 +103,8 @@ CDPREP_API int cdprep_containment(const cdprep_pair* pair, cdprep_workspace* wor
 
 /* Stores whether two solids collide, as far as one level of their tetra-trees proves it. CDPREP_NO
  * and CDPREP_YES are proven. CDPREP_UNKNOWN means that this level is too coarse
- * (cdprep_model_level_error()). Any level beyond the deepest is the deepest. The workspace must
- * have `cells`. Takes O(pairs of cones that meet) time.
+ * (cdprep_model_level_error()). A level beyond the deepest counts as the deepest. The
+ * workspace must have `cells`. Takes O(pairs of cones that meet) time.
  * Needs: CDPREP_ASK_TETRA_TREE */
 CDPREP_API int cdprep_collide_at_level(const cdprep_pair* pair, uint32_t level,
                                        cdprep_workspace* workspace, uint32_t* hit,

@@ -36,7 +36,7 @@ TEST(ObjectBox, BoxesOfModelsThatAreNearMeet) {
     Workspace workspace;
     for (int round = 0; round < 3000; ++round) {
         const double far = round % 3 == 0 ? 1e7 : 0;
-        const Double3 origin = {far, round % 2 == 0 ? 0 : 3, -far};
+        const Double3 origin = {far, round % 2 == 0 ? 0.0 : 3.0, -far};
         const Pose a = shifted(test::random_pose(random, 2), {far, 0, -far}),
                    b = shifted(test::random_pose(random, 2), {far, 0, -far});
         const double d = std::uniform_real_distribution<double>(0, 1)(random);

@@ -56,11 +56,15 @@ TEST(Plan, DropsWhatNobodyAsksFor) {
 
 TEST(Plan, RefusesAnOriginThatIsNoPoint) {
     constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(Plan::compile({.limits = kLimits, .origin = {1, kNoNumber, -HUGE_VAL}}).refusals,
+    EXPECT_EQ(Plan::compile({.pairs = {}, .limits = kLimits, .origin = {1, kNoNumber, -HUGE_VAL}})
+                  .refusals,
               Sentences({"origin holds nan; it must be finite, and at most 2^1000.",
                          "origin holds -inf; it must be finite, and at most 2^1000."}));
-    EXPECT_TRUE(Plan::compile({.limits = kLimits, .origin = {0x1p1000, -0x1p1000, 0}}).plan);
-    EXPECT_FALSE(Plan::compile({.limits = kLimits, .origin = {0, 0, 0x1.0000000000001p1000}}).plan);
+    EXPECT_TRUE(
+        Plan::compile({.pairs = {}, .limits = kLimits, .origin = {0x1p1000, -0x1p1000, 0}}).plan);
+    EXPECT_FALSE(
+        Plan::compile({.pairs = {}, .limits = kLimits, .origin = {0, 0, 0x1.0000000000001p1000}})
+            .plan);
 }
 
 TEST(Plan, AsksForSolidsWhereTheyAreRead) {

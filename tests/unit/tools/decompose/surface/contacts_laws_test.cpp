@@ -62,8 +62,9 @@ std::map<std::uint64_t, ExactRational> truth(const Model& a, const Model& b,
 
 /// True when all that is said of a contact holds, by the pieces' triangles and hulls.
 void check(const Contact& contact, const ExactRational& squared, const MovedModel& of_a,
-           const MovedModel& of_b, const Placement& placement) {
-    const ContactSide a(of_a, contact.piece_a, nullptr), b(of_b, contact.piece_b, nullptr);
+           const MovedModel& of_b, const Placement& placement, Workspace& workspace) {
+    const ContactSide a(of_a, contact.piece_a, nullptr, workspace.storage()),
+        b(of_b, contact.piece_b, nullptr, workspace.storage());
     EXPECT_LE(contact.lower, contact.upper);
     EXPECT_NEAR(std::hypot(contact.normal.x, contact.normal.y, contact.normal.z), 1, 1e-12);
     const bool overlap = (contact.flags & contact_overlap) != 0;
@@ -116,9 +117,10 @@ void compare(const Model& a, const Model& b, const Placement& placement, double 
     for (std::size_t i = 0; i < found.size(); ++i) expect_same(found[i], through[i]);
     const MovedModel of_a = moved_a(a, placement), of_b = moved_b(b, placement);
     auto at = expected.begin();
+    Workspace workspace;
     for (const Contact& contact : found) {
         ASSERT_EQ(at->first, std::uint64_t{contact.piece_a} << 32 | contact.piece_b);
-        check(contact, at->second, of_a, of_b, placement);
+        check(contact, at->second, of_a, of_b, placement, workspace);
         ++at;
         ++seen.contacts;
         seen.overlaps += (contact.flags & contact_overlap) != 0 ? 1 : 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -553,6 +554,36 @@ TEST(Contacts, ACornerOfAPlaneIsPushedUp) {
             expect_near(contact.normal, {0, 0, 1}, 1e-9);
             EXPECT_NEAR(contact.lower, height, 1e-12);
             EXPECT_EQ(contact.flags & contact_internal_edge, 0U);
+        }
+    }
+}
+
+// By hand: cones of few and of many sides stand on their tips in a box, or just above it. They are
+// convex, so each is one piece, and the tip is the nearest point.
+TEST(Contacts, AConeOfAnySidesStandsOnItsTip) {
+    const OpenModel box = open_with_pieces(moved_by(unit_cube(), 40, {-20, -20, -40}));
+    for (const int sides : {8, 40, 63, 64, 65, 100}) {
+        SCOPED_TRACE(sides);
+        TestMesh mesh;
+        mesh.positions = {{0, 0, 0}, {0, 0, 1}};
+        for (int i = 0; i < sides; ++i) {
+            const double angle = 2 * std::numbers::pi * i / sides;
+            mesh.positions.push_back({std::cos(angle), std::sin(angle), 1});
+        }
+        for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(sides); ++i) {
+            const std::uint32_t next = (i + 1) % static_cast<std::uint32_t>(sides);
+            mesh.triangles.push_back({{0, 2 + next, 2 + i}});
+            mesh.triangles.push_back({{1, 2 + i, 2 + next}});
+        }
+        const OpenModel cone = open_with_pieces(mesh);
+        ASSERT_EQ(cone.model.pieces().pieces.size(), 1U);
+        for (const double height : {-0.125, 0.0, 0.0625}) {
+            const auto found = all_contacts(box, cone, shifted({1, 2, height}), 0.125);
+            ASSERT_EQ(found.size(), 1U);
+            expect_near(found[0].normal, {0, 0, 1}, 1e-9);
+            EXPECT_NEAR(found[0].lower, height, 1e-12);
+            EXPECT_EQ(found[0].feature_b.kind, FeatureKind::vertex);
+            EXPECT_EQ(found[0].feature_b.vertex, 0U);
         }
     }
 }
