@@ -9,7 +9,6 @@
 #include "pieces/contact_side.h"
 
 namespace cdprep {
-namespace {}  // namespace
 
 bool PieceShape::set(const ContactSide& side, const Double3& origin) noexcept {
     const auto facets = side.facets();

@@ -11,6 +11,7 @@
 #include "cdprep/advanced/convex_distance.h"
 #include "exact/exact_within.h"
 #include "pieces/contact_side.h"
+#include "pieces/contact_steps.h"
 #include "support/brute_force.h"
 #include "support/counted_memory.h"
 #include "support/exact_distance.h"
@@ -63,8 +64,12 @@ std::map<std::uint64_t, ExactRational> truth(const Model& a, const Model& b,
 /// True when all that is said of a contact holds, by the pieces' triangles and hulls.
 void check(const Contact& contact, const ExactRational& squared, const MovedModel& of_a,
            const MovedModel& of_b, const Placement& placement, Workspace& workspace) {
-    const ContactSide a(of_a, contact.piece_a, nullptr, workspace.storage()),
+    ContactSide a(of_a, contact.piece_a, nullptr, workspace.storage()),
         b(of_b, contact.piece_b, nullptr, workspace.storage());
+    // By what a list of the deepest relies on: no bound is below the depth.
+    const NearPieces near = {0, a.triangles()[0], b.triangles()[0], squared.sign() == 0};
+    EXPECT_GE(most_depth_by_faces(a, b, near), -contact.upper);
+    EXPECT_GE(most_depth_of_pieces(a, b, near), -contact.upper);
     EXPECT_LE(contact.lower, contact.upper);
     EXPECT_NEAR(std::hypot(contact.normal.x, contact.normal.y, contact.normal.z), 1, 1e-12);
     const bool overlap = (contact.flags & contact_overlap) != 0;
