@@ -35,7 +35,7 @@ public:
 private:
     using Known = ContactCandidate::Known;
 
-    /// How many times the length of the list the candidates must be for closer bounds to save time.
+    /// Closer bounds save time if there are more than this many candidates for each that is listed.
     static constexpr std::size_t kManyMore = 2;
 
     /// By depth, then by pieces: a strict order, which does not depend on the search. Of two with

@@ -97,7 +97,7 @@ struct PlacedHull {
 
     std::uint32_t piece = kNoPiece;
     bool has_normals = false;
-    /// Triangles cover all faces, and no face's normal is off by more than little; known with the
+    /// Triangles cover all faces, and rounding turns no face's normal by much. Known with the
     /// normals.
     bool has_sure_faces = false;
     Double3 reach;  ///< the largest |x|, |y|, |z| of the corners

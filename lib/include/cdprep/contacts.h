@@ -145,8 +145,8 @@ struct ContactsVerdict {
 /// that does not snag. The candidates are the face normals of both hulls and the directions
 /// perpendicular to an edge of each. If the hulls overlap but the pieces do not, the contact has
 /// the distance of the triangles. If several pairs of points are equally near, as between parallel
-/// faces, the contact has one of them. The normal of a gap is that of the shortest line. If
-/// it snags there, it is turned until it no longer tilts across these edges. If either feature is a
+/// faces, the contact has one of them. The normal of a gap is that of the shortest line. If it
+/// snags there, it is turned until it no longer tilts across these edges. If either feature is a
 /// face, the normal is turned only if it tilts across a flat edge.
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
