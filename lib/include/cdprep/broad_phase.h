@@ -21,7 +21,7 @@ struct WorldBox {
     float upper[3];
 };
 
-/// The boxes with which a box may form pairs: two boxes form one only if each accepts a layer of
+/// The boxes with which a box may form pairs. Two boxes form one only if each accepts a layer of
 /// the other. Layers are bits.
 struct BoxFilter {
     std::uint32_t layers = 1;
@@ -71,8 +71,8 @@ struct BroadPhaseUpdate {
 /// If many leave, all pairs are searched for anew without larger boxes. The tree follows the
 /// Z-order curve (Morton 1966). The answer depends neither on the way nor on the threads.
 ///
-/// An update takes O(n + pairs) time if few boxes leave, otherwise O(n log n + pairs) for boxes of
-/// similar size that are spread out. Of boxes that all meet, each pair is looked at.
+/// An update takes O(n + pairs) time if few boxes leave. Otherwise, it takes O(n log n + pairs) for
+/// boxes of similar size that are spread out. Of boxes that all meet, each pair is looked at.
 /// tests/bench/broad_phase_bench measures both beside other libraries.
 ///
 ///     cdprep::BroadPhase broad_phase({.boxes = 1000, .pairs = 16000});
@@ -85,12 +85,12 @@ public:
     explicit BroadPhase(const BroadPhaseLimits& limits);
 
     /// Makes one in the caller's memory, which must outlive it. Allocates nothing. Returns nothing
-    /// if the memory is smaller than size() or not aligned to alignment(), or if the limits are not
+    /// if the memory is smaller than size() or not aligned to alignment(), or the limits are not
     /// possible.
     [[nodiscard]] static std::optional<BroadPhase> in_memory(
         std::span<std::byte> memory, const BroadPhaseLimits& limits) noexcept;
-    /// Returns the bytes it takes: about 150 for each box, 24 for each pair, and 4 for each box and
-    /// further thread.
+    /// Returns the bytes that it takes: about 150 for each box and 24 for each pair. Each thread
+    /// but the first adds 4 for each box.
     [[nodiscard]] static std::size_t size(const BroadPhaseLimits& limits) noexcept;
     [[nodiscard]] static std::size_t alignment() noexcept;  ///< bytes, a power of two
 

@@ -29,9 +29,9 @@ struct ManifoldPoint {
     /// that of the member with the point, which may differ by the options' cluster_angle.
     double distance;
     /// Stays the same for the same point of the same contact after a small motion. It is made of
-    /// source numbers: that of the vertex at the point, or those of the ends of the two edges that
-    /// cross there. 0 for the only point of a contact. In a cluster, it also differs between points
-    /// of different members.
+    /// the source number of the vertex at the point. If two edges cross there, it is made of those
+    /// of their ends. 0 for the only point of a contact. In a cluster, it also differs between
+    /// points of different members.
     std::uint64_t id;
 };
 
@@ -47,9 +47,9 @@ enum ContactFlags : std::uint32_t {
     /// The pieces do not overlap, but one lies behind the other's triangles, inside the solid.
     /// Ignore this contact in a solver; other piece pairs give the separating direction.
     contact_from_behind = 4,
-    /// A component of one model lies inside the other, with no surface near: see contacts(). The
-    /// component's point is on a hull around it. The translation by -lower along `normal` moves
-    /// point_b to point_a.
+    /// A component of one model lies inside the other, and no triangles of the two models touch:
+    /// see contacts(). The component's point is on a hull around it. The translation by -lower
+    /// along `normal` moves point_b to point_a.
     contact_deep = 8,
 };
 
@@ -152,13 +152,13 @@ struct ContactsVerdict {
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
 /// vertex it does not snag if no triangle there reaches farther than the vertex. It also snags if
 /// it leads through a part of the hull that no triangle covers. If the shortest translation snags,
-/// the shortest one that does not is used, and contact_internal_edge is set. A translation that
-/// tilts across a reflex edge is used nevertheless if it is less than half as long as that one. It
-/// must not tilt across a flat edge or lead deeper into a solid. `upper` is still minus the length
-/// of the shortest separating translation. If that one does not snag, `lower` and `upper` are equal
-/// up to rounding. Bodies may overlap by more than the size of a piece. Then a contact separates
-/// its two pieces only, not the bodies: push by the deepest, and query again. Inside a solid, the
-/// inner side of a wall may be near (contact_from_behind); such a contact should not push.
+/// the shortest one that does not is used, and contact_internal_edge is set. A translation less
+/// than half as long is used even if it tilts across a reflex edge. It must not tilt across a flat
+/// edge or lead deeper into a solid. `upper` is still minus the length of the shortest separating
+/// translation. If that one does not snag, `lower` and `upper` are equal up to rounding. Bodies may
+/// overlap by more than the size of a piece. Then a contact separates its two pieces only, not the
+/// bodies: push by the deepest, and query again. Inside a solid, the inner side of a wall may be
+/// near (contact_from_behind); such a contact should not push.
 ///
 /// With Body::solid, a component that is proven to be inside the other model makes a contact of its
 /// own (contact_deep). No such contact is made if any triangles of the two models touch. A deep
@@ -175,7 +175,7 @@ struct ContactsVerdict {
 /// there. The deepest point is first, then those that span the largest area.
 ///
 /// The answer is the same on every processor. With Body::surface, a piece inside another's hull
-/// makes no contact if it is farther than the tolerance from the other's triangles.
+/// makes a contact only within the tolerance of the other's triangles.
 ///
 /// Reads the options body, degenerate and through of the pair. The only structure beside the BVH is
 /// Structure::pieces, which is slower (1.7 times for near poses, 1.1 times for others). Needs

@@ -65,8 +65,8 @@ struct Refusal {
 /// A mapped file must not change while the Model lives:
 /// - Replacing it by a rename is safe: the Model keeps the old file mapped. `cdprep bake` writes in
 ///   this way.
-/// - If it is truncated, or a network share or disk fails, access to a missing page stops the
-///   program with SIGBUS on POSIX. No check beforehand can prevent this.
+/// - If it is truncated, access to a missing page stops the program with SIGBUS on POSIX. The same
+///   happens if a network share or disk fails. No check beforehand can prevent this.
 /// - If it is rewritten in place, queries may see the new, unchecked bytes. Answers may then be
 ///   wrong, and a query may read outside the file or not end.
 /// Open with OpenMode::copy if other processes may truncate or rewrite the file.

@@ -89,12 +89,12 @@ struct Collision {
 /// Returns whether two models collide. Stops at the first pair of triangles found.
 ///
 /// With Body::surface, nested surfaces that do not touch do not collide. With Body::solid they do
-/// if a nonzero winding number proves that one is inside the other; see containment() for open
+/// if a nonzero winding number proves that one is inside the other. See containment() for open
 /// models. As exact as overlaps().
 ///
 /// Reads all options. Needs Ask::collide of both models; Body::solid also Ask::solid, and
 /// options.through its ask_of(). Takes O(log n) time for most poses. With a cache, takes O(1) time
-/// if the last hit recurs, or the models moved less than the gap proven before. Never allocates.
+/// if the last hit recurs, or the models moved less than a proven gap. Never allocates.
 [[nodiscard]] Collision collide(const Pair& pair, Workspace& workspace) noexcept;
 
 /// Returns whether some component of one model lies inside the other. The surfaces of the two
@@ -105,10 +105,11 @@ struct Collision {
 /// `unknown` with the generalised winding number, unless another component answers `yes`. For an
 /// open model, the answer is `unknown` whatever that number is.
 ///
-/// Boxes decide most cases: a component with a vertex outside the other model's box is outside,
-/// even if that model is open. Exact for balanced models, by a ray with symbolic perturbation
-/// (Feito and Torres 1997). Reads no options. Needs Ask::solid of both models. Takes O(components
-/// (log n + hits)) time, or O(n) per component against an open model. Never allocates.
+/// Boxes decide most cases: one vertex of each component is tested. If it is outside the other
+/// model's box, the component is outside, even if that model is open. Exact for balanced models, by
+/// a ray with symbolic perturbation (Feito and Torres 1997). Reads no options. Needs Ask::solid of
+/// both models. Takes O(components (log n + hits)) time, or O(n) per component against an open
+/// model. Never allocates.
 [[nodiscard]] Containment containment(const Pair& pair, Workspace& workspace) noexcept;
 
 /// One triangle of each model, in source numbers.
@@ -170,8 +171,8 @@ struct Crossing {
 ///
 /// Coordinates are those of the placement: A's frame if B moves. The edges on which a segment ends
 /// are determined exactly, for the vertices as transform_point() moves them. Each coordinate is
-/// then rounded once. The result is the nearest double, unless the coordinate lies within 2^-45
-/// units in the last place of the midpoint between two doubles (crossing_segments_laws_test).
+/// then rounded once. The result is the nearest double, except near the midpoint between two
+/// doubles. Near means within 2^-45 units in the last place (crossing_segments_laws_test).
 /// Triangles that share an edge get bit-identical segment ends on it, except near such a midpoint.
 /// Subnormal coordinates may be off by one unit in the last place.
 ///
@@ -207,9 +208,9 @@ struct Distance {
 /// Returns the distance of two surfaces. Returns nothing if it exceeds options.max_distance or a
 /// model is empty.
 ///
-/// The distance is 0 if and only if the surfaces touch or, with Body::solid, one model is proven
-/// inside the other. If the surfaces touch, both witnesses are a common point. For contained
-/// solids, they are the surfaces' nearest points.
+/// The distance is 0 exactly if the surfaces touch or, with Body::solid, one model is proven inside
+/// the other. If the surfaces touch, both witnesses are a common point. For contained solids, they
+/// are the surfaces' nearest points.
 ///
 /// If several pairs of triangles have the least `upper`, the result is the first in the order of
 /// (triangle_a, triangle_b). Pairs that are equally near in exact arithmetic may differ in the last
@@ -217,9 +218,9 @@ struct Distance {
 /// Structure::pieces, the result may be another pair of touching triangles.
 ///
 /// The interval contains the exact distance of the surfaces whose vertices transform_point() moved.
-/// Without permitted errors, its width is at most 1e-12 of the distance plus 1e-15 of the largest
-/// absolute coordinate of the moved vertices (triangle_distance_laws_test). With permitted errors,
-/// the width is at most the larger of this bound and the permitted error.
+/// Without permitted errors, its width is at most 1e-12 d + 1e-15 c (triangle_distance_laws_test).
+/// Here d is the distance, and c the largest absolute coordinate of the moved vertices. With
+/// permitted errors, the width is at most the larger of this bound and the permitted error.
 ///
 /// Reads pair.options.body and through; the only structure beside the BVH is Structure::pieces.
 /// Needs Ask::distance of both models; Body::solid also Ask::solid, and options.through its
@@ -232,7 +233,7 @@ struct Distance {
 /// tolerance of 0 tests whether they touch. Returns false for a negative tolerance or NaN, and if a
 /// model is empty.
 ///
-/// Exact for the vertices as transform_point() moves them: a tolerance equal to the exact distance
+/// Exact for the vertices as transform_point() moves them. A tolerance equal to the exact distance
 /// gives true, and the next smaller double gives false. Stops at the first pair of triangles that
 /// is near enough.
 ///
@@ -252,8 +253,8 @@ struct Distance {
 ///
 /// Reads options.degenerate and through; the only structure beside the BVH is Structure::pieces.
 /// Needs Ask::within of both models, and options.through its ask_of(). Takes O(log n + pairs) time
-/// for typical meshes and tolerances that are small compared with them, O(n m) in the worst case.
-/// Never allocates.
+/// for typical meshes and tolerances that are small compared with them. Takes O(n m) in the worst
+/// case. Never allocates.
 [[nodiscard]] std::size_t pairs_within(const Pair& pair, double tolerance, Workspace& workspace,
                                        std::span<TrianglePair> room) noexcept;
 

@@ -63,7 +63,8 @@ struct PlanOptions {
     std::span<const ModelUse> models = {};
     SceneLimits limits;
     /// A point near the objects, finite and at most 2^1000. Their boxes are relative to it, so that
-    /// they stay tight in float. It changes which pairs need room, but no result.
+    /// they stay tight in float. It changes which boxes meet, and so how many pairs need room. It
+    /// changes no result.
     Double3 origin{};
     /// Of layers 0, 1, ..., for refusals and Plan::describe(). A layer without a name is a number
     /// there.
@@ -80,9 +81,10 @@ struct PlanOptions {
 class Plan {
 public:
     struct Compiled;
-    /// Returns the plan, or every reason why there is none, a sentence each. Refused are unknown
-    /// layers, a pair of layers that occurs twice, effects that are not built, numbers out of
-    /// range, options that no effect reads, and models that do not serve an effect of their layers.
+    /// Returns the plan, or every reason why there is none, a sentence each. Refuses unknown
+    /// layers, a pair of layers that occurs twice, effects that are not built, and numbers out of
+    /// range. Also refuses options that no effect reads, and models that do not serve an effect of
+    /// their layers.
     [[nodiscard]] static Compiled compile(const PlanOptions& options);
 
     [[nodiscard]] const SceneLimits& limits() const noexcept {
@@ -108,8 +110,8 @@ public:
     /// Returns all effects of all pairs.
     [[nodiscard]] Ask effects() const noexcept;
 
-    /// Returns a page of text: for each pair of layers its effects and the queries that run, then
-    /// what is not computed.
+    /// Returns a page of text. It lists the effects of each pair of layers and the queries that
+    /// run, then what is not computed.
     [[nodiscard]] std::string describe() const;
 
 private:

@@ -34,7 +34,7 @@ struct ClosestPoint {
 /// away. If several triangles are equally near in double, the result is on the one with the lowest
 /// number.
 ///
-/// `query` must be finite. `max_distance` may be infinite and is inclusive: no nearer point is
+/// `query` must be finite. `max_distance` may be infinite and is inclusive. No nearer point is
 /// missed, and the point found has a `lower` of at most `max_distance`. The interval always
 /// contains the exact distance (closest_point_laws_test). Its width is a few ulp of the distance to
 /// the triangle's farthest corner, more for slivers.
@@ -217,11 +217,11 @@ struct ShapeDistance {
 /// same holds for shapes that touch nothing, such as a sphere with a negative radius.
 ///
 /// The interval contains the exact distance to the surface whose vertices transform_point() moved.
-/// Its width is at most 1e-12 of the distance plus 1e-15 of the largest absolute coordinate of the
-/// shape and the moved vertices. For spheres and capsules, it is the width for the centre or
-/// segment, plus 4 ulp for the radius. Among triangles with equal `upper`, the result has the
-/// lowest number. Among those that are equally near in exact arithmetic, any may be the result, but
-/// always the same one.
+/// Its width is at most 1e-12 d + 1e-15 c. Here d is the distance, and c the largest absolute
+/// coordinate of the shape and the moved vertices. For spheres and capsules, the width is that for
+/// the centre or segment, plus 4 ulp for the radius. Among triangles with equal `upper`, the result
+/// has the lowest number. Among those that are equally near in exact arithmetic, any may be the
+/// result, but always the same one.
 ///
 /// Needs Ask::touch. Visits every triangle in the worst case. A box that does not touch takes
 /// twelve triangle queries, each limited to the smallest distance found before. Never allocates.

@@ -81,8 +81,8 @@ inline constexpr double kGreatestPoseTolerance = 0.25;
 /// most 1e-15 (pose_test).
 ///
 /// The matrix may differ from a rigid motion by `tolerance`, which is 0 to kGreatestPoseTolerance.
-/// The limit holds for every entry of |M^T M - I| and for the deviation of the last row from
-/// 0 0 0 1. For matrices of floats, 1e-5 is a good value.
+/// The limit holds for every entry of |M^T M - I|. It also holds for the deviation of the last row
+/// from 0 0 0 1. For matrices of floats, 1e-5 is a good value.
 ///
 /// Fails with bad_argument, and states the reason, if the matrix scales, shears, mirrors or
 /// projects by more than that. Also fails if a number is not finite or beyond
@@ -90,24 +90,25 @@ inline constexpr double kGreatestPoseTolerance = 0.25;
 [[nodiscard]] Result<Pose> nearest_pose(const std::array<double, 16>& matrix, double tolerance,
                                         MatrixLayout layout = MatrixLayout::rows);
 
-/// Returns the point p moved by `pose`: ((R00 x + R01 y) + R02 z) + T0 and so on, in double without
-/// contraction. Queries are exact for the points that this function returns (level E1 of
-/// GLOSSARY.md). Neither compiler options nor the caller's floating-point environment change them.
+/// Returns the point p moved by `pose`. Its coordinates are ((R00 x + R01 y) + R02 z) + T0 and so
+/// on, in double without contraction. Queries are exact for the points that this function returns
+/// (level E1 of GLOSSARY.md). Neither compiler options nor the caller's floating-point environment
+/// change them.
 [[nodiscard]] Double3 transform_point(const Pose& pose, const Double3& p) noexcept;
 
 /// The poses of two models, and which of the models moves.
 ///
 /// A query moves each vertex of a moved model once, by transform_point(), and answers exactly for
-/// the resulting doubles. The choice of the moving model matters: rounding shifts moved vertices by
-/// up to 5 u (|R||v| + |t|) per axis, u = 2^-53.
+/// the resulting doubles. The choice of the moving model matters. Rounding shifts moved vertices by
+/// up to 5 u (|R||v| + |t|) per axis, where u = 2^-53.
 class Placement {
 public:
     /// B moves into A's frame. A does not move.
     [[nodiscard]] static Placement b_moves(const Pose& a_from_b) noexcept {
         return {Pose(), a_from_b, false, true};
     }
-    /// A moves into B's frame. A query of (b, a) by b_moves(p) and one of (a, b) by a_moves(p) give
-    /// the same pairs, swapped, bit for bit.
+    /// A moves into B's frame. Queries of (b, a) by b_moves(p) and of (a, b) by a_moves(p) give the
+    /// same pairs, swapped, bit for bit.
     [[nodiscard]] static Placement a_moves(const Pose& b_from_a) noexcept {
         return {b_from_a, Pose(), true, false};
     }
@@ -116,8 +117,8 @@ public:
                                             const Pose& world_from_b) noexcept {
         return b_moves(relative_pose(world_from_a, world_from_b));
     }
-    /// Both models move, each by its own world pose. Parts of one assembly that share vertices
-    /// and a pose still share them: touching stays touching.
+    /// Both models move, each by its own world pose. If parts of an assembly have equal poses,
+    /// their common vertices stay equal. Parts that touch still touch.
     [[nodiscard]] static Placement world(const Pose& world_from_a,
                                          const Pose& world_from_b) noexcept {
         return {world_from_a, world_from_b, true, true};

@@ -123,8 +123,8 @@ struct SceneStep {
     std::uint64_t needed_contacts = 0;        ///< SceneLimits::contacts, else 0
 };
 
-/// Many objects that move. A step runs the plan's queries for pairs of objects that are near each
-/// other, if one of the two has moved.
+/// Many objects that move. A step runs the plan's queries for pairs of objects near each other, if
+/// one of the two has moved.
 ///
 /// Results are sorted by the slots of a and b. They do not depend on threads, and equal those of
 /// single queries with Placement::world. They stay until the next step that is complete. After
@@ -171,10 +171,11 @@ public:
     /// Computes the effects of all objects as they are now. Uses as many workspaces as
     /// limits.threads allows; there must be at least one. Calls `parallel_for` at most five times.
     SceneStep step(std::span<Workspace> workspaces, ParallelFor parallel_for = serial_for) noexcept;
-    /// Does the same with the pairs of a broad phase of the caller: pairs of slots, in any order.
-    /// They must contain all pairs whose boxes meet; a pair that is missing is ignored. Pairs
-    /// of free slots, of layers that are not paired and of boxes that do not meet are ignored.
-    /// If pairs are listed twice, needed_pairs may be larger than is needed.
+    /// Does the same with pairs of slots that the caller's own broad phase found. The pairs may
+    /// have any order, and so may the two slots of a pair. They must contain all pairs whose boxes
+    /// meet; a pair that is missing is ignored. Pairs of free slots, of layers that are not paired
+    /// and of boxes that do not meet are ignored. If pairs are listed twice, needed_pairs may be
+    /// larger than is needed.
     SceneStep step_with(std::span<const BoxPair> candidates, std::span<Workspace> workspaces,
                         ParallelFor parallel_for = serial_for) noexcept;
     /// Returns the box of each slot in the next step, for such a broad phase, relative to the
@@ -193,7 +194,7 @@ public:
     [[nodiscard]] std::uint32_t object_count() const noexcept;
     /// Returns the model of an object, or null if there is none with this id.
     [[nodiscard]] const Model* model_of(ObjectId object) const noexcept;
-    /// Returns the object in a slot, or the id of no object if the slot is free or does not exist.
+    /// Returns the object in a slot, or the id of no object if there is none.
     [[nodiscard]] ObjectId object_at(std::uint32_t slot) const noexcept;
     /// Returns a hash of all hits, overlaps, distances, contacts and events. It leaves out witness
     /// points, features and the points of manifolds. It is equal for any number of threads and any

@@ -87,7 +87,7 @@ struct FileHeader {
     /// header's facts about the model. The same input, options and tool version give the same hash.
     std::uint64_t content_hash;
     /// Bytes 8 to 47 of the HDF5 superblock. A tool that rewrites the file moves the sections but
-    /// copies this block; then these bytes no longer match the superblock.
+    /// copies this block. Then these bytes no longer match the superblock.
     std::array<std::uint8_t, 40> superblock;
     std::uint32_t section_count;
     std::uint32_t required_features;  ///< a reader refuses unknown bits; 0 in this version

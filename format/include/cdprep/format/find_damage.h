@@ -55,10 +55,10 @@ struct Damage {
 /// the next step.
 [[nodiscard]] std::string damage_sentence(std::string_view file, const Damage& damage);
 
-/// Checks only the user block: magic, version, sizes, header checksum and superblock bytes. Every
-/// section must lie inside the file and overlap no other. Returns nothing if no damage is found.
-/// Reads 4,144 bytes. This check is sufficient if the file is trusted. Never allocates, never
-/// throws.
+/// Checks only the header, the section table and the 40 superblock bytes that the header repeats.
+/// Every section must lie inside the file and overlap no other. Returns nothing if no damage is
+/// found. Reads 4,144 bytes. This check is sufficient if the file is trusted. Never allocates,
+/// never throws.
 [[nodiscard]] std::optional<Damage> find_header_damage(std::span<const std::byte> file) noexcept;
 
 /// Proves that a file is safe to query. Runs find_header_damage(). Then checks each present section

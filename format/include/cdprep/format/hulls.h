@@ -63,8 +63,8 @@ struct HullGroup {
     std::uint32_t facet_count;
 };
 
-/// The number of directions with a stored start point for hill climbing: 8 x 8 cells on each face
-/// of a cube.
+/// The number of directions with a stored start point for hill climbing. They are cells of a cube:
+/// 8 x 8 on each face.
 inline constexpr std::uint32_t kHullStarts = 6 * 8 * 8;
 /// The value in hull_vertices for a point that is not in the imported file.
 inline constexpr std::uint32_t kNoVertex = 0xffffffffU;

@@ -107,7 +107,7 @@ struct AdaptiveOctree {
 /// references follow each other in the order of the nodes.
 struct AdaptiveOctreeNode {
     /// The split point, model units. Along each axis it is strictly inside the node's box or at its
-    /// upper bound. At the upper bound, the axis is not divided and no child lies above it; a flat
+    /// upper bound. At the upper bound, the axis is not divided and no child lies above it. A flat
     /// axis cannot be divided. At least one axis is divided. Of a leaf: zero.
     Double3 split;
     std::uint32_t first;  ///< as OctreeNode
@@ -116,8 +116,8 @@ struct AdaptiveOctreeNode {
 
 /// The box around the contents of a cell, in frame coordinates, rounded outwards. A leaf's box
 /// bounds the intersections of its cell with the box of each of its triangles. An inner node's box
-/// bounds its children's boxes. So any part of a triangle in a cell also lies in the cell's box,
-/// which is often much smaller than the cell.
+/// bounds its children's boxes. So any part of a triangle in a cell also lies in the cell's box.
+/// The box is often much smaller than the cell.
 struct CellBox {
     std::array<float, 3> lower;
     std::array<float, 3> upper;

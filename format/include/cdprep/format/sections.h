@@ -36,12 +36,11 @@ struct SectionKind {
 [[nodiscard]] std::optional<SectionEntry> find_section(std::span<const std::byte> file,
                                                        SectionId id) noexcept;
 
-/// Returns the size of one element of `id` in bytes, or 0 for an id that this version does not
-/// know.
+/// Returns the size of one element of `id` in bytes, or 0 if this version does not know `id`.
 [[nodiscard]] std::uint32_t element_size(SectionId id) noexcept;
 
-/// Returns the name of `id` in FORMAT.md and the HDF5 datasets, or "unknown" for an id that this
-/// version does not know.
+/// Returns the name of `id` in FORMAT.md and the HDF5 datasets, or "unknown" if this version does
+/// not know it.
 [[nodiscard]] const char* section_name(SectionId id) noexcept;
 
 }  // namespace cdprep::format

@@ -26,7 +26,8 @@ inline constexpr std::uint32_t kMaxTetraLevel = 14;
     return 8U << (2 * level);
 }
 
-/// The bounds of a cone's triangles along its octant's axis.
+/// How a tetra-tree bounds the triangles in a cone: by their extent along the diagonal of the
+/// cone's octant.
 enum class TetraBounding : std::uint32_t {
     tetra = 0,  ///< from the centre to the farthest point: tetrahedra as published; radius_min is 0
     caps = 1,   ///< from the nearest to the farthest point: prunes the empty space at the centre
@@ -36,7 +37,7 @@ enum class TetraBounding : std::uint32_t {
 /// Bits of TetraTree::flags.
 enum TetraTreeFlags : std::uint32_t {
     tetra_centre_inside = 1,  ///< a ray from the centre crosses the surface more often in one
-                              ///< direction (inwards or outwards) than in the other; if the mesh
+                              ///< direction (inwards or outwards) than in the other. If the mesh
                               ///< is closed, the winding number at the centre is then not 0
     tetra_centre_on = 2,      ///< a triangle contains the centre
 };
@@ -72,8 +73,8 @@ enum TetraNodeFlags : std::uint32_t {
 /// A cone that some triangle touches. Nodes are sorted by `key` and so stored level by level. The
 /// octants, keys 8 to 15, come first.
 struct TetraNode {
-    /// 8 + octant, then two bits per split. Bit 0 of the octant is set if x is negative, bit 1 if y
-    /// is, bit 2 if z is. The parent is key >> 2.
+    /// 8 + octant, then two bits per split. Bits 0, 1 and 2 of the octant stand for x, y and z. A
+    /// bit is set if its coordinate is negative. The parent is key >> 2.
     std::uint32_t key;
     std::uint32_t first;  ///< leaf: its first reference; inner node: its first child
     std::uint32_t count;  ///< leaf: references; inner node: children

@@ -18,7 +18,7 @@ enum class Precision : std::uint8_t {
     double_precision,
 };
 
-/// The arrays of a model that queries read. `cdprep bake` makes the same arrays of a mesh, and adds
+/// The arrays of a model that queries read. `cdprep bake` makes the same arrays of a mesh. It adds
 /// hulls, pieces, octrees, bounds, mass, and notes about the imported file.
 struct ModelArrays {
     format::FileHeader facts{};

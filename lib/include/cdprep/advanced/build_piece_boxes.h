@@ -10,7 +10,8 @@
 
 namespace cdprep::build {
 
-/// A surface that is cut into pieces (format/pieces.h).
+/// A surface cut into convex pieces. Each lies on its own convex hull, up to Piece::outer_error
+/// (format/pieces.h).
 struct PiecesOf {
     std::span<const format::Double3> positions;
     std::span<const format::Triangle> triangles;

@@ -64,9 +64,9 @@ struct FeatureCache {
 /// point lies on the border of two features, up to rounding, the result may be either feature.
 ///
 /// With a cache, uses the method of Lin and Canny (1991). It walks to a neighbouring feature as
-/// long as that is nearer, in O(1) time if the hulls have moved little. The farthest points of both
-/// hulls along the gap then prove the distance. GJK computes the result if there is no cache, or if
-/// the walk or its proof fails. The proof fails if the hulls touch. Never allocates.
+/// long as that is nearer. This takes O(1) time if the hulls have moved little. The farthest points
+/// of both hulls along the gap then prove the distance. GJK computes the result if there is no
+/// cache, or if the walk or its proof fails. The proof fails if the hulls touch. Never allocates.
 [[nodiscard]] std::optional<ClosestFeatures> closest_features(
     const FeatureHull& a, const FeatureHull& b, const Placement& placement,
     FeatureCache* cache = nullptr, QueryCounts* counts = nullptr) noexcept;

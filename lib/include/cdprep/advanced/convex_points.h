@@ -56,12 +56,12 @@ inline constexpr std::uint32_t kDirectionCells = 8;
 /// The length of ConvexPoints::starts.
 inline constexpr std::uint32_t kDirectionStarts = 6 * kDirectionCells * kDirectionCells;
 
-/// Returns the number of the cube's cell at which a direction points, below kDirectionStarts. Cells
-/// are numbered face by face (+x, -x, +y, -y, +z, -z), and within a face row by row. On the faces
-/// +x and -x, the cells of a row follow each other along y, and the rows along z, both rising. The
-/// other faces are numbered likewise, with the axes in cyclic order. Of several largest
-/// coordinates, the first selects the face. The direction must be finite. The zero vector has a
-/// cell too.
+/// Returns the number of the cell that a direction hits, less than kDirectionStarts. The cells
+/// divide the faces of a cube around the origin. They are numbered face by face (+x, -x, +y, -y,
+/// +z, -z), and within a face row by row. On the faces +x and -x, the cells of a row are in the
+/// order of rising y. The rows are in the order of rising z. The other faces are numbered likewise,
+/// with the axes in cyclic order. Of several largest coordinates, the first selects the face. The
+/// direction must be finite. The zero vector has a cell too.
 [[nodiscard]] std::uint32_t direction_cell(const Double3& direction) noexcept;
 
 }  // namespace cdprep

@@ -20,10 +20,9 @@ namespace cdprep {
 /// parts, each vertex is in at least one.
 ///
 /// Three properties are not checked. Vertices of a component or an instance may lie outside its
-/// hull. If a hull is a segment or a polygon, vertices may lie outside the segment, or outside the
-/// polygon in its plane. A triangle whose corners lie in different parts may have points that lie
-/// in no part. The last check requires exact numbers of any length
-/// (tools/info/find_cover_falsehood.h).
+/// hull. Vertices may lie outside a hull that is a segment, or outside a polygon within its plane.
+/// A triangle whose corners lie in different parts may have points that lie in no part. The last
+/// check requires exact numbers of any length (tools/info/find_cover_falsehood.h).
 ///
 /// `file` must be one in which format::find_damage() finds nothing. `model` is this file, opened
 /// with all its sections. Takes O(vertices * facets) time, about a nanosecond per pair of a vertex
@@ -32,9 +31,9 @@ namespace cdprep {
                                                                 const Model& model);
 
 /// Proves that the hulls around the nodes of the BVH over pieces are right. Each contains every
-/// vertex below its node, exactly. No corner of a hull is farther than PieceNodeHull::slack from
-/// the exact hull of these vertices, up to the rounding of double. Returns nothing if all are
-/// right, or if there are no pieces.
+/// vertex below its node, exactly. Each corner of a hull is within PieceNodeHull::slack of the
+/// exact hull of these vertices, up to rounding. Returns nothing if all are right, or if there are
+/// no pieces.
 ///
 /// `file` must be one in which format::find_deep_damage() finds nothing. `model` is this file,
 /// opened with all its sections. Takes O(vertices * levels) hull queries. Allocates.

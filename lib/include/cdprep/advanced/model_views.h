@@ -20,10 +20,9 @@ using format::Double3;
 using format::Float3;
 
 // Views of the sections of an open model, as Model returns them. A view has a member for each row
-// of section_table.inc, which describes it. A span is empty and a pointer is null if the file lacks
-// the section or the section was not opened. Views stay valid while the Model lives. FORMAT.md
-// describes the elements and states which arrays are in tree order, the order in which the BVH
-// stores triangles.
+// of section_table.inc, which describes it. A span is empty and a pointer null if the file lacks
+// the section or it was not opened. Views stay valid while the Model lives. FORMAT.md describes the
+// elements and states which arrays are in tree order, the order in which the BVH stores triangles.
 
 /// The member type for a section: a span of its elements, a pointer to the only one, or text.
 template <class Element>
@@ -53,8 +52,8 @@ struct MeshView {
 #include "cdprep/format/section_table.inc"
 };
 
-/// The map from triangle and vertex numbers of a model to those of the imported file, with its
-/// instances, groups and materials.
+/// The map from triangle and vertex numbers of a model to those of the imported file. Also holds
+/// that file's instances, groups and materials.
 struct SourceView {
 #define CDPREP_SOURCE_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
 #include "cdprep/format/section_table.inc"

@@ -17,10 +17,10 @@ struct RootBox {
     double size = 0;               ///< at least the sum of all magnitudes that were added
 };
 
-/// Returns a box that contains all points of a moved model, as transform_point() rounds them, and
+/// Returns a box that contains all points of a moved model, as transform_point() rounds them. It
 /// reaches `reach` beyond them, in units of the models. If two models are at most d apart, their
-/// boxes with a reach of d / 2 each meet. A reach that is not finite or is negative, or a model
-/// opened without its BVH, ends the program with a sentence.
+/// boxes with a reach of d / 2 each meet. The reach must be finite and at least 0, and the model
+/// opened with its BVH. Otherwise, the program ends with a sentence.
 [[nodiscard]] RootBox root_box(const Model& model, const Pose& world_from_model,
                                double reach) noexcept;
 

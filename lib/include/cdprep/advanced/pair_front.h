@@ -35,8 +35,9 @@ struct PairFront {
 };
 
 /// Both caches of one pair of models, for queries through Structure::pieces: Pair::cache and
-/// Pair::front. They change speed, never answers. The first distance query sets the planes, and
-/// takes about three times as long. The next ones update a few planes. About 28 KiB.
+/// Pair::front. They change speed, never answers. The first distance query fills the front with
+/// planes. It takes about three times as long as a query without caches. The next ones update a few
+/// planes. About 28 KiB.
 struct PieceCache {
     PairCache pair;
     PairFront front;

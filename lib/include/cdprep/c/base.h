@@ -18,10 +18,10 @@
  *   comment of a field starts with its default. For a parameter named `options`, null gives the
  *   defaults. The options of a build and of a plan are exceptions, because they hold the mesh and
  *   the layers.
- * - Arguments are checked before anything is computed. The fields of a struct are checked in this
- *   order: size and tag; enumerators; numbers; poses; fields without meaning for the query. The
- *   next checks are whether the model serves the query, and whether the workspace is in use. If
- *   there are several errors, one is reported. One invalid entry makes the whole batch fail.
+ * - Arguments are checked before anything is computed. The order within a struct is: size and tag;
+ *   enumerators; numbers; poses; fields without meaning for the query. The next checks are whether
+ *   the model serves the query, and whether the workspace is in use. If there are several errors,
+ *   one is reported. One invalid entry makes the whole batch fail.
  * - Numbers are finite and at most 2^1000 in magnitude. NaN is always refused. Infinity is allowed
  *   only for max_distance, max_t and the limits of boxes. No answer holds NaN or infinity.
  * - On failure, answers are unknown: counts and `found` are 0; `hit`, `inside` and similar fields
@@ -30,7 +30,7 @@
  *   large for memory. They also stay unchanged if cdprep_pose_move() or cdprep_model_corners()
  *   fails.
  * - Lengths are in model units. Limits are inclusive. Triangles and vertices are numbered as in
- *   the imported file, or as in the arrays that a model was built from.
+ *   the imported file, or as in the arrays of a build.
  * - A list stores at most `room` answers; `count` is the number of all answers. Too little room is
  *   no error: as many as fit are stored. A list without room only counts.
  * - No query allocates. Opening or building a model, compiling a plan, and _make() do.
@@ -237,11 +237,12 @@ CDPREP_API int cdprep_pose_from_quaternion(const double wxyz[4], const double tr
                                            cdprep_pose* pose, cdprep_error* error);
 
 /* Makes the pose nearest to a 4 x 4 matrix, whose upper left 3 x 3 block is M. The pose's R
- * minimises the sum of the squared entries of M - R. `layout` is CDPREP_ROWS if the translation is
- * in elements 3, 7, 11, or CDPREP_COLUMNS if it is in elements 12, 13, 14. The matrix may differ
+ * minimises the sum of the squared entries of M - R. With the `layout` CDPREP_ROWS, the translation
+ * is in elements 3, 7, 11. With CDPREP_COLUMNS, it is in elements 12, 13, 14. The matrix may differ
  * from a rigid motion by `tolerance`, which is 0 to 0.25. The limit holds for every entry of
- * |M^T M - I| and for the deviation of the last row from 0 0 0 1. For matrices of floats, a
- * tolerance of 1e-5 is a good value. The result satisfies |R^T R - I| <= 1e-15. Takes about 100 ns.
+ * |M^T M - I|. It also holds for the deviation of the last row from 0 0 0 1. For matrices of
+ * floats, a tolerance of 1e-5 is a good value. The result satisfies |R^T R - I| <= 1e-15. Takes
+ * about 100 ns.
  * Errors: CDPREP_WHY_NOT_RIGID with a message that states whether the matrix scales, shears,
  * mirrors or projects. */
 CDPREP_API int cdprep_pose_nearest(const double matrix[16], uint32_t layout, double tolerance,
@@ -258,7 +259,9 @@ CDPREP_API int cdprep_pose_nearest_f32(const float matrix[16], uint32_t layout, 
 CDPREP_API int cdprep_pose_compose(const cdprep_pose* a_from_b, const cdprep_pose* b_from_c,
                                    cdprep_pose* a_from_c, cdprep_error* error);
 
-/* Stores the inverse pose, rounded as in cdprep_pose_compose(). */
+/* Stores the inverse pose, R^T and -R^T T. Each number is rounded. If R has drifted by more than
+ * 1e-13, the nearest rotation replaces R^T.
+ * Errors: CDPREP_WHY_OUT_OF_RANGE if the translation exceeds 2^1000. */
 CDPREP_API int cdprep_pose_inverse(const cdprep_pose* a_from_b, cdprep_pose* b_from_a,
                                    cdprep_error* error);
 

@@ -52,7 +52,7 @@ CDPREP_API int cdprep_model_build_size(const cdprep_build_options* options, size
  * is free for any use. After a failure it may hold anything. With null memory of size 0, the
  * allocator makes one allocation of the size that this mesh takes. A closed mesh takes about 85
  * bytes per triangle. In addition, the model takes about 1 KiB of the heap until
- * cdprep_model_close(), and the call takes about 120 bytes per triangle while it runs.
+ * cdprep_model_close(). The call takes about 120 bytes per triangle while it runs.
  *
  * The lanes of `workspace` share the work. The model is the same, byte for byte, on any number of
  * lanes and in any floating-point environment. Takes O(n log n) time in the triangles.

@@ -24,8 +24,8 @@ typedef struct cdprep_contact_point {
 
 /* Bits of cdprep_contact.flags. */
 enum {
-    /* the hulls have a common point, and either both hulls lie within their solids or triangles of
-     * the two pieces touch */
+    /* the hulls have a common point, and either both lie within their solids or the pieces'
+     * triangles touch */
     CDPREP_CONTACT_OVERLAP = 1,
     CDPREP_CONTACT_INTERNAL_EDGE = 2, /* near an edge inside a surface: a face gives the normal */
     /* the contact is on the inner side of a surface; ignore it for contact response */
@@ -86,14 +86,14 @@ CDPREP_API void cdprep_contact_options_init(cdprep_contact_options* options, siz
 
 /* Finds one contact for each pair of convex pieces that have triangles at most `tolerance` apart.
  * This test is exact, as in cdprep_pairs_within(). The list is sorted by `upper`, the deepest
- * first, then by piece_a and piece_b. If there are more than `most`, the choice alternates between
- * the deepest remaining contact and the one farthest from all chosen ones. `items` holds as many of
- * the first contacts as it has room for. `options` may be null.
- * With CDPREP_SOLID, a component that is proven to be inside the other model makes a contact as
- * well, unless triangles of the two models touch. Moving B by -lower along the normal frees the
- * component, and no translation shorter than -upper does. The translation leads out of convex
- * hulls that enclose the other model. If that model serves CDPREP_ASK_HULLS, these hulls are its
- * parts or, without parts, its whole hull. Otherwise, the only one is its box.
+ * first, then by piece_a and piece_b. At most `most` are listed. If there are more, the choice
+ * alternates between the deepest remaining contact and the one farthest from all chosen ones.
+ * `items` holds as many of the first contacts as it has room for. `options` may be null.
+ * With CDPREP_SOLID, a component that is proven to be inside the other model makes a contact of its
+ * own. No such contact is made if any triangles of the two models touch. Moving B by -lower along
+ * the normal frees the component, and no translation shorter than -upper does. The translation
+ * leads out of convex hulls that enclose the other model. If that model serves CDPREP_ASK_HULLS,
+ * these hulls are its parts or, without parts, its whole hull. Otherwise, the only one is its box.
  * Uses body, degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Takes the time of cdprep_pairs_within(), plus 5 to 10 microseconds per contact that is computed.
  * CDPREP_SOLID adds the time of cdprep_containment().
@@ -162,8 +162,8 @@ CDPREP_API int cdprep_hulls_collide(const cdprep_hull_pair* pair, uint32_t* hit,
                                     cdprep_error* error);
 
 /* Stores the distance of two hulls; it is 0 if they have a common point. Without permitted errors,
- * the interval's width is at most 1e-12 of upper plus 1e-14 of the size of the Minkowski difference
- * A - B. `options` may be null.
+ * the interval's width is at most 1e-12 upper + 1e-14 s. Here s is the size of the Minkowski
+ * difference A - B. `options` may be null.
  * Needs: as cdprep_hull_find() */
 CDPREP_API int cdprep_hulls_distance(const cdprep_hull_pair* pair,
                                      const cdprep_distance_options* options,

@@ -54,9 +54,9 @@ typedef struct cdprep_open_options {
 CDPREP_API void cdprep_open_options_init(cdprep_open_options* options, size_t size);
 
 /* Opens a baked file and checks everything that is requested. `options` may be null. On failure
- * *model is null. Takes O(bytes of the sections) time, at memory speed. If the
- * model serves CDPREP_ASK_CORNERS, also takes 4 bytes of memory per triangle and, if there are
- * several components, 4 per vertex.
+ * *model is null. Takes O(bytes of the sections) time, at memory speed. A model that serves
+ * CDPREP_ASK_CORNERS also takes 4 bytes of memory per triangle. With several components, it takes 4
+ * more per vertex.
  * A mapped file must not be changed in place or truncated while it is open. Replacing it by
  * a rename is safe: the model keeps the old file mapped.
  * Errors:
@@ -210,7 +210,7 @@ typedef struct cdprep_verdict {
     double volume; /* cubic model units, signed; 0 unless balanced */
 } cdprep_verdict;
 
-/* Stores the facts about the mesh that the bake recorded: number 0 is the whole mesh, the others
+/* Stores the facts about the mesh that the bake recorded. Number 0 is the whole mesh, the others
  * are its components.
  * Errors: CDPREP_WHY_OUT_OF_RANGE for a number that is not below cdprep_model_info.verdicts. */
 CDPREP_API int cdprep_model_verdict(const cdprep_model* model, uint32_t number,

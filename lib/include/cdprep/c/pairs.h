@@ -6,7 +6,7 @@
 
 /* Queries about two models.
  *
- * All answers are exact, and the same on every machine: they are those of exact arithmetic on the
+ * All answers are exact, and the same on every machine. They are those of exact arithmetic on the
  * vertices as the poses move them (cdprep_pose_move()). A model without triangles touches
  * nothing. */
 
@@ -210,10 +210,10 @@ typedef struct cdprep_nearest {
 
 /* Stores the distance of two models. It is 0, exactly, for surfaces that touch. It is also 0 if one
  * solid is proven inside the other; the points are then the surfaces' nearest points. Without
- * permitted errors, the interval's width is at most 1e-12 of the distance plus 1e-15 of the largest
- * absolute coordinate of the moved vertices. If several pairs of triangles have the least `upper`,
- * the result is the first in the order of (triangle_a, triangle_b), except through pieces.
- * `options` may be null.
+ * permitted errors, the interval's width is at most 1e-12 d + 1e-15 c. Here d is the distance, and
+ * c the largest absolute coordinate of the moved vertices. If several pairs of triangles have the
+ * least `upper`, the result is the first in the order of (triangle_a, triangle_b). Through pieces,
+ * the result may be another pair of touching triangles. `options` may be null.
  * Uses body; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Takes O(log n) time for typical meshes; visits every triangle in the worst case.
  * Needs: CDPREP_ASK_DISTANCE; CDPREP_SOLID: also CDPREP_ASK_SOLID */

@@ -5,7 +5,7 @@
 #include "cdprep/c/pairs.h"
 
 /* Queries about one model: points, rays and shapes. The lanes of the workspace share the work on
- * many points or rays; the answers are the same, in the same order. */
+ * many points or rays. The answers are the same, in the same order. */
 
 /* --- Points --------------------------------------------------------------------------------- */
 
@@ -80,11 +80,11 @@ typedef struct cdprep_ray_hit_list {
 
 typedef int (*cdprep_ray_visitor)(void* context, const cdprep_ray_hit* hit);
 
-/* Stores the first hit of each ray; `hits` must have room for `count` results. Whether a ray hits a
- * triangle is decided exactly, edges and vertices included: a ray cannot pass between two triangles
- * that share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits where
- * it enters. t is rounded. So either of two hits with nearly equal t may be the first, and a hit
- * near max_t may be accepted or rejected. Takes O(log n) time for most rays.
+/* Stores the first hit of each ray; `hits` must have room for `count` results. Each hit is decided
+ * exactly. Edges and vertices belong to a triangle, so no ray passes between two triangles that
+ * share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits where it
+ * enters. t is rounded. So either of two hits with nearly equal t may be the first. A hit near
+ * max_t may be accepted or rejected. Takes O(log n) time for most rays.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_cast(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                 cdprep_ray_hit* hits, cdprep_error* error);

@@ -31,7 +31,8 @@ typedef struct cdprep_layer_pair {
 
 CDPREP_API void cdprep_layer_pair_init(cdprep_layer_pair* pair, size_t size);
 
-/* A model that a scene will use. The plan checks that it serves what its layers ask for. */
+/* A model that a scene will use. cdprep_plan_compile() refuses a model that does not serve the
+ * effects of `layers`. */
 typedef struct cdprep_model_use {
     cdprep_head head;
     const cdprep_model* model; /* null: `serves` is used */
@@ -61,7 +62,7 @@ typedef struct cdprep_plan_options {
     uint32_t max_contacts;             /* 0: of contacts, likewise */
     const cdprep_allocator* allocator; /* null: the heap; copied; also of scenes with this plan */
     /* 0: a point near the objects. Their boxes are relative to it, so that they stay tight in
-     * float. It changes which pairs need room, but no result. */
+     * float. It changes which boxes meet, and so how many pairs need room. It changes no result. */
     double origin[3];
 } cdprep_plan_options;
 
@@ -83,7 +84,9 @@ typedef int (*cdprep_text_visitor)(void* context, const char* sentence);
  * - CDPREP_WHY_NOT_FINITE: a tolerance, angle, maximum distance or the origin is NaN or infinite.
  * - CDPREP_WHY_NO_MEANING: Two layers form a second pair. Or a field is set that no effect of its
  *   pair uses. Or `serves` or `name` is set in addition to a model.
- * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: a model does not serve an effect of its layers.
+ * - CDPREP_WHY_NOT_BAKED: a model does not serve an effect of its `layers`, for its file lacks the
+ *   sections.
+ * - CDPREP_WHY_NOT_OPENED: the same, for they were not opened.
  * - CDPREP_OVER_BUDGET: there is not enough memory. */
 CDPREP_API int cdprep_plan_compile(const cdprep_plan_options* options, cdprep_text_visitor refusals,
                                    void* context, cdprep_plan** plan, cdprep_error* error);
@@ -104,13 +107,14 @@ CDPREP_API void cdprep_plan_end(cdprep_plan* plan);
 
 /* --- Scenes -----------------------------------------------------------------------------------
  *
- * A step runs the plan's queries for pairs of objects that are near each other, if one of the two
- * has moved. Its results are those of single queries with CDPREP_MOVE_BOTH. They do not depend on
- * the number of lanes, and are sorted by the slots of a and b. */
+ * A step runs the plan's queries for pairs of objects near each other, if one of the two has moved.
+ * Its results are those of single queries with CDPREP_MOVE_BOTH. They do not depend on the number
+ * of lanes, and are sorted by the slots of a and b. */
 
-/* Objects and their results. Functions that change a scene refuse a scene that another call changes
- * (CDPREP_WHY_BUSY), and so do functions that read it. Otherwise, any number of threads may read a
- * scene at the same time. Its models must stay open until it ends. */
+/* Objects and their results. While one call changes a scene, all other calls on it fail with
+ * CDPREP_WHY_BUSY; cdprep_scene_end() then does nothing. Any number of threads may read a scene at
+ * the same time. Do not change it while another thread reads it: this is not checked. Its models
+ * must stay open until it ends. */
 typedef struct cdprep_scene cdprep_scene;
 
 /* An object. A slot that is used again has another generation. All 0: no object. */
@@ -120,8 +124,8 @@ typedef struct cdprep_object {
 } cdprep_object;
 
 /* Stores the number of bytes that cdprep_scene_make() needs for this plan. It depends only on the
- * limits, the effects and `most`: about 430 bytes for each object and 470 to 1,640 for each pair.
- * CDPREP_ASK_OVERLAP takes 24 more for each triangle pair, and 16 KiB for each lane.
+ * limits, the effects and `most`. It is about 430 bytes for each object and 470 to 1,640 for each
+ * pair. CDPREP_ASK_OVERLAP takes 24 more for each triangle pair, and 16 KiB for each lane.
  * CDPREP_ASK_CONTACTS takes 1,630 more for each contact, and 20 to 120 KiB for each lane. */
 CDPREP_API int cdprep_scene_size(const cdprep_plan* plan, size_t* size, cdprep_error* error);
 
@@ -260,9 +264,9 @@ typedef struct cdprep_event {
 } cdprep_event;
 
 /* Each function stores the address of an array, and the number of its elements. The array belongs
- * to the scene. It is that of the last step that was complete, and stays until the next one or the
- * end of the scene. Before the first step it is empty. Each stream has a function of its own: a
- * result struct never changes, so later streams come as new functions. */
+ * to the scene. It is that of the last complete step, and stays until the next one or the end of
+ * the scene. Before the first step it is empty. Each stream has a function of its own: a result
+ * struct never changes, so later streams come as new functions. */
 CDPREP_API int cdprep_scene_hits(const cdprep_scene* scene, const cdprep_scene_hit** hits,
                                  size_t* count, cdprep_error* error);
 CDPREP_API int cdprep_scene_overlaps(const cdprep_scene* scene,
@@ -319,8 +323,9 @@ typedef struct cdprep_broad_phase_options {
 
 CDPREP_API void cdprep_broad_phase_options_init(cdprep_broad_phase_options* options, size_t size);
 
-/* Stores the number of bytes that cdprep_broad_phase_make() needs for these options: about 150 for
- * each box, 24 for each pair, and 4 for each box and further lane. `options` may be null. */
+/* Stores the number of bytes that cdprep_broad_phase_make() needs for these options. It is about
+ * 150 for each box and 24 for each pair. Each lane but the first adds 4 for each box. `options` may
+ * be null. */
 CDPREP_API int cdprep_broad_phase_size(const cdprep_broad_phase_options* options, size_t* size,
                                        cdprep_error* error);
 
@@ -396,13 +401,13 @@ CDPREP_API int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** 
                                   size_t* count, cdprep_error* error);
 
 /* Does the same as cdprep_scene_step(), but with the pairs of a broad phase of the caller. The
- * candidates are pairs of slots, sorted by a, then b, as cdprep_broad_phase_update() stores them:
- * a < b, and no pair occurs twice. They must contain all pairs whose boxes meet; a pair that is
- * missing is not asked. Pairs whose boxes do not meet, or whose layers are not paired, are ignored.
- * Takes O(candidates + pairs log pairs) time, and the time of the queries.
+ * candidates are pairs of slots, sorted by a, then b, as cdprep_broad_phase_update() stores them.
+ * In each pair, a < b, and no pair occurs twice. They must contain all pairs whose boxes meet; a
+ * pair that is missing is not asked. Pairs whose boxes do not meet, or whose layers are not paired,
+ * are ignored. Takes O(candidates + pairs log pairs) time, and the time of the queries.
  * Errors, such as of `candidates[3]`. Then nothing has changed, and `complete` is CDPREP_NO:
  * - CDPREP_WHY_OUT_OF_RANGE: a slot is not below max_objects, or a >= b, or the pair does not come
- *   after the one before it.
+ *   after the previous one.
  * - CDPREP_WHY_STALE: a slot has no object. CDPREP_WHY_BUSY. */
 CDPREP_API int cdprep_scene_step_with(cdprep_scene* scene, const cdprep_box_pair* candidates,
                                       size_t count, cdprep_workspace* workspace, cdprep_step* step,

@@ -39,11 +39,11 @@ inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
 /// Degenerate triangles count as the segment or point that they are. The result is the same, byte
 /// for byte, for any parallel_for and processor. The root is the box of all corners.
 ///
-/// SplitRule::median: along each axis, the plane is at the median of the centres of the triangles'
-/// boxes, each clipped to the cell. If that is on the cell's boundary, because most triangles lie
-/// flat on it, the plane is in the middle of the cell. SplitRule::surface_area: the plane is one of
-/// the 15 between 16 slices of equal width. It has the least sum, over both sides, of surface area
-/// times number of triangles.
+/// SplitRule::median: the triangles' boxes are clipped to the cell. Along each axis, the plane is
+/// at the median of their centres. If that is on the cell's boundary, the plane is in the middle of
+/// the cell. That is so if most triangles lie flat on the boundary. SplitRule::surface_area: the
+/// plane is one of the 15 between 16 slices of equal width. It has the least sum, over both sides,
+/// of surface area times number of triangles.
 ///
 /// An axis is not divided if its plane would cut every triangle's box, unless that holds for all
 /// three axes. A cell is a leaf if no plane is inside it, or every child would have all its

@@ -37,10 +37,10 @@ struct TetraTreeOptions {
 ///
 /// The centre is the mean of the vertices that triangles use. It is rounded to float if all their
 /// coordinates are floats, so nearly all differences to it are exact. The radii of a cone are
-/// rounded outwards, so they contain the exact part of its triangles in the cone. This requires a
-/// frame exponent that scales the model to about 1; otherwise radii may be infinite. Boxes contain
-/// the same parts, in a frame that contains the model. tetra_centre_inside is computed along one
-/// ray from the centre.
+/// rounded outwards, so they contain the exact part of its triangles in the cone. Choose a frame
+/// exponent that scales the model to about 1. With a much larger one, radii may be infinite and
+/// exclude nothing. Boxes contain the same parts, in a frame that contains the model.
+/// tetra_centre_inside is computed along one ray from the centre.
 ///
 /// The number of references is limited as in build_octree(). A level whose split would exceed the
 /// limit is not split, nor is any below. Takes O(levels * references) time. Uses at most 21 bytes

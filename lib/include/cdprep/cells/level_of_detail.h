@@ -10,7 +10,7 @@
 
 namespace cdprep {
 
-/// The answer that the facets of two tetra-trees give about two solids at one level of detail.
+/// Whether two solids collide, as far as one level of their tetra-trees proves it.
 struct CoarseCollision {
     /// `no`: the solids, and so their surfaces, have no common point. `yes`: they have one.
     /// `unknown`: the facets of this level cannot tell.
@@ -20,9 +20,9 @@ struct CoarseCollision {
 };
 
 /// Returns the error of a model at a level, in model units. It is the greatest distance between the
-/// outer and the inner facet of a cone, along any ray from the tetra-tree's centre. The error falls
-/// as the level rises, down to the error of the leaves. It is 0 for a model without triangles.
-/// Needs Ask::tetra_tree. Takes O(cones of the level) time.
+/// outer and the inner facet of a cone. The distance is measured along rays from the tetra-tree's
+/// centre. The error falls as the level rises, down to the error of the leaves. It is 0 for a model
+/// without triangles. Needs Ask::tetra_tree. Takes O(cones of the level) time.
 ///
 /// Level 0 has one outer and one inner facet per octant. Each further level splits every cone of
 /// the tree into four; a leaf stays as it is. The outer facet cuts a cone at its greatest radius,

@@ -42,10 +42,10 @@ struct OctreeFigures {
 /// The children that have a record in a node: all, or only those that triangles touch.
 enum class EmptyChildren : std::uint8_t { counted, left_out };
 
-/// Returns the size that the published implementation would need, in bytes: 72 for the root, 80 for
-/// any other node, 4 for a reference. It is not known which children that implementation stored.
-/// Returns 0 without nodes. The formula is that of "A comparative study of implemented collision
-/// detection strategies".
+/// Returns the size that the published implementation would need, in bytes. The root takes 72, any
+/// other node 80, a reference 4. It is not known which children that implementation stored. Returns
+/// 0 without nodes. The formula is that of "A comparative study of implemented collision detection
+/// strategies".
 [[nodiscard]] std::uint64_t seed_formula_bytes(const OctreeFigures& figures,
                                                EmptyChildren empty) noexcept;
 

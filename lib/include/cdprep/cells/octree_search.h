@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kNoNode = 0xffffffffU;
 
 /// The parts of a hashed octree that a search reads. They belong to a model or a builder, which
 /// must outlive the index. A search is safe if find_damage finds nothing. Then the elements of
-/// `top` rise from 0 to the number of leaves, all numbers name nodes, and every chain ends. If
+/// `top` rise from 0 to the number of leaves. All numbers name nodes, and every chain ends. If
 /// there are nodes, a search also reads the table that it is named after. That table must be
 /// present, but an octree may be baked without it.
 struct OctreeIndex {
