@@ -183,8 +183,8 @@ void widen(LocalBounds& bound, const LocalLeaf& leaf, const Vector& origin, cons
     }
 }
 
-/// Returns the reach of the boxes of a node along the axes, relative to `origin`: for each box, its
-/// corners that lie farthest back and farthest on.
+/// Returns the reach of the boxes of a node along the axes, relative to `origin`. Of each box,
+/// takes the corners that lie farthest back and farthest on.
 Range reach_of(const BvhNode& node, const Vector& origin, const Axes& axes) {
     Range reach;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -208,11 +208,11 @@ Range reach_of(const BvhNode& node, const Vector& origin, const Axes& axes) {
 /// largest. The tests treat the cross terms as zero, which costs as much again. No corner, and no
 /// leaf's middle, is farther from `origin` than 3 times the largest half extent. Boxes and middles
 /// were rounded by 2^-23, which is added to that. The coordinates were found in floats relative to
-/// such a middle: 12 u for the products and sums, 5 u for the third axis, 3 u for the middle and
-/// 6 u for adding it. A box that seemed to lie inside and was not visited costs 21 u. The total is
-/// 95 u of the largest, for which 2^-17 is taken. Applied to the 2^-23 above, that is less than
-/// 2^-40. Leaves that are not exact were rounded by u; 2^-23 of the frame's size covers that and
-/// the rounding of the centre.
+/// such a middle. That costs 12 u for the products and sums and 5 u for the third axis. The middle
+/// costs 3 u and adding it 6 u. A box that seemed to lie inside and was not visited costs 21 u. The
+/// total is 95 u of the largest, for which 2^-17 is taken. Applied to the 2^-23 above, that is less
+/// than 2^-40. Leaves that are not exact were rounded by u. 2^-23 of the frame's size covers that
+/// and the rounding of the centre.
 void set_box(OrientedNode& node, std::size_t box, const Vector& origin, const Axes& axes,
              const LocalBounds& bound, bool exact) {
     Reach reach{};

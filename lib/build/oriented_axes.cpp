@@ -27,8 +27,8 @@ struct Eigen {
     std::array<std::array<Floats, 3>, 3> v;  ///< v[k]: k-th vector
 };
 
-/// Performs a Jacobi rotation that makes m[i][j] zero (Golub and Van Loan 8.5), without a branch:
-/// tan = 2 m_ij / (d +- sqrt(d^2 + 4 m_ij^2)), d = m_jj - m_ii.
+/// Performs a Jacobi rotation that makes m[i][j] zero, without a branch (Golub and Van Loan 8.5).
+/// With d = m_jj - m_ii, tan = 2 m_ij / (d +- sqrt(d^2 + 4 m_ij^2)).
 void turn(Eigen& e, std::size_t i, std::size_t j) {
     assert(i < j && j < 3);
     const std::size_t other = 3 - i - j;

@@ -130,9 +130,9 @@ void place_by_rank(std::span<const Item> items, const Ranks& rank, std::span<Ite
 }
 
 /// Cuts and orders a set of items by a policy. A policy has an Item, with a middle and a number,
-/// and Bins: clear() prepares them, count() counts a piece's items into them, and add() joins them.
-/// choose() cuts by the bins. cut_small() orders a set of at most kSmallSet items and returns the
-/// number of items left of the cut.
+/// and Bins. clear() prepares the bins, count() counts a piece's items into them, and add() joins
+/// them. choose() cuts by the bins. cut_small() orders a set of at most kSmallSet items and returns
+/// the number of items left of the cut.
 template <class Policy>
 class SetSplitter {
 public:

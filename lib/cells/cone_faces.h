@@ -45,10 +45,10 @@ struct SeenPoint {
 /// 1. Nothing computed from larger differences underflows.
 inline constexpr double kLeastSeen = 0x1p-900;
 
-/// Returns a bound of the rounding error of f, of s, or of either times a few units in the last
-/// place. Each difference is off by a factor 1 + u, u = 2^-53. s is off by 3.1 u of `size`, m s by
-/// 4.2 u, x by 1 u, and their difference, at most 2 size, by 2 u: 7.3 u. `size` itself is off by
-/// 3 u of it. A factor that is a power of two adds nothing above kLeastSeen.
+/// Returns a bound of the rounding error of f or s. It also bounds either of them times a few units
+/// in the last place. Each difference is off by a factor 1 + u, u = 2^-53. s is off by 3.1 u of
+/// `size`, m s by 4.2 u and x by 1 u. Their difference, at most 2 size, adds 2 u: 7.3 u. `size`
+/// itself is off by 3 u of it. A factor that is a power of two adds nothing above kLeastSeen.
 [[nodiscard]] inline double slack_of(const SeenPoint& p) noexcept {
     return 0x1p-50 * p.size + kLeastSeen;
 }

@@ -20,27 +20,28 @@
 #include "walk/box_placement.h"
 #include "walk/workspace_storage.h"
 
-// The winding number is the sum of winding_term() over any list of triangles that holds exactly
-// once each triangle with a term other than 0. The list must also hold every triangle that q lies
-// on. Let R be the closed ray from q away from the origin o. A triangle whose term is not 0 is met
-// by rays from q arbitrarily near to R, at points that are bounded because the triangle is. These
-// points accumulate at a point of R, and the triangle, being closed, holds it. So a list is
-// sufficient if it holds each triangle that touches R once. Of these, only those whose box meets
-// that of R are tested further. The symbolic perturbation of o requires no other neighbours.
+// The winding number is the sum of winding_term() over any sufficient list of triangles. Such a
+// list holds exactly once each triangle with a term other than 0. It must also hold every triangle
+// that q lies on. Let R be the closed ray from q away from the origin o. Rays from q arbitrarily
+// near to R meet a triangle whose term is not 0. The points where they meet it are bounded because
+// the triangle is. These points accumulate at a point of R, and the triangle, being closed, holds
+// it. So a list is sufficient if it holds each triangle that touches R once. Of these, only those
+// whose box meets that of R are tested further. The symbolic perturbation of o requires no other
+// neighbours.
 //
 // Tetra-tree: o is the centre C, and R = {C + s (q - C), s >= 1}. All points of R have one
 // direction from C, so R lies in one cone, borders or not. A triangle that touches R touches that
 // closed cone. So it is in its leaf's list, or it holds C. If it holds C and touches R, it holds
 // all points between, q among them. Those triangles need not be counted, but they must be tested. A
-// cone without a node touches none of the other triangles. From q = C the ray may run anywhere; it
+// cone without a node touches none of the other triangles. From q = C the ray may run anywhere. It
 // runs along +x, an edge of the cone of the least key.
 //
 // Octrees: R runs along +x, because o is q moved back along x alone. The planes of the leaves that
-// R runs through cut it into pieces x0 < x <= x1; the first and the last are unbounded. A triangle
-// with a term other than 0 has q outside its plane. That plane is not parallel to x: otherwise only
-// unbounded points would be met. So it has one point h on R, and counts only in the leaf whose
-// piece has h. The leaf's closed cell touches the triangle at h, so the leaf lists it. orient3d()
-// compares h with x0 and x1.
+// R runs through cut it into pieces x0 < x <= x1. The first and the last piece are unbounded. A
+// triangle with a term other than 0 has q outside its plane. That plane is not parallel to x:
+// otherwise only unbounded points would be met. So it has one point h on R, and counts only in the
+// leaf whose piece has h. The leaf's closed cell touches the triangle at h, so the leaf lists it.
+// orient3d() compares h with x0 and x1.
 
 namespace cdprep {
 namespace {

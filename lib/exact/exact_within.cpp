@@ -13,10 +13,10 @@
 #include "exact/vectors.h"
 #include "exact/wide_vector.h"
 
-// Two objects that do not touch are nearest in one of two ways: at a corner of one and a corner,
-// edge or face of the other, or at an edge of each. Every such place whose feet lie inside is a
-// pair of points of the two objects. So one place that is near enough proves yes; if there is none,
-// the answer is no.
+// Two objects that do not touch are nearest in one of two ways. One is at a corner of one and a
+// corner, edge or face of the other. The other is at an edge of each. Every such place whose feet
+// lie inside is a pair of points of the two objects. So one place that is near enough proves yes.
+// If there is none, the answer is no.
 //
 // A place is near enough when a polynomial of the coordinates is not positive. Its degree is 2 for
 // corners, 4 for a corner and an edge, and 6 otherwise. All numbers are multiples of the lowest bit
@@ -136,7 +136,7 @@ bool in_range(std::span<const Double3> points) noexcept {
 }
 
 /// Returns whether the boxes around the two are certainly farther apart than `distance`. Each gap
-/// is off by a factor of 1 + u; the sum of their squares and the square of the limit are off by
+/// is off by a factor of 1 + u. The sum of their squares and the square of the limit are off by
 /// 1 + 8u together. Below kLeastSquare an underflow could matter.
 bool boxes_are_apart(std::span<const Double3> points, const Corners& t, double distance) noexcept {
     constexpr double kRounding = 0x1p-48;

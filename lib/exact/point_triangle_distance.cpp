@@ -9,20 +9,20 @@
 #include "exact/powers_of_two.h"
 #include "exact/vectors.h"
 
-// All work is relative to q and scaled by a power of two so that the largest corner coordinate is
+// All work is relative to q. A power of two scales it so that the largest corner coordinate is
 // about 1. Let u = 2^-53 and let M be the largest |corner - q|.
 //
-// Every candidate is a point of the triangle: a combination of the corners with weights that are
-// not negative and add up to 1, off by less than 8 u M. So its distance is an upper bound within
-// 16 u M, even if the weights themselves are inaccurate. The lower bound accounts for errors of the
-// weights.
+// Every candidate is a point of the triangle, off by less than 8 u M. It is a combination of the
+// corners with weights that are not negative and add up to 1. So its distance is an upper bound
+// within 16 u M, even if the weights themselves are inaccurate. The lower bound accounts for errors
+// of the weights.
 //
 // Edges. One projection gives the place along the edge within a few u M, and the distance within
 // 16 u M.
 //
 // Face. Let n = (b - a) x (c - a) and let L be the longest edge. n is off by at most 8 u L^2, or
-// 8 u L^2 / |n| in relative terms, which tilts the plane by as much. The foot's places along the
-// edges are relative to an end of each, so the product has the edge and not two far corners. They
+// 8 u L^2 / |n| in relative terms. That tilts the plane by as much. The foot's places along the
+// edges are relative to an end of each. So the product has the edge and not two far corners. They
 // are off by that tilt and 8 u M. Both together stay below eta = 64 u M (1 + L^2 / |n|). A foot
 // that is wrongly classified as inside or outside is within eta of an edge. Then the distance of
 // the other candidate is right within eta.
@@ -32,8 +32,8 @@
 // point. Its products, sum, division and the corners themselves are off by at most 8 u M. Near the
 // surface, p's direction is not known well enough, and the bounds above are better.
 //
-// Slivers. Where eta exceeds the inradius |n| / perimeter, the lower bound omits the face: every
-// point of it is within the inradius of an edge.
+// Slivers. The lower bound omits the face where eta exceeds the inradius |n| / perimeter. Every
+// point of the face is within the inradius of an edge.
 
 namespace cdprep {
 namespace {

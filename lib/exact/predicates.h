@@ -13,9 +13,9 @@ namespace cdprep {
 /// Exact for all finite inputs, subnormals included. Never allocates.
 [[nodiscard]] int orient2d(const Double2& a, const Double2& b, const Double2& c) noexcept;
 
-/// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]: positive when d lies behind the plane, seen
-/// from the side where a, b, c turn counter-clockwise. Exact for all finite inputs, subnormals
-/// included. Never allocates.
+/// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]. It is positive when d lies behind the
+/// plane, seen from the side where a, b, c turn counter-clockwise. Exact for all finite inputs,
+/// subnormals included. Never allocates.
 ///
 /// A semi-static filter decides most calls in a few nanoseconds. Equal points, machine integers,
 /// expansions of the differences and wide integers decide the rest, in this order.

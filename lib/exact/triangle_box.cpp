@@ -6,12 +6,13 @@
 #include "exact/predicates.h"
 #include "exact/triangle_box_filter.h"
 
-// A box and a triangle are disjoint exactly if one of 13 directions separates them: the normals of
-// the box's faces and of the triangle, and the products of an edge of each (Gottschalk, Lin and
-// Manocha 1996; Akenine-Moller 2001). The products with the box's edges along one axis are normal
-// to that axis. They and the box's faces separate exactly if the views along the axis are disjoint:
-// a rectangle and a triangle in a plane. There, and for the triangle's plane, one corner of the box
-// is enough: the extreme one in the direction. Signs alone determine which corner that is.
+// A box and a triangle are disjoint exactly if one of 13 directions separates them. These are the
+// normals of the box's faces and of the triangle, and the products of an edge of each. See
+// Gottschalk, Lin and Manocha 1996, and Akenine-Moller 2001. The products with the box's edges
+// along one axis are normal to that axis. They and the box's faces separate exactly if the views
+// along the axis are disjoint. These views are a rectangle and a triangle in a plane. There, and
+// for the triangle's plane, one corner of the box is enough: the extreme one in the direction.
+// Signs alone determine which corner that is.
 
 namespace cdprep {
 namespace {

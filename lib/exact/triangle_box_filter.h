@@ -12,15 +12,15 @@
 // change the answer.
 //
 // Let u = 2^-53. Corners v and the box are relative to the box's lower corner. Each coordinate,
-// side of the box and edge is one difference of two doubles, off by a factor of 1 + u. M is the
+// side of the box and edge is one difference of doubles, off by a factor of 1 + u. M is the
 // largest magnitude per axis of these coordinates and sides.
 //
-// Along axis x an edge e gives the direction (0, -ez, ey). A corner's height along it,
-// ey vz - ez vy, is off by (3u + u) B, with B = |ey| Mz + |ez| My. The box's height has the same
-// error: it is a sum of two products or their zeros. Their difference, at most 2 B in magnitude,
-// rounds by 2u B more. 16u B covers all of it, and the roundings of B.
+// Along axis x an edge e gives the direction (0, -ez, ey). Let B = |ey| Mz + |ez| My. A corner's
+// height along it, ey vz - ez vy, is off by (3u + u) B. The box's height has the same error: it is
+// a sum of two products or their zeros. Their difference, at most 2 B in magnitude, rounds by 2u B
+// more. 16u B covers all of it, and the roundings of B.
 //
-// Along the triangle's normal, n = e0 x e1 is off by 4u N per component; N is the sum of the
+// Along the triangle's normal, n = e0 x e1 is off by 4u N per component. N is the sum of the
 // magnitudes of its two products. A product n v is off by 6u N M, and the sum of three by 2u more.
 // The box's is off by as much. Their difference adds 2u. 32u times the sum of N M covers it.
 //

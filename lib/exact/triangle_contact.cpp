@@ -101,9 +101,9 @@ Canonical<Point> canonical(const Triangle<Point>& a, const Signs& a_signs, const
     return turned;
 }
 
-/// Returns the greater of the two signs that compare the ends of the intervals in which the
-/// triangles meet the common line: 1 apart, 0 touching, -1 sharing more than a point. The caller
-/// treats all values above `limit` alike.
+/// Returns the greater of two signs: 1 apart, 0 touching, -1 sharing more than a point. They
+/// compare the ends of the intervals in which the triangles meet the common line. The caller treats
+/// all values above `limit` alike.
 template <class Point>
 int interval_order(const Canonical<Point>& t, int limit) {
     const int first = orient3d(t.a[0], t.a[1], t.b[0], t.b[1]);

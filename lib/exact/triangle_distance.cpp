@@ -11,14 +11,14 @@
 #include "exact/powers_of_two.h"
 
 // Two triangles that do not touch are nearest in one of two ways (Larsen, Gottschalk, Lin and
-// Manocha 1999): at an edge of each, nine pairs with corners included; or at a corner of one and
-// the face of the other, six pairs. All work is relative to a corner of A and scaled by a power of
-// two so that the largest coordinate, M, is about 1. Let e be the unit roundoff of the numbers in
-// use.
+// Manocha 1999). One is at an edge of each: nine pairs with corners included. The other is at a
+// corner of one and the face of the other: six pairs. All work is relative to a corner of A. A
+// power of two scales it so that the largest coordinate, M, is about 1. Let e be the unit roundoff
+// of the numbers in use.
 //
-// Every candidate is a pair of points of the triangles. Each point is a combination of corners with
-// weights in [0, 1] that add up to 1, off by less than 8 e M. So their distance is an upper bound
-// within 24 e M, even if the weights are inaccurate.
+// Every candidate is a pair of points of the triangles. Each point, off by less than 8 e M, is a
+// combination of corners. Its weights are in [0, 1] and add up to 1. So their distance is an upper
+// bound within 24 e M, even if the weights are inaccurate.
 //
 // The lower bound does not depend on the accuracy of the candidates. For any direction w, take the
 // planes normal to it through A's farthest and B's nearest corner. They lie

@@ -35,8 +35,8 @@ inline constexpr int kLowestExponent = -1074;
 /// Returns the exponent of the lowest bit that is set; kLowestExponent + 3000 for 0.
 [[nodiscard]] int lowest_bit(double value) noexcept;
 
-/// The number of limbs of a double, or a difference of two, as a multiple of 2^-1074: 2,099 bits,
-/// and some to add up a few. A product of k factors needs k times as many.
+/// The number of limbs of a double, or of a difference of two, as a multiple of 2^-1074. They hold
+/// 2,099 bits, and some to add up a few. A product of k factors needs k times as many.
 inline constexpr std::size_t kWideCoordinate = 66;
 
 /// A signed integer of at most `kLimbs` limbs for the rarest stage of the predicates. Every double

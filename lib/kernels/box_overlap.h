@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Box against box, eight at a time. Included by kernel sources alone, after they have defined the
-// lanes: a type F of eight floats, and a type R of the same eight once or twice. R::kRows rows are
+// lanes. F is a type of eight floats, and R holds the same eight once or twice. R::kRows rows are
 // tested at once. Each type has a mask type.
 #pragma once
 

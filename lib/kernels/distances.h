@@ -277,8 +277,8 @@ void offer_foot(const W* corner, const LaneTriangle<W>& t, const LaneEdge<W> edg
     offer(nearest, difference, inside);
 }
 
-/// Returns a direction along which two triangles lie far apart: between their nearest points, as
-/// far as float finds them (Larsen, Gottschalk, Lin and Manocha 1999).
+/// Returns a direction along which two triangles lie far apart. It leads between their nearest
+/// points, as far as float finds them (Larsen, Gottschalk, Lin and Manocha 1999).
 template <bool kUpper, class W>
 LaneNearest<W> nearest_of(const LaneTriangle<W>& a, const LaneTriangle<W>& b) noexcept {
     LaneEdge<W> edge_a[3];

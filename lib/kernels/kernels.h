@@ -213,10 +213,10 @@ struct OctantPlanes {
 
 /// The tests of two nodes' boxes by the bounds of their children.
 struct BoundTests {
-    /// As Table::overlapping_boxes. With swept spheres: returns the pairs that neither the six face
-    /// directions of the axis-aligned boxes nor those of the spheres separate: the direction
-    /// between nearest points and, for rectangles, the face directions. If B has one chosen box,
-    /// tests only those of the spheres.
+    /// As Table::overlapping_boxes. With swept spheres, tests the six face directions of the
+    /// axis-aligned boxes and the directions of the spheres. Returns the pairs that none of these
+    /// separates. The directions of the spheres are that between nearest points and, for
+    /// rectangles, the face directions. If B has one chosen box, tests only those of the spheres.
     BoxPairs (*overlapping)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
                             const BoxChoice& choice, BoxSizes& sizes) noexcept;
 
@@ -249,10 +249,10 @@ struct FarthestPoint {
 };
 
 /// Planes between places: rows of numbers, `stride` from row to row, which is a multiple of
-/// sixteen. The rows of each plane are: 0 to 2 its direction n from A to B, at most 1 long, along
-/// A's axes; 3 to 5 that direction along B's axes when the plane was set; 6 to 8 a middle of B's
-/// place; 9 the gap along n without B's shift; 10 the reach of B's place from its middle. Pair
-/// units.
+/// sixteen. Rows 0 to 2 hold a plane's direction n from A to B, at most 1 long, along A's axes.
+/// Rows 3 to 5 hold that direction along B's axes when the plane was set. Rows 6 to 8 hold a middle
+/// of B's place. Row 9 holds the gap along n without B's shift. Row 10 holds the reach of B's place
+/// from its middle. Pair units.
 struct PlaneRows {
     const float* first;
     std::size_t stride;
@@ -278,9 +278,10 @@ struct BoxTree {
 struct Table {
     const char* name;  ///< "scalar", "avx2", "avx512": shown in tests and benchmarks
 
-    /// Returns the pairs of chosen boxes that none of their face directions separates: six of the
-    /// axis-aligned boxes and, if both nodes have oriented boxes, six of those. If B has one chosen
-    /// box and both have oriented boxes, tests only those. Sets `sizes` if there are any.
+    /// Returns the pairs of chosen boxes that none of their face directions separates. These
+    /// directions are six of the axis-aligned boxes and, if both nodes have oriented boxes, six of
+    /// those. If B has one chosen box and both have oriented boxes, tests only those. Sets `sizes`
+    /// if there are any.
     BoxPairs (*overlapping_boxes)(const BoxPlacement& placement, const NodeBoxes& a,
                                   const NodeBoxes& b, const BoxChoice& choice,
                                   BoxSizes& sizes) noexcept;
@@ -292,9 +293,9 @@ struct Table {
                                BoxDepths& depths) noexcept;
 
     /// Returns the pairs of chosen boxes that may be at most reach.limit apart, and a lower bound
-    /// of their distance. The bound is the greatest of several: the length of the gaps along three
-    /// directions at right angles, which are A's, B's and those of the oriented boxes; and the gap
-    /// along reach.direction.
+    /// of their distance. The bound is the greatest of several. One is the gap along
+    /// reach.direction. Each of the others is the length of the gaps along three directions at
+    /// right angles. These directions are A's, B's and those of the oriented boxes.
     BoxPairs (*near_boxes)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
                            const BoxChoice& choice, const Reach& reach,
                            BoxPairFloats& gaps) noexcept;
@@ -387,8 +388,8 @@ struct Available {
 };
 [[nodiscard]] Available available() noexcept;
 
-/// Returns the table that queries use: the last available one, or the one that the environment
-/// variable CDPREP_KERNELS names at the first call of the process.
+/// Returns the table that queries use. It is the one that the environment variable CDPREP_KERNELS
+/// names at the first call of the process. Otherwise it is the last available one.
 [[nodiscard]] const Table& active() noexcept;
 
 }  // namespace cdprep::kernels

@@ -2,16 +2,16 @@
 // Leaves transformed into common coordinates. Included by kernel sources alone, after
 // box_overlap.h.
 //
-// Rounding. Let u = 2^-24 and d the error of a pair: no corner, in the coordinates computed here,
+// Rounding. Let u = 2^-24 and d the error of a pair. No corner, in the coordinates computed here,
 // is further than d along any axis from its place in the query. A determinant of three differences
 // U, V, W of corners is then off
 //
-//   - by the corners: each row moves by 2d per component, and the cross product of two rows has
+//   - by the corners: each row moves by 2d per component. The cross product of two rows has
 //     components of at most 2|V||W| (largest components). There are six such terms in all:
 //     12 d (|V||W| + |U||W| + |U||V|). Each norm includes the other rows' motion and is therefore
 //     taken 3d too large;
-//   - by rounding: six products of three, each of a difference (u), two products (2u), and up to
-//     three sums of terms below 6|U||V||W| in all: 48 u |U||V||W|.
+//   - by rounding: there are six products of three, each of a difference (u). Each takes two
+//     products (2u) and up to three sums. The terms are below 6|U||V||W| in all: 48 u |U||V||W|.
 // Underflow moves a product by at most 2^-126, even if the processor flushes subnormal numbers to
 // zero. Components are at most 4, so 1e-35 covers it.
 #pragma once
@@ -63,8 +63,8 @@ F determinant_error(F u, F v, F w, F error) noexcept {
     return fma(F(64 * kUlp) * uv, w, moved);
 }
 
-/// The same error for rows of which a leaf has u v and u + v, with factors that serve the whole
-/// leaf: product * by_product + sum * by_sum + rest. Expanded from determinant_error().
+/// The same error for rows of which a leaf has u v and u + v. Its factors serve the whole leaf:
+/// product * by_product + sum * by_sum + rest. Expanded from determinant_error().
 struct ErrorFactors {
     float by_product;
     float by_sum;
@@ -204,8 +204,8 @@ inline LeafShift shift_of(const LeafPlacement& p, const LeafPair& pair,
     const float half = largest(leaf.half_a[0], leaf.half_a[1], leaf.half_a[2]);
     const float* half_b = pair.b + kLeafHalf;
     const float reach_b = largest(half_b[0], half_b[1], half_b[2]) * p.b.box_scale;
-    // A corner of B is rounded when baked and when the middle is subtracted (u each), then by three
-    // rounded factors, products and sums: below 12 u sqrt 3 reach_b in all. A corner of A:
+    // A corner of B is rounded when baked and when the middle is subtracted (u each). Three rounded
+    // factors, products and sums follow: below 12 u sqrt 3 reach_b in all. A corner of A:
     // 2 u half_a, the shift u |shift|, and their sum u (half_a + |shift|).
     leaf.error = p.error + kUlp * (21.0F * reach_b + 4.0F * far + 4.0F * half) + kUnderflow;
     leaf.reach = far + half + 1.75F * reach_b;

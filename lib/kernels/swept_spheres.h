@@ -6,28 +6,27 @@
 //
 //     gap(w) = (w.d - sum h_i |w.u_i| - sum g_j |w.v_j|) / |w| - r_a - r_b
 //
-// for any direction w. Here d leads from A's middle to B's, u and h are the axes and halves of A's,
-// v and g those of B's. This is the distance of two parallel planes with the two between them. So
-// it requires neither axes at right angles nor an exact w. The best w leads from the point of A's
-// middle that is nearest to B's to that of B's: then gap(w) is the distance itself. For points w is
-// d. For lines the nearest points have a closed form (Ericson 2005, 5.1.9). For rectangles an
-// iteration alternates between the two: each step takes the nearest point of the other, which for a
-// rectangle is a clamp of two coordinates. It goes from B's centre to A, to B, to A. More steps
-// separate one pair in fifty more and cost as much as that saves. The face directions are tried in
-// addition.
+// for any direction w. Here d leads from A's middle to B's. The axes and halves of A's are u and h,
+// those of B's v and g. This is the distance of two parallel planes with the two between them. So
+// it requires neither axes at right angles nor an exact w. The best w leads from the nearest point
+// of A's middle to that of B's. Then gap(w) is the distance itself. For points w is d. For lines
+// the nearest points have a closed form (Ericson 2005, 5.1.9). For rectangles an iteration
+// alternates between the two. Each step takes the nearest point of the other. For a rectangle this
+// is a clamp of two coordinates. It goes from B's centre to A, to B, to A. More steps separate one
+// pair in fifty more and cost as much as that saves. The face directions are tried in addition.
 //
 // Rounding. Let v = 2^-24, s_a and s_b the scales, t the shift. Middles lie within sqrt 3 s of
 // their origins; halves and radii are at most that. Take |w| = 1: a common factor cancels.
 //
 //   - Rotating, shifting and subtracting three components: d is off by 19 v s_b + 3 v s_a +
 //     5 v |t|. Its product with w is off by 6 v (s_a + s_b + |t|).
-//   - B's axes are rotated with 7 v each: 17 v s_b after the halves, whose sum is at most sqrt 6 s.
+//   - B's axes are rotated with 7 v each. The sum of the halves is at most sqrt 6 s: 17 v s_b.
 //   - The products w.u, w.v: 8 v (s_a + s_b); the sum of five terms: 21 v (s_a + s_b) + 9 v |t|.
 //   - Length, root and quotient: 7 v (s_a + s_b + |t|). A face direction's length has 14 v of the
 //     same instead.
 // Together they stay below 96 v (s_a + s_b + |t|): three times BoxPlacement's slack, which also
 // covers all earlier rounding. A tolerance is rounded by 5 v of itself where the radii are summed
-// and squared; its caller has enlarged it.
+// and squared. Its caller has enlarged it.
 #pragma once
 
 #include <cassert>

@@ -26,10 +26,10 @@ namespace cdprep {
             dot(contact.normal, contact.point_b - contact.point_a), 0};
 }
 
-/// Sets the points of a contact to at most four of `points`, of which there is at least one: the
-/// deepest (of several, the outermost), the one farthest from it, and those with the largest
-/// triangles on either side of the line between. Of equal points it takes the first. `points` are
-/// not those of the contact.
+/// Sets the points of a contact to at most four of `points`, of which there is at least one. The
+/// first is the deepest (of several, the outermost), the second the one farthest from it. The
+/// others have the largest triangles on either side of the line between. Of equal points it takes
+/// the first. `points` are not those of the contact.
 inline void choose_four(std::span<const ManifoldPoint> points, Contact& contact) noexcept {
     const auto best = [&](auto&& score) {
         std::size_t top = 0;

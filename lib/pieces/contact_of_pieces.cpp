@@ -293,9 +293,10 @@ private:
         Double3 point_b{};
     };
 
-    /// Returns the shortest exit that ends at both surfaces, unless another that does not lead
-    /// along a plane or deeper into a solid is shorter by kMuchShorter. Without either, returns the
-    /// direction of the shortest way, turned upright, or else the shortest way itself.
+    /// Returns the shortest exit that ends at both surfaces. Prefers another one that is shorter by
+    /// kMuchShorter and leads neither along a plane nor deeper into a solid. Without either,
+    /// returns the direction of the shortest exit along a plane, turned upright. Without that too,
+    /// returns the shortest way itself.
     [[nodiscard]] Exit best_exit(std::span<const WayOut> ways) const noexcept {
         std::optional<Exit> other, leaning;
         for (std::size_t i = 0; i < ways.size(); ++i) {

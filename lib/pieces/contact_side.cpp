@@ -103,8 +103,8 @@ double ContactSide::position_error() const noexcept {
     for (std::uint32_t i = 0; i < points().count; ++i) {
         most = std::max(most, largest_of(corner(i) - t));
     }
-    // Each coordinate is off by 4 u of the sizes of its terms: three products, whose sum is at most
-    // 3 times the largest turned coordinate, and the translation.
+    // Each coordinate is off by 4 u of the sizes of its terms. These are three products, whose sum
+    // is at most 3 times the largest turned coordinate, and the translation.
     constexpr double kError = 8 * 0x1p-53;
     return kError * (3 * most + largest_of(t));
 }

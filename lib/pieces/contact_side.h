@@ -152,9 +152,9 @@ public:
     /// Returns the vertices of the hull that are farthest along a unit direction, up to rounding.
     [[nodiscard]] VertexSet farthest_vertices(const Double3& direction) const noexcept;
 
-    /// Returns the cosine of the angle between a unit direction and the normal of each face of a
-    /// large hull, at the place of the face's first facet; 0 for other facets. Each is off by at
-    /// most kCosineError. Returns nothing for a hull that is small or too large to keep.
+    /// Returns the cosines of the angles between a unit direction and the normals of the faces of a
+    /// large hull. Each is at the place of its face's first facet; other facets have 0. Each is off
+    /// by at most kCosineError. Returns nothing for a hull that is small or too large to keep.
     [[nodiscard]] std::span<const float> face_cosines(
         const Double3& direction, std::array<float, PlacedHull::kMostFacets>& room) const noexcept;
     static constexpr float kCosineError = 1e-6F;
@@ -167,13 +167,13 @@ public:
         return large_ != nullptr ? hull().bound_along(direction, from) : reach(direction, from);
     }
 
-    /// Returns whether the way out of the piece along a unit direction leads away from the solid: a
-    /// triangle with the feature faces that direction, or the direction leads along such a triangle
-    /// over a convex edge, where the next triangle faces it.
+    /// Returns whether the way out of the piece along a unit direction leads away from the solid.
+    /// It does if a triangle with the feature faces that direction. It also does if it leads along
+    /// such a triangle over a convex edge, where the next triangle faces it.
     [[nodiscard]] bool leads_out(const PieceFeature& feature,
                                  const Double3& direction) const noexcept;
-    /// Returns whether the space in a unit direction is clearly inside the solid: the direction is
-    /// behind all triangles with the feature.
+    /// Returns whether the space in a unit direction is clearly inside the solid. Then the
+    /// direction is behind all triangles with the feature.
     [[nodiscard]] bool is_seen_from_behind(const PieceFeature& feature,
                                            const Double3& direction) const noexcept;
 

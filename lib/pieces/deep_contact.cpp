@@ -14,7 +14,7 @@
 #include "pieces/contact_side.h"
 #include "walk/nearest_triangle.h"
 
-// The surface of the other model is not near, so the contact cannot come from pieces. The way out
+// No triangles of the two models touch, so the contact cannot come from pieces. The way out
 // leads out of hulls that enclose the other model. A direction is tried as follows: B moves until a
 // plane separates it from a hull that it overlaps, and again, until it overlaps none. Each hull
 // moves B once at most. If the hulls are parts, the component could then be in a space between

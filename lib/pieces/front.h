@@ -24,7 +24,7 @@ namespace cdprep {
 enum class FrontEnd : std::uint8_t {
     whole,  ///< every pair was tested
     ended,  ///< open() returned false
-    lost,   ///< the models have jumped, or are near in more places than there is room for: not all
+    lost,   ///< the models have jumped, or are near in more places than there is room for. Not all
             ///< pairs were tested, and the front is now empty
 };
 

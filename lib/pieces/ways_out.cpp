@@ -7,26 +7,26 @@
 #include "core/numbers.h"
 #include "exact/box3.h"
 
-// The bound. Let u = 2^-53, A and B the hulls of the corners as they are moved, and A' and B' those
-// of the corners as exact arithmetic would move them. An affine map keeps the faces of a polytope,
-// so those of A' and B' are known. Each corner is moved by at most e_A or e_B, so the depth of A
-// and B differs from that of A' and B' by at most e_A + e_B. A normal computed from rounded corners
-// is off by an angle d, and the reach of A' - B' along it by at most d R, where R is the largest
-// distance between two corners.
+// The bound. Let u = 2^-53. Let A and B be the hulls of the corners as they are moved. Let A' and
+// B' be those of the corners as exact arithmetic would move them. An affine map keeps the faces of
+// a polytope, so those of A' and B' are known. Each corner is off by at most e_A or e_B. So the
+// depth of A and B differs from that of A' and B' by at most e_A + e_B. Let R be the largest
+// distance between two corners. A normal computed from rounded corners is off by an angle d. The
+// reach of A' - B' along it is then off by at most d R.
 //
-// shortest_way_by_faces() needs a bound from above: the plane of a face of A is off by e_A, and so
-// is the end of A, that of B by e_B. The error of a face's normal counts twice what corners add to
+// shortest_way_by_faces() needs a bound from above. The plane of a face of A is off by e_A. So is
+// the end of A, and that of B by e_B. The error of a face's normal counts twice what corners add to
 // it, which covers the second e_A.
 //
-// The nearest point of the border of A' - B' lies in the face whose plane is nearest. If that is a
-// face of two edges, these edges come as near to each other as the plane is to the origin. So edges
-// that are farther apart than a known way out need not be tested where A and B meet.
+// The nearest point of the border of A' - B' lies in the face whose plane is nearest. If two edges
+// make that face, they come as near to each other as the plane is to the origin. So edges that are
+// farther apart than a known way out need not be tested where A and B meet.
 //
-// Edges of A' and B' at a small angle t have no certain normal, and are left out: their face is no
-// nearer than another by more than 2 t R. The normals along which A' ends at its edge form an arc,
-// and the reach c cos(phi - phi_0) of its points over those of the other edge is least at one end
-// of the part that both arcs share, up to t R. That end is the normal of a face of A', or one of B'
-// up to another t R.
+// Edges of A' and B' at a small angle t have no certain normal, and are left out. Their face is no
+// nearer than another by more than 2 t R. The normals along which A' ends at its edge form an arc.
+// Along them, its points reach c cos(phi - phi_0) over those of the other edge. This is least at
+// one end of the part that both arcs share, up to t R. That end is the normal of a face of A', or
+// one of B' up to another t R.
 
 namespace cdprep {
 namespace {

@@ -11,9 +11,9 @@
 #include "walk/smallest_pairs.h"
 #include "walk/walked_trees.h"
 
-// Both hierarchies are walked as for overlaps, with boxes widened by the tolerance: two triangles
+// Both hierarchies are walked as for overlaps, with boxes widened by the tolerance. Two triangles
 // within it are at most that far apart along any direction. Bounds in float separate most triangles
-// of the leaves that are reached; the others are tested exactly.
+// of the leaves that are reached. The others are tested exactly.
 
 namespace cdprep {
 namespace {

@@ -28,12 +28,12 @@ float rounded_up(double x) noexcept {
 
 }  // namespace
 
-// Let u = 2^-53. The corners of the root box, its middle c and half h are off by less than 8 u of
-// m = |o| + |c| + h, where o is the origin of the frame. R c + t adds 4 u (|R| m + |t|), and the
-// vertices that transform_point() computes as much. Each R deviates from a rotation by 1e-12 at
-// most, so the products of two of them, and of three for the directions of edges, by 6e-12. 2^-37
-// covers all these, and the sums below, as that with the origin of a scene. Where numbers
-// underflow, kLeast covers the rest.
+// Let u = 2^-53. The corners of the root box, its middle c and half h are off by less than 8 u m.
+// Here m = |o| + |c| + h, and o is the origin of the frame. R c + t adds 4 u (|R| m + |t|), and
+// the vertices that transform_point() computes as much. Each R deviates from a rotation by 1e-12
+// at most. So the products of two of them, and of three for the directions of edges, deviate by
+// 6e-12. 2^-37 covers all these, and the sums below, as that with the origin of a scene. Where
+// numbers underflow, kLeast covers the rest.
 constexpr double kSlack = 0x1p-37;
 constexpr double kLeast = std::numeric_limits<double>::min();
 

@@ -68,8 +68,8 @@ struct Records {
     Contact* contacts = nullptr;
 };
 
-/// Calls `visit(i, j)` for each pair of slots: with the index of its record in x and in y, or the
-/// count where it has none.
+/// Calls `visit(i, j)` for each pair of slots. i and j are the indices of its records in x and in
+/// y. Where it has no record, the index is the count.
 template <class Visit>
 void merge(const Records& x, const Records& y, const Visit& visit) {
     std::uint32_t i = 0, j = 0;

@@ -12,22 +12,23 @@
 // that covers all rounding has two parts.
 //
 // Double, in model units. Let u = 2^-53, rho the largest |coordinate| of a model and |T| the
-// largest |component| of its translation. A moved vertex is off its ideal place by at most 5 u (3
-// rho + |T|) per axis (level E1), on either side. The rotation into A's axes multiplies this by at
-// most sqrt 3. Because R^T R is the identity only to 1e-12, it also shifts a point of A by up to
-// 3e-12 rho if A moves. The relative pose itself is rounded by at most 16 u (|Ta| + |Tb| + 3
-// rho_b + rho_a). The shift and the places of leaves are computed from it, which adds 16 u of the
-// same. The sum is below kDoubleSlack (rho_a + rho_b + |Ta| + |Tb|) + 4e-12 rho_a.
+// largest |component| of its translation. Moved vertices have level E1. On either side, they are
+// off their ideal places by at most 5 u (3 rho + |T|) per axis. The rotation into A's axes
+// multiplies this by at most sqrt 3. R^T R is the identity only to 1e-12. So the rotation also
+// shifts a point of A by up to 3e-12 rho if A moves. The relative pose itself is rounded by at most
+// 16 u (|Ta| + |Tb| + 3 rho_b + rho_a). The shift and the places of leaves are computed from it,
+// which adds 16 u of the same. The sum is below kDoubleSlack (rho_a + rho_b + |Ta| + |Tb|) +
+// 4e-12 rho_a.
 //
 // Float, in frame units, v = 2^-24. Let boxes of A lie within s_a and boxes of B within s_b of
-// their origins, and let t be the shift. Rotating a centre costs at most 9 v s_b, and adding the
-// shift 2 v (s_b + |t|). Centres and half extents from lower and upper cost 2 v (s_a + s_b). The
+// their origins. Let t be the shift. Rotating a centre costs at most 9 v s_b, and adding the shift
+// 2 v (s_b + |t|). Centres and half extents from lower and upper cost 2 v (s_a + s_b). The
 // difference and the sums cost 4 v (s_a + 2 s_b + |t|). Along B's axes the same holds with a and b
 // exchanged. The sum is below 32 v (s_a + s_b + |t|).
 //
-// Oriented boxes. The difference of two centres is off as above, and its product with a unit axis
-// by 5 v sqrt 3 of it: the same bound holds. Stored axes are not quite at right angles; the builder
-// of these boxes covers that.
+// Oriented boxes. The difference of two centres is off as above. Its product with a unit axis is
+// off by 5 v sqrt 3 of it. So the same bound holds. Stored axes are not quite at right angles; the
+// builder of these boxes covers that.
 
 namespace cdprep {
 namespace {

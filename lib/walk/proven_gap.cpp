@@ -8,10 +8,10 @@
 #include "exact/length_of.h"
 #include "walk/box_placement.h"
 
-// A gap that was proved in one pose holds in another, minus the longest way of any point of the
-// moving model between the two. The way is measured relative to the other model. It is at most the
-// way of a corner of a box around the model: the difference of a point's two places is affine in
-// the point, and length is convex. In either pose, vertices are off their ideal places by
+// A gap that was proved in one pose holds in another, minus the way between the two. That is the
+// longest way of any point of the moving model, relative to the other model. It is at most the way
+// of a corner of a box around the model. The difference of a point's two places is affine in the
+// point, and length is convex. In either pose, vertices are off their ideal places by
 // double_slack() at most. This is subtracted when the gap is stored and when it is used, and once
 // more for the roundings here. A pose that rotates A may shorten lengths by its tolerance.
 

@@ -11,9 +11,10 @@
 namespace cdprep {
 
 /// Lower bounds of the distance from a triangle, segment or point to the boxes and triangles of a
-/// nearest search. There are three: the gap between the boxes around both; the gap along the
-/// direction from the shape to the middle of the other; and, once a near place is known, the gap
-/// along the direction to it. A gap along any vector of length at most 1 bounds the distance.
+/// nearest search. There are three. One is the gap between the boxes around both. One is the gap
+/// along the direction from the shape to the middle of the other. Once a near place is known, the
+/// third is the gap along the direction to it. A gap along any vector of length at most 1 bounds
+/// the distance.
 class ShapeGap {
 public:
     ShapeGap(const MovedModel& model, const Corners& shape) noexcept

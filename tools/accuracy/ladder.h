@@ -119,9 +119,9 @@ struct Climb {
     }
 };
 
-/// Sets the fields that follow from a rung's answers: errors by stratum, the share of wrong answers
-/// as `error` (of false hits if the rung promises no misses), and the worst pose. Adds a sentence
-/// to `broken` if answers break the promise.
+/// Sets the fields that follow from a rung's answers: errors by stratum, `error` and the worst
+/// pose. `error` is the share of wrong answers, or of false hits if the rung promises no misses.
+/// Adds a sentence to `broken` if answers break the promise.
 void judge_answers(const std::string& ladder, const PoseSet& set, Rung& rung, Broken& broken);
 
 /// Adds a sentence to `broken` if the rung's pairs break its promise. A missing pair breaks

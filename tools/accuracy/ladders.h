@@ -24,16 +24,16 @@ namespace cdprep::study {
 /// so they promise no misses.
 [[nodiscard]] Ladder climb_geometry(const Climb& climb, Broken& broken);
 
-/// The test whether the models touch, and which triangles do, if vertices have fewer bits: on a
-/// grid over each model's box, as floats, as doubles.
+/// The test whether the models touch, and which triangles do, if vertices have fewer bits. They are
+/// on a grid over each model's box, floats, or doubles.
 [[nodiscard]] Ladder climb_storage(const Climb& climb, Broken& broken);
 
 /// Returns the mesh with its vertices moved to the nearest points of a grid. The grid has 2^bits
 /// planes along each axis of the cube around the mesh.
 [[nodiscard]] mesh::Mesh on_grid(const mesh::Mesh& mesh, unsigned bits);
 
-/// Returns whether all coordinates are far enough within the range of float: they stay in it if the
-/// mesh is rotated and moved around another one of its size.
+/// Returns whether all coordinates are far enough within the range of float. They then stay in it
+/// if the mesh is rotated and moved around another one of its size.
 [[nodiscard]] bool fits_float(const mesh::Mesh& mesh) noexcept;
 
 }  // namespace cdprep::study

@@ -8,9 +8,9 @@
 
 namespace cdprep::cli {
 
-/// The origin of a baked file: everything that decides its bytes, and nothing else (no time, no
-/// host, no path except those by which the input refers to other files). Canonical JSON: sorted
-/// keys, no blanks, shortest numbers.
+/// The origin of a baked file: everything that decides its bytes, and nothing else. It has no
+/// time, no host, and no path except those by which the input refers to other files. Canonical
+/// JSON: sorted keys, no blanks, shortest numbers.
 [[nodiscard]] std::string provenance_json(const BakeOptions& options,
                                           const mesh::TriangleSoup& soup);
 

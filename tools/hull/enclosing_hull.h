@@ -12,7 +12,7 @@ inline constexpr std::uint32_t kFewestEnclosingVertices = 4;
 
 struct EnclosingHull {
     ConvexHull hull;  ///< `numbers` is empty unless it is the exact hull
-    /// A proved upper bound on the Hausdorff distance from the exact hull, in model units: no
+    /// A proved upper bound on the Hausdorff distance from the exact hull, in model units. No
     /// point is farther from it. 0 if the hulls are equal.
     double distance = 0;
 };

@@ -101,8 +101,8 @@ void GrowingHull::add(const Double3& point) {
 }
 
 // Facets whose plane contains the point are not visible. So the visible facets are whole faces
-// and form a disk. No facet between an edge of its rim and the point is degenerate: a point in
-// line with the edge would lie in the plane of the visible facet too.
+// and form a disk. No facet between an edge of its rim and the point is degenerate. A point in line
+// with the edge would lie in the plane of the visible facet too.
 void GrowingHull::take_in(std::uint32_t point) {
     visible_.assign(facets_.size(), 0);
     bool any = false;

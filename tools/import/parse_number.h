@@ -13,9 +13,9 @@ namespace cdprep::import {
 struct Number {
     double value = 0;            ///< correctly rounded; NaN for spellings of no finite number
     const char* next = nullptr;  ///< just past it; null if there is no number
-    /// The nearest float represents the number without loss. Either that float equals `value`,
-    /// or the text has at most 9 significant digits and the float, printed with that number of
-    /// digits, reads the same. static_cast<float>(value) is that float.
+    /// The nearest float represents the number without loss. Either that float equals `value`, or
+    /// it reads the same when printed with as many digits as the text. The text then has at most 9
+    /// significant digits. static_cast<float>(value) is that float.
     bool single = false;
 };
 

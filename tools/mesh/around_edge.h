@@ -28,8 +28,8 @@ public:
     [[nodiscard]] bool opens(HalfEdge h) const;
 
 private:
-    /// Returns 0 for the angle of the reference, or without an angle; 1 for less than half a
-    /// turn from it; 2 for half a turn; 3 for more.
+    /// Returns 0 for the angle of the reference, or without an angle. Returns 1 for less than
+    /// half a turn from it, 2 for half a turn, 3 for more.
     [[nodiscard]] int sector(HalfEdge h) const;
     [[nodiscard]] const Double3& apex(HalfEdge h) const;
     bool refer_to(const Double3& p);

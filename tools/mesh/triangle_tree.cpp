@@ -29,10 +29,11 @@ constexpr std::size_t kLeafSize = 8;       ///< triangles at most
 constexpr std::size_t kChunk = 1U << 14U;  ///< triangles per task
 constexpr std::size_t kLeavesAtOnce = kChunk / kLeafSize;
 
-// Coordinates between -1 and 1, of a box's sides or of a point, are rounded to float by at most
-// 2^-25 each. A coordinate of a point farther out is rounded by at most 2^-24 of itself; the
-// distance along that axis is at least half of it. After kMargin, and with the rounding of
-// differences, squares and sums, a computed square is at most 1 + 2^-21 times the true one.
+// Coordinates between -1 and 1, of box sides or points, are rounded to float by at most 2^-25.
+// A coordinate of a point farther out is rounded by at most 2^-24 of itself. From 2 on, the
+// distance along that axis is at least half of it. Below 2, kMargin covers this rounding too.
+// After kMargin, a computed square is at most 1 + 2^-21 times the true one. This includes the
+// rounding of differences, squares and sums.
 constexpr float kMargin = 0x1p-22F;       ///< boxes are larger by this on each side
 constexpr double kFurther = 1 + 0x1p-19;  ///< factor of a square: a box beyond it is not nearer
 constexpr double kMostSquare = 1e38;      ///< so that floats hold it

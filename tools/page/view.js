@@ -12,9 +12,9 @@ const MANY = 150;               // marks of a finding that are drawn smaller fro
 const EDGES_BY_DEFAULT = 60000; // triangles above which edges are drawn only when asked for
 
 // A segment as a band of constant width on the screen: WebGL draws lines one pixel wide
-// only. `corner` is (end, side). A segment that would be shorter than `least` pixels is
-// drawn that long, so that no edge is too small to be seen; a band with `thin` set is never
-// wider than a part of its length, so that outlines do not drown what they surround.
+// only. `corner` is (end, side). A segment shorter than `least` pixels is drawn that long,
+// so that no edge is too small to be seen. With `thin` set, a band is never wider than a
+// part of its length. So outlines do not drown what they surround.
 const BAND_VERTEX = `
   attribute vec3 other; attribute vec2 corner;
   uniform vec2 size; uniform float width; uniform float least; uniform float thin;
@@ -62,8 +62,8 @@ const PLAIN_FRAGMENT = `
   uniform vec3 colour; uniform float opacity; uniform float dim;
   void main() { gl_FragColor = vec4(colour, opacity * dim); }`;
 
-// How far marks are drawn before their depth, as a part of it about 25 times this: a band
-// is wider than the segment it stands for, and would sink into the surface beside it.
+// Marks are drawn before their depth by a part of it, about 25 times this. A band is wider
+// than the segment it stands for, and would sink into the surface beside it.
 const BIAS = {fill: 1e-4, outline: 2e-4, band: 1e-3, pin: 1.3e-3};
 
 function css_colour(name) {
@@ -558,8 +558,9 @@ class View {
     this.fitted = true;
   }
 
-  // The directions a place may be looked at from, the best first: from outside, but turned
-  // no more than needed and never flat upon an edge, then from elsewhere.
+  // The directions a place may be looked at from, the best first. First come those from
+  // outside, but turned no more than needed and never flat upon an edge. Those from
+  // elsewhere follow.
   directions(target, normal) {
     const present = this.camera.position.clone().sub(this.controls.target).normalize();
     const outwards = normal.lengthSq() > 0.25 ? normal.clone()

@@ -95,9 +95,9 @@ struct RayAnswer {
 };
 
 /// Writes answers one after the other: lines of text, elements of one JSON array, or lines of
-/// NDJSON such as {"pose": 0, "hit": true, "count": 2, "pairs": [[17, 4], [18, 4]]}. Segments are
-/// in the order of the pairs: six numbers each, or null if Crossing::is_flat. Numbers read back as
-/// the same doubles.
+/// NDJSON. A line of NDJSON is {"pose": 0, "hit": true, "count": 2, "pairs": [[17, 4], [18, 4]]}.
+/// Segments are in the order of the pairs: six numbers each, or null if Crossing::is_flat. Numbers
+/// read back as the same doubles.
 class Answers {
 public:
     /// `out` must outlive the object.

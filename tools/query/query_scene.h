@@ -37,8 +37,8 @@ inline constexpr double kDefaultReach = 0.01;
 /// the command.
 void add_scene(const Command& command, SceneArguments& arguments);
 
-/// Returns an error if an option does not fit: with --scene, one that is only for two models;
-/// without it, one that is only for a scene.
+/// Returns an error if an option does not fit. With --scene, this is an option only for two
+/// models. Without it, it is an option only for a scene.
 [[nodiscard]] std::optional<Error> find_idle_for_scene(const Command& command, bool has_scene);
 
 /// Asks all pairs of parts whose layers are paired, and writes the clashes and a summary.

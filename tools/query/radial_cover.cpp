@@ -18,7 +18,7 @@
 // planes i and j is the direction n_i x n_j. The sign of det(n_i, n_j, n_k) is the side of plane k
 // on which this corner lies. The mesh itself gives all planes:
 //   - through the centre and an edge (a, b) of a triangle: n = a x b;
-//   - around the directions in which s is farther out than t: let N_s, N_t be normals and
+//   - around the directions in which s is farther out than t. Let N_s, N_t be normals, and
 //     h_s, h_t > 0 the distances of their planes from the centre times their lengths. A ray meets
 //     s at r = h_s / (N_s . d), so n = h_s N_t - h_t N_s.
 // So signs have bounded degree, however often a region is cut. All corners are relative to the

@@ -98,7 +98,7 @@ bool less_corners(const Corners& a, const Corners& b) {
 }
 
 /// Returns the sorted triangle. A triangle of zero area becomes its segment, as a triangle whose
-/// last two corners are equal: its ends are the first and last of the sorted points.
+/// last two corners are equal. The ends of the segment are the first and last of the sorted points.
 Corners shape_of(const Corners& c) {
     const Corners sorted = ordered(c);
     return exact::is_degenerate(c) ? Corners{sorted[0], sorted[2], sorted[2]} : sorted;

@@ -18,9 +18,10 @@ struct MovedDistances {
 /// the source. A dropped triangle that is still present as another triangle, side or corner has
 /// the bound of that one.
 ///
-/// All other distances are measured: at corners, and inside triangles by splitting them until
-/// the bound is within 1e-4 of itself or 1e-9 of the model, or 200,000 pieces were split. Source
-/// triangles without a place are left out: those with a corner that is not finite or out of range.
+/// All other distances are measured at corners, and inside triangles by splitting them. Splitting
+/// ends when the bound is within 1e-4 of itself or 1e-9 of the model. It also ends after 200,000
+/// new pieces in one direction, counted as four for each split. Source triangles without a place
+/// are left out: those with a corner that is not finite or out of range.
 [[nodiscard]] MovedDistances find_moved_distances(const TriangleSoup& soup, const RepairMesh& mesh);
 
 }  // namespace cdprep::mesh

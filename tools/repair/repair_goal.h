@@ -37,10 +37,10 @@ struct SelfCrossing {
 [[nodiscard]] SelfCrossing find_output_crossing(const TriangleSoup& input, const RepairMesh& output,
                                                 const SearchOptions& options = {});
 
-/// Returns the promises of a find_repair_preset() preset that the output breaks, in words: "not
-/// solid: 12 pairs of triangles still cross or touch; first 310 and 1877". Empty if the goal is
-/// reached; never empty for an output without triangles. "solid" requires that nothing crosses;
-/// the other presets require no more crossings than in the input.
+/// Returns the promises of a find_repair_preset() preset that the output breaks, in words. An
+/// example is "not solid: 12 pairs of triangles still cross or touch; first 310 and 1877". Empty
+/// if the goal is reached. Never empty for an output without triangles. "solid" requires that
+/// nothing crosses; the other presets require no more crossings than in the input.
 [[nodiscard]] std::string missed_goal(std::string_view preset, const StoredVerdict& after,
                                       const SelfCrossing& crossing_before,
                                       const SelfCrossing& crossing_after);

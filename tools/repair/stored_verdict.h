@@ -50,7 +50,7 @@ struct StoredComponent {
     std::span<const Double3> positions, std::span<const Triangle> triangles);
 
 /// Returns whether `after` lacks a property that `before` had: inside defined, manifold,
-/// oriented, closed. A later one of the last three may be lost to gain an earlier one: an edge
+/// oriented, closed. A later one of the last three may be lost to gain an earlier one. An edge
 /// of three triangles is closed by definition, but bounds nothing.
 [[nodiscard]] bool is_worse(const StoredVerdict& after, const StoredVerdict& before) noexcept;
 

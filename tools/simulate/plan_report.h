@@ -9,8 +9,8 @@
 
 namespace cdprep::report {
 
-/// Returns a page of text: layers, the plan, and for each model what it must serve, the sections
-/// that are read and those that are never touched, with their bytes.
+/// Returns a page of text: layers, the plan and the models. For each model it lists what it must
+/// serve. It also lists the sections that are read and those never touched, with their bytes.
 [[nodiscard]] std::string plan_text(const scenes::SceneFile& scene, const Plan& plan,
                                     std::span<const scenes::SceneModel> models);
 

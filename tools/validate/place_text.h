@@ -12,8 +12,8 @@ namespace cdprep::report {
 /// Returns the path of the node that a source triangle belongs to; "" if the file has none.
 [[nodiscard]] std::string node_of(const ValidationReport& report, std::uint32_t triangle);
 
-/// Returns a place as part of a sentence, with at most `most_numbers` numbers of a kind:
-/// "triangles 310, 1877 of root/arm at (1, 2, 3); length, model units: 0.5".
+/// Returns a place as part of a sentence, with at most `most_numbers` numbers of a kind. An
+/// example is "triangles 310, 1877 of root/arm at (1, 2, 3); length, model units: 0.5".
 [[nodiscard]] std::string place_text(const ValidationReport& report, mesh::Rule rule,
                                      const mesh::Place& place, std::size_t most_numbers);
 

@@ -53,8 +53,8 @@ struct HullsFileOptions {
 [[nodiscard]] bool may_replace(const std::filesystem::path& path, HullsFormat format,
                                const std::filesystem::path& file);
 
-/// Writes hulls, each under its name. They become objects of an OBJ, nodes of a GLB, collision
-/// elements of one link of a URDF or SDF, or mesh geoms of one body of an MJCF.
+/// Writes hulls, each under its name. They become objects of an OBJ, nodes of a GLB, or mesh
+/// geoms of one body of an MJCF. In a URDF or SDF, they become collision elements of one link.
 ///
 /// Coordinates are written in the fewest digits that read back bit for bit. GLB has only
 /// floats: its corners are rounded to the nearest float. URDF and SDF refer to mesh files by

@@ -17,16 +17,16 @@
 #include "core/guarded_for.h"
 #include "exact/winding.h"
 
-// Built level by level, all cones of a level at once: each cone's list of triangles is passed down
+// Built level by level, all cones of a level at once. Each cone's list of triangles is passed down
 // to its children. Most triangles lie inside one finest cone, which is known from their corners
 // alone (inner_cone). The exact test decides the others. Lists are cut into pieces of
-// kItemsPerTask. These are counted first, then moved to places that are known, so that every list
-// rises and no thread waits for another. The first levels, whose cones are split in any case, are
-// done in one step.
+// kItemsPerTask. These are counted first, then moved to known places. So every list rises and no
+// thread waits for another. The first levels, whose cones are split in any case, are done in one
+// step.
 //
-// Scratch, in bytes: 20 per vertex, and 1 during the search for the centre; 4 per triangle, and 3
-// in the first step; 9 per reference of two consecutive levels. Neither level has more references
-// than the result: a triangle that touches a cone touches a child.
+// Scratch: a vertex takes 20 bytes, and 1 more during the search for the centre. A triangle takes 4
+// bytes, and 3 more in the first step. A reference of two consecutive levels takes 9 bytes. Neither
+// level has more references than the result: a triangle that touches a cone touches a child.
 
 namespace cdprep::build {
 namespace {

@@ -4,22 +4,22 @@
 #include <algorithm>
 #include <limits>
 
-// The part of a triangle in a cone is that of the weights w >= 0, sum 1, with sum(w_i f_k(i)) >= 0
-// for the three faces k. A linear function v with values v_i at the corners is to be bounded there.
+// The part of a triangle in a cone has the weights w >= 0 with sum 1. For the three faces k,
+// sum(w_i f_k(i)) >= 0. A linear function v with values v_i at the corners is to be bounded there.
 // For any y >= 0
 //
 //     v = sum(w_i v_i) <= sum(w_i (v_i + sum(y_k f_k(i)))) <= max_i (v_i + sum(y_k f_k(i))).
 //
 // So every y proves a bound, however y was found and rounded: only the right side must be rounded
 // up. The best y makes the bound the maximum (duality of linear programs). It is one of few
-// candidates. It is 0 when a corner is the maximum. It has one positive part, which makes two
-// corners equal, when the maximum is where an edge leaves through a face. It has two positive
-// parts, which make all three corners equal, when the maximum is on a generator. All are tried,
-// except for faces that no edge crosses: these cut nothing off.
+// candidates. It is 0 when a corner is the maximum. One part is positive, and makes two corners
+// equal, when the maximum is where an edge leaves through a face. Two parts are positive, and make
+// all three corners equal, when the maximum is on a generator. All are tried, except for faces that
+// no edge crosses: these cut nothing off.
 //
 // Rounding: let e be the corner's slack (cone_faces.h: 8 u of its size). v and f are off by less
 // than e each. The products and sums add 3 u (|v| + sum(y |f|)). Both v and f are at most twice the
-// size, so this is less than 6 u of it (1 + sum(y)). In all the error is less than
+// size. So this is less than 6 u of it (1 + sum(y)). In all the error is less than
 // 1.75 e (1 + sum(y)).
 
 namespace cdprep::build {

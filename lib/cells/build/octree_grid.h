@@ -16,10 +16,10 @@ namespace cdprep::build {
 [[nodiscard]] format::OctreeGrid octree_grid_around(std::span<const Double3> positions,
                                                     ParallelFor parallel_for);
 
-/// The place of a vertex among the finest planes of each axis, doubled: 2 i on plane i, 2 i + 1
-/// strictly between planes i and i + 1. A point on a plane touches both sides. So this value,
-/// unlike the number of a cell, determines exactly which closed cells hold a vertex. Floats hold
-/// its 22 bits exactly. A fourth lane is always 0, so that one instruction compares all axes.
+/// The place of a vertex among the finest planes of each axis, doubled. It is 2 i on plane i and
+/// 2 i + 1 strictly between planes i and i + 1. A point on a plane touches both sides. So this
+/// value, unlike the number of a cell, determines exactly which closed cells hold a vertex. Floats
+/// hold its 22 bits exactly. A fourth lane is always 0, so that one instruction compares all axes.
 using Stand = Lanes<float, 4>;
 
 [[nodiscard]] inline float octree_stand(double origin, double step, double x) noexcept {

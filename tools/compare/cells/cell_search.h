@@ -18,8 +18,8 @@ struct CellSearchOptions {
     std::function<bool()> stop{};
 };
 
-/// Returns the time to find the cell of a point, hashed and hierarchical: a row per mesh, depth,
-/// set of points and state of the caches.
+/// Returns the time to find the cell of a point, hashed and hierarchical. There is a row per
+/// mesh, depth, set of points and state of the caches.
 [[nodiscard]] Table cell_search_table(std::span<const StudyMesh> meshes,
                                       const CellSearchOptions& options);
 

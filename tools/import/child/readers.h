@@ -20,11 +20,11 @@ namespace cdprep::import {
 [[nodiscard]] bool is_3mf(const std::filesystem::path& path);
 
 /// Reads the meshes of 3MF (core specification 1.3, production extension) that its build items
-/// place. Throws std::runtime_error with the reason in three cases: a part is missing, an object
-/// has other geometry than triangles, or the file requires an unsupported extension.
+/// place. Throws std::runtime_error with the reason if a part is missing or the file requires an
+/// unsupported extension. Also throws it if an object has other geometry than triangles.
 ///
 /// Uses libzip and pugixml instead of assimp or lib3mf. assimp 5.2 returns empty scenes for valid
-/// files; lib3mf rounds numbers to floats and refuses triangles that use a corner twice.
+/// files. lib3mf rounds numbers to floats and refuses triangles that use a corner twice.
 [[nodiscard]] Scene read_3mf(const std::filesystem::path& path, InputFiles& files);
 
 /// Reads glTF 2.0, as JSON or GLB. Returns nothing if the file is not glTF or is glTF 1; assimp
