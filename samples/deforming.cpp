@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "cdprep/advanced/runtime_model.h"
+#include "cdprep/live_model.h"
 #include "cdprep/pairs.h"
 
 namespace {
@@ -56,10 +56,10 @@ int main() {
     // A model whose vertices move: it has plain boxes, which are quick to refit.
     const auto moving = cdprep::build::build_model(rest.positions, rest.triangles,
                                                    {.bounds = cdprep::build::BvhBounds::aligned});
-    std::vector<Line> room(cdprep::build::RuntimeModel::bytes(moving.value()).value() /
+    std::vector<Line> room(cdprep::LiveModel::bytes(moving.value()).value() /
                            sizeof(Line));
     auto object =
-        cdprep::build::RuntimeModel::in(std::as_writable_bytes(std::span(room)), moving.value());
+        cdprep::LiveModel::in(std::as_writable_bytes(std::span(room)), moving.value());
     if (!fixed_model || !object) return 1;
 
     cdprep::Workspace workspace;

@@ -44,7 +44,7 @@ struct Model::State {
     void find_sections(SectionSet wanted);
 
     /// Returns whether the leaves are exact; a model without triangles has no leaves. Reads the
-    /// header, which a RuntimeModel changes.
+    /// header, which a LiveModel changes.
     [[nodiscard]] bool is_exact() const noexcept {
         return (header->flags & format::model_exact_leaves) != 0 && header->triangle_count > 0;
     }

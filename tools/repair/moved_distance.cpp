@@ -38,8 +38,8 @@ public:
             positions, numbers,
             {.bounds = build::BvhBounds::aligned, .quality = build::Quality::fast});
         if (!arrays) return;
-        memory_.resize(build::RuntimeModel::bytes(arrays.value()).value() / sizeof(Block) + 1);
-        model_ = build::RuntimeModel::in(std::as_writable_bytes(std::span(memory_)), arrays.value())
+        memory_.resize(LiveModel::bytes(arrays.value()).value() / sizeof(Block) + 1);
+        model_ = LiveModel::in(std::as_writable_bytes(std::span(memory_)), arrays.value())
                      .value();
     }
 
@@ -60,7 +60,7 @@ private:
 
     std::vector<Corners> triangles_;
     std::vector<Block> memory_;
-    std::optional<build::RuntimeModel> model_;
+    std::optional<LiveModel> model_;
     mutable Workspace workspace_;
 };
 

@@ -28,7 +28,7 @@ struct ObjectId {
 };
 
 /// An object to add. The model must outlive it, and serve Plan::asks_of(layer). After
-/// RuntimeModel::refit(), call set_pose() for each object of the model, even with the same pose.
+/// LiveModel::refit(), call set_pose() for each object of the model, even with the same pose.
 struct SceneObject {
     const Model* model = nullptr;
     std::uint32_t layer = 0;

@@ -16,7 +16,7 @@ namespace cdprep {
 /// gap relative to each other, they do not touch.
 ///
 /// Use one cache for each pair of models and thread, for any queries. A cache that was filled by
-/// another pair, or by a build::RuntimeModel before its last refit(), only costs time. Make a new
+/// another pair, or by a LiveModel before its last refit(), only costs time. Make a new
 /// cache if anything other than refit() changed a model's memory in place. The members belong to
 /// the library; all zero is a new cache.
 struct PairCache {

@@ -12,7 +12,7 @@
 #include <tuple>
 #include <vector>
 
-#include "cdprep/advanced/runtime_model.h"
+#include "cdprep/live_model.h"
 #include "support/aligned_bytes.h"
 #include "support/float_modes.h"
 #include "support/more_sections.h"
@@ -639,8 +639,8 @@ TEST(Scene, SeesModelsThatWereRefitted) {
     const test::TestMesh mesh = test::icosphere(1);
     const auto arrays =
         build::build_model(mesh.positions, mesh.triangles, {.bounds = build::BvhBounds::aligned});
-    test::AlignedBytes room(build::RuntimeModel::bytes(arrays.value()).value());
-    auto object = build::RuntimeModel::in(room.span(), arrays.value());
+    test::AlignedBytes room(LiveModel::bytes(arrays.value()).value());
+    auto object = LiveModel::in(room.span(), arrays.value());
     ASSERT_TRUE(object);
     const test::OpenModel ball = test::open_tiny(mesh);
     const Plan plan = plain_plan(2, 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/runtime_model.h"
+#include "cdprep/live_model.h"
 
 #include <gtest/gtest.h>
 
@@ -26,14 +26,13 @@ namespace {
 
 using build::build_model;
 using build::ModelArrays;
-using build::RuntimeModel;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// A run-time model and its memory.
+/// A live model and its memory.
 struct Running {
     AlignedBytes memory;
-    RuntimeModel object;
+    LiveModel object;
 
     [[nodiscard]] const Model& model() const {
         return object.model();
@@ -42,8 +41,8 @@ struct Running {
 
 template <class Base>
 Running run(const Base& base) {
-    AlignedBytes memory(RuntimeModel::bytes(base).value());
-    auto made = RuntimeModel::in(memory.span(), base);
+    AlignedBytes memory(LiveModel::bytes(base).value());
+    auto made = LiveModel::in(memory.span(), base);
     return {std::move(memory), std::move(made).value()};
 }
 
@@ -89,7 +88,7 @@ std::vector<Motion> motions() {
             {fan(1), {moved_by(fan(1), 3, {1, 1, 1})}}};
 }
 
-/// The model of a shape, in the order of an earlier one, made without RuntimeModel's refit.
+/// The model of a shape, in the order of an earlier one, made without LiveModel's refit.
 Running made_anew(const ModelArrays& start, const TestMesh& shape) {
     build::Bvh bvh = start.bvh;
     build::refit_bvh(bvh, shape.positions, shape.triangles, {.bounds = build::BvhBounds::aligned});
@@ -99,7 +98,7 @@ Running made_anew(const ModelArrays& start, const TestMesh& shape) {
 
 // refit_bvh() and arrange_model() come to the same bytes on another way: with them to the same
 // answers. The deep check of the format proves boxes and marks by itself.
-TEST(RuntimeModel, ARefittedImageIsThatOfAModelMadeAnew) {
+TEST(LiveModel, ARefittedImageIsThatOfAModelMadeAnew) {
     for (const Motion& motion : motions()) {
         const ModelArrays arrays = arrays_of(motion.start);
         Running moving = run(arrays);
@@ -166,7 +165,7 @@ void expect_same_points(const Model& moving, const Model& fresh, std::uint32_t s
 }
 
 // The truth is a model that is baked of the moved mesh, with an order and boxes of its own.
-TEST(RuntimeModel, AnswersAreThoseOfABakeOfTheMovedMesh) {
+TEST(LiveModel, AnswersAreThoseOfABakeOfTheMovedMesh) {
     const OpenModel other = open_tiny(torus(1, 0.3, 24, 12), {.double_precision = true});
     const TestMesh ball = icosphere(3);
     const TestMesh soup = random_soup(7, 400, 0.4);
@@ -188,7 +187,7 @@ TEST(RuntimeModel, AnswersAreThoseOfABakeOfTheMovedMesh) {
     }
 }
 
-TEST(RuntimeModel, FloatsAreKeptAsFloats) {
+TEST(LiveModel, FloatsAreKeptAsFloats) {
     const TestMesh ball = in_floats(icosphere(3));
     Running moving = run(build_model(floats_of(ball), ball.triangles).value());
     const TestMesh shape = in_floats(sheared(ball, 0.7));
@@ -201,7 +200,7 @@ TEST(RuntimeModel, FloatsAreKeptAsFloats) {
 }
 
 // A float is a double: the model of doubles comes to the same bytes.
-TEST(RuntimeModel, AModelOfDoublesTakesFloats) {
+TEST(LiveModel, AModelOfDoublesTakesFloats) {
     const TestMesh ball = in_floats(icosphere(2));
     const ModelArrays arrays = arrays_of(icosphere(2));
     Running floats = run(arrays);
@@ -211,7 +210,7 @@ TEST(RuntimeModel, AModelOfDoublesTakesFloats) {
     EXPECT_TRUE(std::ranges::equal(floats.object.image(), doubles.object.image()));
 }
 
-TEST(RuntimeModel, ABakedModelIsABaseToo) {
+TEST(LiveModel, ABakedModelIsABaseToo) {
     const TestMesh ball = icosphere(3);
     const OpenModel baked =
         open_tiny(ball, {.double_precision = true, .bounds = build::BvhBounds::oriented_and_swept});
@@ -226,7 +225,7 @@ TEST(RuntimeModel, ABakedModelIsABaseToo) {
     expect_same_answers(moving.model(), fresh.model, other.model, Placement::b_moves({}));
 }
 
-TEST(RuntimeModel, ABaseThatLacksASectionIsRefusedByItsName) {
+TEST(LiveModel, ABaseThatLacksASectionIsRefusedByItsName) {
     const TestMesh ball = icosphere(1);
     for (const SectionId id :
          {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
@@ -236,33 +235,33 @@ TEST(RuntimeModel, ABaseThatLacksASectionIsRefusedByItsName) {
         wanted.erase(id);
         const auto base = Model::open(bytes.span(), wanted);
         ASSERT_TRUE(base);
-        const auto size = RuntimeModel::bytes(base.value());
+        const auto size = LiveModel::bytes(base.value());
         ASSERT_FALSE(size) << format::section_name(id);
         EXPECT_NE(size.error().message.find(format::section_name(id)), std::string::npos);
         AlignedBytes memory(1 << 20);
-        EXPECT_FALSE(RuntimeModel::in(memory.span(), base.value()));
+        EXPECT_FALSE(LiveModel::in(memory.span(), base.value()));
     }
     const AlignedBytes bytes = bake_tiny(ball.positions, ball.triangles);
     const auto blind = Model::open(
         bytes.span(), {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
                        SectionId::bvh_nodes, SectionId::bvh_leaves});
-    EXPECT_NE(RuntimeModel::bytes(blind.value()).error().message.find("positions"),
+    EXPECT_NE(LiveModel::bytes(blind.value()).error().message.find("positions"),
               std::string::npos);
 }
 
 // No position of the imported file stands for such a vertex.
-TEST(RuntimeModel, VerticesThatARepairMadeAreRefused) {
+TEST(LiveModel, VerticesThatARepairMadeAreRefused) {
     const TestMesh ball = icosphere(1);
     const AlignedBytes bytes =
         with(bake_tiny(ball.positions, ball.triangles), SectionId::source_vertex,
              4 * sizeof(std::uint32_t), format::kMadeByRepair);
     const auto base = Model::open(bytes.span());
     ASSERT_TRUE(base);
-    EXPECT_NE(RuntimeModel::bytes(base.value()).error().message.find("vertex 4 was made by"),
+    EXPECT_NE(LiveModel::bytes(base.value()).error().message.find("vertex 4 was made by"),
               std::string::npos);
 }
 
-TEST(RuntimeModel, BadPositionsAreRefusedByNumberAndChangeNothing) {
+TEST(LiveModel, BadPositionsAreRefusedByNumberAndChangeNothing) {
     const TestMesh ball = icosphere(2);
     Running moving = run(arrays_of(ball));
     ASSERT_TRUE(moving.object.refit(sheared(ball, 0.3).positions));
@@ -281,21 +280,21 @@ TEST(RuntimeModel, BadPositionsAreRefusedByNumberAndChangeNothing) {
     EXPECT_EQ(moving.object.refit(floats).error().message.find("Vertex 3 "), 0U);
     const std::span<const Double3> few = std::span(ball.positions).first(ball.positions.size() - 1);
     EXPECT_EQ(moving.object.refit(few).error().message,
-              "The run-time model has 162 positions, and 161 were given.");
+              "The live model has 162 positions, and 161 were given.");
     const std::span<const Double3> own = moving.object.model().mesh().positions_f64;
     EXPECT_EQ(moving.object.refit(own).error().message.find(
-                  "The positions point into the run-time model"),
+                  "The positions point into the live model"),
               0U);
     EXPECT_TRUE(std::ranges::equal(before.span(), moving.memory.span()));
 }
 
-TEST(RuntimeModel, MemoryThatDoesNotFitIsRefused) {
+TEST(LiveModel, MemoryThatDoesNotFitIsRefused) {
     const ModelArrays arrays = arrays_of(icosphere(1));
-    const std::size_t size = RuntimeModel::bytes(arrays).value();
+    const std::size_t size = LiveModel::bytes(arrays).value();
     AlignedBytes memory(size + 64);
-    EXPECT_FALSE(RuntimeModel::in(memory.span().first(size - 1), arrays));
-    EXPECT_FALSE(RuntimeModel::in(memory.span().subspan(8), arrays));
-    EXPECT_TRUE(RuntimeModel::in(memory.span(), arrays));
+    EXPECT_FALSE(LiveModel::in(memory.span().first(size - 1), arrays));
+    EXPECT_FALSE(LiveModel::in(memory.span().subspan(8), arrays));
+    EXPECT_TRUE(LiveModel::in(memory.span(), arrays));
 }
 
 /// The frame of a model with these stays when all else moves within.
@@ -307,7 +306,7 @@ TestMesh with_anchors(const TestMesh& mesh) {
 // With one cache through all shapes, and shared with another model of the same mesh that has
 // other shapes: each answer is that without a cache. Shapes come near and go, so that gaps
 // are proved and given up; only positions tell them apart.
-TEST(RuntimeModel, CachesAreNotFooledByARefit) {
+TEST(LiveModel, CachesAreNotFooledByARefit) {
     const OpenModel other = open_tiny(icosphere(3), {.double_precision = true});
     const TestMesh ball = icosphere(3);
     const auto shape_at = [&](double x) {
@@ -344,7 +343,7 @@ TEST(RuntimeModel, CachesAreNotFooledByARefit) {
 }
 
 // A flat triangle has the bit that skips it only while it is flat.
-TEST(RuntimeModel, TrianglesAreMarkedDegenerateAsTheyBecomeIt) {
+TEST(LiveModel, TrianglesAreMarkedDegenerateAsTheyBecomeIt) {
     const TestMesh sheet = grid_sheet(3, 3);
     const OpenModel wall = open_tiny(turned(grid_sheet(3, 3), 0.7), {.double_precision = true});
     Running moving = run(arrays_of(sheet));
@@ -362,7 +361,7 @@ TEST(RuntimeModel, TrianglesAreMarkedDegenerateAsTheyBecomeIt) {
     EXPECT_EQ(count(), whole);
 }
 
-TEST(RuntimeModel, AModelOfNothingIsRefitted) {
+TEST(LiveModel, AModelOfNothingIsRefitted) {
     Running moving = run(arrays_of({}));
     const auto cost = moving.object.refit(std::span<const Double3>());
     ASSERT_TRUE(cost);
@@ -370,7 +369,7 @@ TEST(RuntimeModel, AModelOfNothingIsRefitted) {
     EXPECT_EQ(moving.model().triangle_count(), 0U);
 }
 
-TEST(RuntimeModel, TheCostRisesWhenNeighboursPart) {
+TEST(LiveModel, TheCostRisesWhenNeighboursPart) {
     const TestMesh ball = icosphere(4);
     Running moving = run(arrays_of(ball));
     const double before = moving.object.refit(ball.positions).value();

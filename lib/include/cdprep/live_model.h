@@ -10,7 +10,7 @@
 #include "cdprep/model.h"
 #include "cdprep/result.h"
 
-namespace cdprep::build {
+namespace cdprep {
 
 /// A model whose vertices move, such as an object that deforms. It is refitted each frame and
 /// queried like any other. It lives in the caller's memory, is made once, and then allocates
@@ -27,29 +27,29 @@ namespace cdprep::build {
 ///
 ///     const auto arrays = build::build_model(positions, triangles,
 ///                                            {.bounds = build::BvhBounds::aligned});
-///     auto object = build::RuntimeModel::in(memory, arrays.value());
+///     auto object = LiveModel::in(memory, arrays.value());
 ///     for (...) {
 ///         move(positions);
 ///         if (const auto fitted = object.value().refit(positions); !fitted) return fitted.error();
 ///         collide(object.value().model(), other, placement, workspace);
 ///     }
-class RuntimeModel {
+class LiveModel {
 public:
     /// Returns the number of bytes that in() takes. Fails if in() rejects `base`.
-    [[nodiscard]] static Result<std::size_t> bytes(const ModelArrays& base);
+    [[nodiscard]] static Result<std::size_t> bytes(const build::ModelArrays& base);
     [[nodiscard]] static Result<std::size_t> bytes(const Model& base);
 
-    /// Makes a run-time model of arrays or of another model, such as a baked one. `memory` must
-    /// start at a multiple of format::kSectionAlignment and stay in place while the run-time model
+    /// Makes a live model of arrays or of another model, such as a baked one. `memory` must
+    /// start at a multiple of format::kSectionAlignment and stay in place while the live model
     /// lives. `base` is not used afterwards. Allocates.
     ///
     /// Fails with `bad_argument` if `memory` is too small or misaligned. Also fails if a baked
     /// `base` has vertices that a repair made. Fails if it lacks, or was opened without, one of
     /// these sections: triangles, source_triangle, source_vertex, bvh_nodes, bvh_leaves and
     /// positions.
-    [[nodiscard]] static Result<RuntimeModel> in(std::span<std::byte> memory,
-                                                 const ModelArrays& base);
-    [[nodiscard]] static Result<RuntimeModel> in(std::span<std::byte> memory, const Model& base);
+    [[nodiscard]] static Result<LiveModel> in(std::span<std::byte> memory,
+                                                 const build::ModelArrays& base);
+    [[nodiscard]] static Result<LiveModel> in(std::span<std::byte> memory, const Model& base);
 
     /// Returns the model to query. It is the same object after each refit(): spans and references
     /// into it stay valid.
@@ -99,15 +99,15 @@ private:
         std::span<format::Component> components;
     };
 
-    static Result<RuntimeModel> in(std::span<std::byte> memory, const format::FileHeader& facts,
-                                   const SectionList& sections);
-    RuntimeModel(std::span<std::byte> image, Model model);
+    static Result<LiveModel> in(std::span<std::byte> memory, const format::FileHeader& facts,
+                                   const build::SectionList& sections);
+    LiveModel(std::span<std::byte> image, Model model);
 
     template <class Position>
     Result<double> refit_to(std::span<const Position> positions, ParallelFor parallel_for);
     template <class Kept>
     double refit_over(std::span<const Kept> positions, ParallelFor parallel_for);
-    void update_header(const Frame& frame, bool exact_leaves);
+    void update_header(const build::Frame& frame, bool exact_leaves);
 
     std::span<std::byte> image_;
     Model model_;
@@ -115,4 +115,4 @@ private:
     std::size_t position_count_ = 0;
 };
 
-}  // namespace cdprep::build
+}  // namespace cdprep

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "cdprep/advanced/runtime_model.h"
+#include "cdprep/live_model.h"
 #include "cdprep/pairs.h"
 #include "support/brute_force.h"
 #include "support/counted_memory.h"
@@ -15,17 +15,17 @@ namespace {
 
 // A shear over 100 frames, as in samples/deforming.cpp. At ten of them every pair of triangles
 // is tested one by one.
-TEST(RuntimeModel, AHundredFramesAllocateNothingAndAnswerAsBruteForce) {
+TEST(LiveModel, AHundredFramesAllocateNothingAndAnswerAsBruteForce) {
     const TestMesh fixed = torus(1, 0.3, 18, 12);
     const TestMesh rest = torus(1, 0.2, 18, 12);
     const OpenModel other = open_tiny(fixed, {.double_precision = true});
     const auto arrays =
         build::build_model(rest.positions, rest.triangles, {.bounds = build::BvhBounds::aligned});
     ASSERT_TRUE(arrays);
-    AlignedBytes memory(build::RuntimeModel::bytes(arrays.value()).value());
-    auto made = build::RuntimeModel::in(memory.span(), arrays.value());
+    AlignedBytes memory(LiveModel::bytes(arrays.value()).value());
+    auto made = LiveModel::in(memory.span(), arrays.value());
     ASSERT_TRUE(made);
-    build::RuntimeModel& object = made.value();
+    LiveModel& object = made.value();
 
     const Placement placement = Placement::b_moves({});
     Workspace workspace;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/runtime_model.h"
+#include "cdprep/live_model.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@
 #include "cdprep/format/sections.h"
 #include "core/guarded_for.h"
 
-namespace cdprep::build {
+namespace cdprep {
 namespace {
 
 using format::Double3;
@@ -33,21 +33,25 @@ using format::SectionEntry;
 using format::SectionId;
 using format::SectionSet;
 using format::Triangle;
+using build::bad_argument;
+using build::Frame;
+using build::ModelArrays;
+using build::SectionList;
 
-/// The sections of a run-time model: those that follow from its positions, and those that do not
+/// The sections of a live model: those that follow from its positions, and those that do not
 /// depend on them.
 constexpr SectionSet kSections = {
     SectionId::positions_f32,   SectionId::positions_f64,   SectionId::triangles,
     SectionId::source_triangle, SectionId::source_vertex,   SectionId::bvh_nodes,
     SectionId::bvh_leaves,      SectionId::degenerate_bits, SectionId::components};
 
-/// Returns the facts without swept spheres, which a run-time model omits.
+/// Returns the facts without swept spheres, which a live model omits.
 format::FileHeader facts_of(format::FileHeader base) {
     base.flags &= ~(format::model_swept_lines | format::model_swept_rectangles);
     return base;
 }
 
-/// The parts of a run-time model: views of its base.
+/// The parts of a live model: views of its base.
 struct Start {
     format::FileHeader facts;
     SectionList list;
@@ -65,13 +69,13 @@ struct Start {
     Start& operator=(const Start&) = delete;
 };
 
-/// Returns why a model cannot be the base of a run-time model.
+/// Returns why a model cannot be the base of a live model.
 std::optional<Error> find_fault(const Model& base) {
     for (const SectionId id :
          {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
           SectionId::bvh_nodes, SectionId::bvh_leaves}) {
         if (base.sections().contains(id)) continue;
-        return bad_argument(std::string("A run-time model needs the section ") +
+        return bad_argument(std::string("A live model needs the section ") +
                             format::section_name(id) +
                             ": bake it with --effects overlap, and open it "
                             "with that section.");
@@ -79,13 +83,13 @@ std::optional<Error> find_fault(const Model& base) {
     if (!base.sections().contains(SectionId::positions_f32) &&
         !base.sections().contains(SectionId::positions_f64)) {
         return bad_argument(
-            "A run-time model needs positions: bake the mesh with --effects overlap, and open the "
+            "A live model needs positions: bake the mesh with --effects overlap, and open the "
             "model for overlap.");
     }
     const auto source = base.source().vertex;
     const auto made = std::ranges::find(source, format::kMadeByRepair);
     if (made == source.end()) return std::nullopt;
-    return bad_argument("A run-time model cannot be made of this model: vertex " +
+    return bad_argument("A live model cannot be made of this model: vertex " +
                         std::to_string(made - source.begin()) +
                         " was made by a repair, so the imported file has no position for it.");
 }
@@ -175,13 +179,13 @@ std::vector<Triangle> in_source_order(const Model& model) {
 std::vector<Double3> positions_of(const Model& model) {
     std::vector<Double3> positions(model.mesh().positions_f64.begin(),
                                    model.mesh().positions_f64.end());
-    for (const Float3& p : model.mesh().positions_f32) positions.push_back(as_double(p));
+    for (const Float3& p : model.mesh().positions_f32) positions.push_back(build::as_double(p));
     return positions;
 }
 
 }  // namespace
 
-RuntimeModel::RuntimeModel(std::span<std::byte> image, Model model)
+LiveModel::LiveModel(std::span<std::byte> image, Model model)
     : image_(image),
       model_(std::move(model)),
       moving_{elements_of<Float3>(image, SectionId::positions_f32),
@@ -195,65 +199,65 @@ RuntimeModel::RuntimeModel(std::span<std::byte> image, Model model)
     }
 }
 
-Result<std::size_t> RuntimeModel::bytes(const ModelArrays& base) {
-    return image_size(start_of(base).list.sections());
+Result<std::size_t> LiveModel::bytes(const ModelArrays& base) {
+    return build::image_size(start_of(base).list.sections());
 }
 
-Result<std::size_t> RuntimeModel::bytes(const Model& base) {
+Result<std::size_t> LiveModel::bytes(const Model& base) {
     if (const auto fault = find_fault(base)) return *fault;
-    return image_size(start_of(base).list.sections());
+    return build::image_size(start_of(base).list.sections());
 }
 
-Result<RuntimeModel> RuntimeModel::in(std::span<std::byte> memory, const ModelArrays& base) {
+Result<LiveModel> LiveModel::in(std::span<std::byte> memory, const ModelArrays& base) {
     const Start start = start_of(base);
     return in(memory, start.facts, start.list);
 }
 
-Result<RuntimeModel> RuntimeModel::in(std::span<std::byte> memory, const Model& base) {
+Result<LiveModel> LiveModel::in(std::span<std::byte> memory, const Model& base) {
     if (const auto fault = find_fault(base)) return *fault;
     const Start start = start_of(base);
     return in(memory, start.facts, start.list);
 }
 
-Result<RuntimeModel> RuntimeModel::in(std::span<std::byte> memory, const format::FileHeader& facts,
+Result<LiveModel> LiveModel::in(std::span<std::byte> memory, const format::FileHeader& facts,
                                       const SectionList& list) {
-    const Result<std::span<std::byte>> image = build_image(facts, list.sections(), memory);
+    const Result<std::span<std::byte>> image = build::build_image(facts, list.sections(), memory);
     if (!image) return image.error();
     Result<Model> opened =
-        Model::open(std::span<const std::byte>(image.value()), {.name = "run-time model"});
+        Model::open(std::span<const std::byte>(image.value()), {.name = "live model"});
     if (!opened) return opened.error();
-    return RuntimeModel(image.value(), std::move(opened).value());
+    return LiveModel(image.value(), std::move(opened).value());
 }
 
-Result<double> RuntimeModel::refit(std::span<const Double3> positions, ParallelFor parallel_for) {
+Result<double> LiveModel::refit(std::span<const Double3> positions, ParallelFor parallel_for) {
     if (!moving_.positions_f32.empty()) {
         return bad_argument(
-            "The run-time model keeps positions as floats, and doubles were given: give "
+            "The live model keeps positions as floats, and doubles were given: give "
             "floats, or build it from doubles.");
     }
     return refit_to(positions, parallel_for);
 }
 
-Result<double> RuntimeModel::refit(std::span<const Float3> positions, ParallelFor parallel_for) {
+Result<double> LiveModel::refit(std::span<const Float3> positions, ParallelFor parallel_for) {
     return refit_to(positions, parallel_for);
 }
 
 template <class Position>
-Result<double> RuntimeModel::refit_to(std::span<const Position> positions,
+Result<double> LiveModel::refit_to(std::span<const Position> positions,
                                       ParallelFor parallel_for) {
     format::FloatEnvironment environment;
     const GuardedFor guarded(environment, parallel_for);
     if (positions.size() < position_count_) {
-        return bad_argument("The run-time model has " + std::to_string(position_count_) +
+        return bad_argument("The live model has " + std::to_string(position_count_) +
                             " positions, and " + std::to_string(positions.size()) + " were given.");
     }
     const std::span<const Position> used = positions.first(position_count_);
     if (shares_memory(std::as_bytes(used), image_)) {
         return bad_argument(
-            "The positions point into the run-time model itself, which stores them in another "
+            "The positions point into the live model itself, which stores them in another "
             "order: give a copy.");
     }
-    if (const auto fault = find_bad_position(used)) return *fault;
+    if (const auto fault = build::find_bad_position(used)) return *fault;
     const std::span<const std::uint32_t> source = model_.source().vertex;
     if constexpr (std::is_same_v<Position, Float3>) {
         if (!moving_.positions_f32.empty()) {
@@ -265,28 +269,28 @@ Result<double> RuntimeModel::refit_to(std::span<const Position> positions,
     }
     assert(source.size() == moving_.positions_f64.size());
     std::ranges::transform(source, moving_.positions_f64.begin(),
-                           [&](std::uint32_t vertex) { return as_double(used[vertex]); });
+                           [&](std::uint32_t vertex) { return build::as_double(used[vertex]); });
     return refit_over(model_.mesh().positions_f64, guarded);
 }
 
 /// Computes everything that follows from the positions, which are in the image.
 template <class Kept>
-double RuntimeModel::refit_over(std::span<const Kept> positions, ParallelFor parallel_for) {
+double LiveModel::refit_over(std::span<const Kept> positions, ParallelFor parallel_for) {
     if (moving_.leaves.empty()) return 0;
-    const Extent extent = extent_of(positions, parallel_for);
-    const Frame frame = frame_of(extent);
-    const bool exact = has_exact_leaves(extent, frame);
+    const build::Extent extent = build::extent_of(positions, parallel_for);
+    const Frame frame = build::frame_of(extent);
+    const bool exact = build::has_exact_leaves(extent, frame);
     const std::span<const Triangle> triangles = model_.mesh().triangles;
-    make_leaves({frame, exact, moving_.nodes, moving_.leaves}, positions, triangles, parallel_for);
-    make_nodes(moving_.nodes, static_cast<std::uint32_t>(triangles.size()), parallel_for);
-    mark_degenerate(positions, triangles, moving_.degenerate_bits, parallel_for);
+    build::make_leaves({frame, exact, moving_.nodes, moving_.leaves}, positions, triangles, parallel_for);
+    build::make_nodes(moving_.nodes, static_cast<std::uint32_t>(triangles.size()), parallel_for);
+    build::mark_degenerate(positions, triangles, moving_.degenerate_bits, parallel_for);
     update_header(frame, exact);
-    return surface_cost(moving_.nodes);
+    return build::surface_cost(moving_.nodes);
 }
 
 /// The content hash must distinguish these positions from any others, because caches compare it.
 /// All else that moves follows from the positions, so their checksum is enough.
-void RuntimeModel::update_header(const Frame& frame, bool exact_leaves) {
+void LiveModel::update_header(const Frame& frame, bool exact_leaves) {
     format::FileHeader facts = format::read_header(image_);
     facts.flags &= ~format::model_exact_leaves;
     if (exact_leaves) facts.flags |= format::model_exact_leaves;
@@ -299,9 +303,9 @@ void RuntimeModel::update_header(const Frame& frame, bool exact_leaves) {
     table.put(image_, facts);
 }
 
-std::span<const std::byte> RuntimeModel::image() {
+std::span<const std::byte> LiveModel::image() {
     const format::FloatEnvironment environment;
-    const Topology topology = find_topology(positions_of(model_), in_source_order(model_));
+    const build::Topology topology = build::find_topology(positions_of(model_), in_source_order(model_));
     if (moving_.components.size() == topology.components.size()) {
         std::ranges::copy(topology.components, moving_.components.begin());
     }
@@ -311,4 +315,4 @@ std::span<const std::byte> RuntimeModel::image() {
     return image_;
 }
 
-}  // namespace cdprep::build
+}  // namespace cdprep
