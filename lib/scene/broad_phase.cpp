@@ -14,7 +14,7 @@
 #include "core/require.h"
 #include "core/share_out.h"
 #include "kernels/kernels.h"
-#include "scene/carver.h"
+#include "core/carver.h"
 #include "scene/pair_pages.h"
 #include "scene/world_tree.h"
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "scene/carver.h"
+#include "core/carver.h"
 
 namespace cdprep {
 

@@ -8,7 +8,7 @@
 #include "cdprep/contacts.h"
 #include "cdprep/pairs.h"
 #include "cdprep/scene.h"
-#include "scene/carver.h"
+#include "core/carver.h"
 #include "walk/find_contact.h"
 
 namespace cdprep {

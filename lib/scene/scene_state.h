@@ -11,7 +11,7 @@
 #include "cdprep/broad_phase.h"
 #include "cdprep/scene.h"
 #include "scene/ask_pair.h"
-#include "scene/carver.h"
+#include "core/carver.h"
 #include "scene/list_pages.h"
 #include "scene/object_box.h"
 #include "scene/scene_records.h"

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "kernels/kernels.h"
-#include "scene/carver.h"
+#include "core/carver.h"
 
 namespace cdprep {
 
