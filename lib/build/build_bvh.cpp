@@ -24,7 +24,7 @@ void set_frame(Bvh& bvh, std::span<const Double3> positions, std::span<const Tri
                ParallelFor parallel_for) {
     const Extent extent = extent_of(positions, triangles, parallel_for);
     bvh.frame = frame_of(extent);
-    bvh.exact_leaves = has_exact_leaves(extent, bvh.frame);
+    bvh.exact_leaves = has_exact_leaves(extent.floats, bvh.frame);
 }
 
 /// Computes the bounds that the options select besides the axis-aligned boxes.

@@ -22,25 +22,27 @@ using format::Triangle;
 constexpr std::size_t kBits = 64;
 
 template <class Position>
+void mark_some(std::span<const Position> positions, std::span<const Triangle> triangles,
+               std::span<std::uint64_t> words, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+        const auto& v = triangles[i].vertex;
+        const bool is_flat = is_degenerate(
+            {as_double(positions[v[0]]), as_double(positions[v[1]]), as_double(positions[v[2]])});
+        const std::uint64_t bit = std::uint64_t{1} << (i % kBits);
+        std::uint64_t& word = words[i / kBits];
+        word = is_flat ? word | bit : word & ~bit;
+    }
+}
+
+template <class Position>
 void mark(std::span<const Position> positions, std::span<const Triangle> triangles,
           std::span<std::uint64_t> words, ParallelFor parallel_for) {
-    constexpr std::size_t kWordsPerTask = kItemsPerTask / kBits;
     assert(words.size() == (triangles.size() + kBits - 1) / kBits);
-    for_chunks(words.size(), kWordsPerTask, parallel_for, [&](std::size_t first, std::size_t last) {
-        for (std::size_t word = first; word < last; ++word) {
-            const std::size_t begin = word * kBits;
-            const std::size_t end = std::min(begin + kBits, triangles.size());
-            std::uint64_t bits = 0;
-            for (std::size_t i = begin; i < end; ++i) {
-                const auto& v = triangles[i].vertex;
-                const bool is_flat =
-                    is_degenerate({as_double(positions[v[0]]), as_double(positions[v[1]]),
-                                   as_double(positions[v[2]])});
-                bits |= std::uint64_t{is_flat} << (i - begin);
-            }
-            words[word] = bits;
-        }
-    });
+    static_assert(kItemsPerTask % kBits == 0);  // no two tasks share a word
+    for_chunks(triangles.size(), kItemsPerTask, parallel_for,
+               [&](std::size_t first, std::size_t last) {
+                   mark_some(positions, triangles, words, first, last);
+               });
 }
 
 }  // namespace
@@ -53,6 +55,16 @@ void mark_degenerate(std::span<const Double3> positions, std::span<const Triangl
 void mark_degenerate(std::span<const Float3> positions, std::span<const Triangle> triangles,
                      std::span<std::uint64_t> words, ParallelFor parallel_for) {
     mark(positions, triangles, words, parallel_for);
+}
+
+void mark_some_degenerate(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                          std::span<std::uint64_t> words, std::size_t first, std::size_t last) {
+    mark_some(positions, triangles, words, first, last);
+}
+
+void mark_some_degenerate(std::span<const Float3> positions, std::span<const Triangle> triangles,
+                          std::span<std::uint64_t> words, std::size_t first, std::size_t last) {
+    mark_some(positions, triangles, words, first, last);
 }
 
 std::vector<std::uint64_t> find_degenerate(std::span<const Double3> positions,

@@ -106,8 +106,8 @@ Extent extent_of(std::span<const Float3> positions, ParallelFor parallel_for) {
     return extent_of_all(positions, parallel_for);
 }
 
-bool has_exact_leaves(const Extent& extent, const Frame& frame) {
-    return extent.floats && std::abs(frame.exponent) <= kMaxExactExponent;
+bool has_exact_leaves(bool are_floats, const Frame& frame) {
+    return are_floats && std::abs(frame.exponent) <= kMaxExactExponent;
 }
 
 Frame frame_of(const Extent& extent) {

@@ -63,7 +63,7 @@ struct Extent {
 
 /// Returns whether leaves keep model coordinates: all are floats, and the scale of the frame is an
 /// ordinary float.
-[[nodiscard]] bool has_exact_leaves(const Extent& extent, const Frame& frame);
+[[nodiscard]] bool has_exact_leaves(bool are_floats, const Frame& frame);
 
 /// A frame coordinate between two floats.
 struct Interval {

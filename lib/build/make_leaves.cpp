@@ -157,33 +157,38 @@ private:
 };
 
 template <class Source>
-void make_leaves_of(const LeafRoom& room, const Source& source, ParallelFor parallel_for) {
+void make_range(const LeafRoom& room, const Source& source, std::size_t first, std::size_t last) {
     const LeafMaker maker(room.frame, room.exact);
     const std::size_t count = source.size();
     const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(count));
     BvhNode* const lowest = &room.nodes[shape.first[0]];
+    LeafCorners corners;
+    for (std::size_t leaf = first; leaf < last; ++leaf) {
+        source.ask_ahead_of(leaf);
+        const std::size_t begin = leaf * kBvhWidth;
+        const std::size_t used = std::min<std::size_t>(kBvhWidth, count - begin);
+        for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
+            const Triangle& t = source.triangle(begin + std::min(lane, used - 1));
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const Double3& p = source.position(t.vertex[corner]);
+                const std::size_t at = corner * kBvhWidth + lane;
+                corners[0][at] = p.x;
+                corners[1][at] = p.y;
+                corners[2][at] = p.z;
+            }
+        }
+        maker.make(corners, static_cast<std::uint32_t>(used), room.leaves[leaf],
+                   lowest[leaf / kBvhWidth], leaf % kBvhWidth);
+    }
+}
+
+template <class Source>
+void make_leaves_of(const LeafRoom& room, const Source& source, ParallelFor parallel_for) {
     for_chunks(room.leaves.size(), kLeavesPerTask, parallel_for,
-               [&](std::size_t first, std::size_t last) {
-                   LeafCorners corners;
-                   for (std::size_t leaf = first; leaf < last; ++leaf) {
-                       source.ask_ahead_of(leaf);
-                       const std::size_t begin = leaf * kBvhWidth;
-                       const std::size_t used = std::min<std::size_t>(kBvhWidth, count - begin);
-                       for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
-                           const Triangle& t = source.triangle(begin + std::min(lane, used - 1));
-                           for (std::size_t corner = 0; corner < 3; ++corner) {
-                               const Double3& p = source.position(t.vertex[corner]);
-                               const std::size_t at = corner * kBvhWidth + lane;
-                               corners[0][at] = p.x;
-                               corners[1][at] = p.y;
-                               corners[2][at] = p.z;
-                           }
-                       }
-                       maker.make(corners, static_cast<std::uint32_t>(used), room.leaves[leaf],
-                                  lowest[leaf / kBvhWidth], leaf % kBvhWidth);
-                   }
-               });
+               [&](std::size_t first, std::size_t last) { make_range(room, source, first, last); });
     const std::size_t last = room.leaves.size();
+    const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(source.size()));
+    BvhNode* const lowest = &room.nodes[shape.first[0]];
     if (last % kBvhWidth != 0) set_unused_boxes(lowest[last / kBvhWidth], last % kBvhWidth);
 }
 
@@ -203,6 +208,16 @@ void make_leaves(const LeafRoom& room, std::span<const Double3> positions,
 void make_leaves(const LeafRoom& room, std::span<const Float3> positions,
                  std::span<const Triangle> triangles, ParallelFor parallel_for) {
     make_leaves_of(room, SortedTriangles<Float3>(positions, triangles), parallel_for);
+}
+
+void make_some_leaves(const LeafRoom& room, std::span<const Double3> positions,
+                      std::span<const Triangle> triangles, std::size_t first, std::size_t last) {
+    make_range(room, SortedTriangles<Double3>(positions, triangles), first, last);
+}
+
+void make_some_leaves(const LeafRoom& room, std::span<const Float3> positions,
+                      std::span<const Triangle> triangles, std::size_t first, std::size_t last) {
+    make_range(room, SortedTriangles<Float3>(positions, triangles), first, last);
 }
 
 }  // namespace cdprep::build

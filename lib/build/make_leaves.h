@@ -20,6 +20,14 @@ void make_leaves(const LeafRoom& room, std::span<const format::Double3> position
 void make_leaves(const LeafRoom& room, std::span<const format::Float3> positions,
                  std::span<const format::Triangle> triangles, ParallelFor parallel_for);
 
+/// Fills the leaves from `first` up to `last`, and the boxes around them.
+void make_some_leaves(const LeafRoom& room, std::span<const format::Double3> positions,
+                      std::span<const format::Triangle> triangles, std::size_t first,
+                      std::size_t last);
+void make_some_leaves(const LeafRoom& room, std::span<const format::Float3> positions,
+                      std::span<const format::Triangle> triangles, std::size_t first,
+                      std::size_t last);
+
 /// Fills bvh.leaves and the boxes around them, which are level 0 of bvh.nodes, from bvh.order,
 /// bvh.frame and bvh.exact_leaves.
 void make_leaves(Bvh& bvh, std::span<const format::Double3> positions,

@@ -13,15 +13,15 @@ using format::BvhNode;
 using format::BvhShape;
 using format::kBvhWidth;
 
-/// Unused boxes, at 1 and -1, leave every union unchanged: no coordinate lies outside [-1, 1].
+}  // namespace
+
+// Unused boxes, at 1 and -1, leave every union unchanged: no coordinate lies outside [-1, 1].
 void set_box_around(BvhNode& node, std::size_t box, const BvhNode& below) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         node.lower[axis][box] = least(below.lower[axis]);
         node.upper[axis][box] = greatest(below.upper[axis]);
     }
 }
-
-}  // namespace
 
 void set_unused_boxes(BvhNode& node, std::size_t first) {
     assert(first <= kBvhWidth);

@@ -45,7 +45,8 @@ std::string sentence(std::size_t vertex, const Double3& p) {
 }
 
 template <class Position>
-std::optional<Error> find_bad(std::span<const Position> positions) {
+std::optional<Error> find_bad(std::span<const Position> positions,
+                              std::span<const std::uint32_t> vertices) {
     if (positions.size() > format::kMaxVertices) {
         return bad_argument(std::to_string(positions.size()) + " vertices are more than the " +
                             std::to_string(format::kMaxVertices) + " that a model may have.");
@@ -54,17 +55,20 @@ std::optional<Error> find_bad(std::span<const Position> positions) {
     for (const Position& p : positions) all_good &= is_good(p);
     if (all_good) return std::nullopt;
     const auto at = std::ranges::find_if_not(positions, is_good<Position>);
-    return bad_argument(sentence(static_cast<std::size_t>(at - positions.begin()), as_double(*at)));
+    const auto index = static_cast<std::size_t>(at - positions.begin());
+    return bad_argument(sentence(vertices.empty() ? index : vertices[index], as_double(*at)));
 }
 
 }  // namespace
 
-std::optional<Error> find_bad_position(std::span<const Double3> positions) {
-    return find_bad(positions);
+std::optional<Error> find_bad_position(std::span<const Double3> positions,
+                                       std::span<const std::uint32_t> vertices) {
+    return find_bad(positions, vertices);
 }
 
-std::optional<Error> find_bad_position(std::span<const Float3> positions) {
-    return find_bad(positions);
+std::optional<Error> find_bad_position(std::span<const Float3> positions,
+                                       std::span<const std::uint32_t> vertices) {
+    return find_bad(positions, vertices);
 }
 
 std::optional<Error> find_bad_triangle(std::size_t vertex_count,

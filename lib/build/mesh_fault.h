@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -10,9 +11,12 @@
 namespace cdprep::build {
 
 /// Returns why positions cannot be those of a model: the first that is NaN, infinite or beyond
-/// format::kMaxCoordinate. Allocates nothing if all are good.
-[[nodiscard]] std::optional<Error> find_bad_position(std::span<const format::Double3> positions);
-[[nodiscard]] std::optional<Error> find_bad_position(std::span<const format::Float3> positions);
+/// format::kMaxCoordinate. `vertices` are the numbers of their vertices, for the message; empty: 0,
+/// 1, 2 and so on. Allocates nothing if all are good.
+[[nodiscard]] std::optional<Error> find_bad_position(std::span<const format::Double3> positions,
+                                                     std::span<const std::uint32_t> vertices = {});
+[[nodiscard]] std::optional<Error> find_bad_position(std::span<const format::Float3> positions,
+                                                     std::span<const std::uint32_t> vertices = {});
 
 /// Returns why triangles cannot be those of a model with `vertex_count` vertices.
 [[nodiscard]] std::optional<Error> find_bad_triangle(std::size_t vertex_count,
