@@ -56,10 +56,8 @@ int main() {
     // A model whose vertices move: it has plain boxes, which are quick to refit.
     const auto moving = cdprep::build::build_model(rest.positions, rest.triangles,
                                                    {.bounds = cdprep::build::BvhBounds::aligned});
-    std::vector<Line> room(cdprep::LiveModel::bytes(moving.value()).value() /
-                           sizeof(Line));
-    auto object =
-        cdprep::LiveModel::in(std::as_writable_bytes(std::span(room)), moving.value());
+    std::vector<Line> room(cdprep::LiveModel::bytes(moving.value()).value() / sizeof(Line));
+    auto object = cdprep::LiveModel::in(std::as_writable_bytes(std::span(room)), moving.value());
     if (!fixed_model || !object) return 1;
 
     cdprep::Workspace workspace;
@@ -69,9 +67,9 @@ int main() {
         for (std::size_t i = 0; i < positions.size(); ++i) {
             positions[i].x = rest.positions[i].x + 0.03 * frame * rest.positions[i].z;  // a shear
         }
-        const auto cost = object.value().refit(positions);
-        if (!cost) {
-            std::cerr << cost.error().message << '\n';  // a vertex that is NaN, say: by number
+        const auto fitted = object.value().refit(positions);
+        if (!fitted) {
+            std::cerr << fitted.error().message << '\n';  // a vertex that is NaN, say: by number
             return 1;
         }
         const std::size_t count = cdprep::overlaps(

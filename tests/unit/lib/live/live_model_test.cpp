@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <random>
 
@@ -245,8 +246,7 @@ TEST(LiveModel, ABaseThatLacksASectionIsRefusedByItsName) {
     const auto blind = Model::open(
         bytes.span(), {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
                        SectionId::bvh_nodes, SectionId::bvh_leaves});
-    EXPECT_NE(LiveModel::bytes(blind.value()).error().message.find("positions"),
-              std::string::npos);
+    EXPECT_NE(LiveModel::bytes(blind.value()).error().message.find("positions"), std::string::npos);
 }
 
 // No position of the imported file stands for such a vertex.
@@ -282,9 +282,9 @@ TEST(LiveModel, BadPositionsAreRefusedByNumberAndChangeNothing) {
     EXPECT_EQ(moving.object.refit(few).error().message,
               "The live model has 162 positions, and 161 were given.");
     const std::span<const Double3> own = moving.object.model().mesh().positions_f64;
-    EXPECT_EQ(moving.object.refit(own).error().message.find(
-                  "The positions point into the live model"),
-              0U);
+    EXPECT_EQ(
+        moving.object.refit(own).error().message.find("The positions point into the live model"),
+        0U);
     EXPECT_TRUE(std::ranges::equal(before.span(), moving.memory.span()));
 }
 
@@ -363,19 +363,146 @@ TEST(LiveModel, TrianglesAreMarkedDegenerateAsTheyBecomeIt) {
 
 TEST(LiveModel, AModelOfNothingIsRefitted) {
     Running moving = run(arrays_of({}));
-    const auto cost = moving.object.refit(std::span<const Double3>());
-    ASSERT_TRUE(cost);
-    EXPECT_EQ(cost.value(), 0);
+    ASSERT_TRUE(moving.object.refit(std::span<const Double3>()));
+    ASSERT_TRUE(moving.object.refit(std::span<const std::uint32_t>(), std::span<const Double3>()));
+    EXPECT_EQ(moving.object.surface_cost(), 0);
     EXPECT_EQ(moving.model().triangle_count(), 0U);
 }
 
 TEST(LiveModel, TheCostRisesWhenNeighboursPart) {
     const TestMesh ball = icosphere(4);
     Running moving = run(arrays_of(ball));
-    const double before = moving.object.refit(ball.positions).value();
+    const double before = moving.object.surface_cost();
     TestMesh torn = ball;
     for (std::size_t i = 0; i < torn.positions.size(); i += 2) torn.positions[i].x += 5;
-    EXPECT_GT(moving.object.refit(torn.positions).value(), 2 * before);
+    ASSERT_TRUE(moving.object.refit(torn.positions));
+    EXPECT_GT(moving.object.surface_cost(), 2 * before);
+}
+
+/// Moves some vertices of a shape at random; returns their numbers.
+std::vector<std::uint32_t> move_some(TestMesh& shape, std::mt19937& random, std::size_t count,
+                                     double by) {
+    std::uniform_int_distribution<std::uint32_t> any(
+        0, static_cast<std::uint32_t>(shape.positions.size() - 1));
+    std::normal_distribution<double> normal(0, by);
+    std::vector<std::uint32_t> vertices;
+    for (std::size_t i = 0; i < count; ++i) {
+        vertices.push_back(any(random));
+        Double3& p = shape.positions[vertices.back()];
+        p = {p.x + normal(random), p.y + normal(random), p.z + normal(random)};
+    }
+    return vertices;
+}
+
+std::vector<Double3> positions_at(const TestMesh& shape, std::span<const std::uint32_t> vertices) {
+    std::vector<Double3> positions;
+    for (const std::uint32_t vertex : vertices) positions.push_back(shape.positions[vertex]);
+    return positions;
+}
+
+// One model takes all positions, another only those that changed: the bytes are equal after each
+// step. Large moves make vertices leave the frame, and a shrunk model gets a smaller one.
+TEST(LiveModel, AMoveOfSomeVerticesEqualsAMoveOfAll) {
+    for (const double by : {1e-3, 0.1, 3.0}) {
+        for (const bool in_parallel : {false, true}) {
+            const TestMesh ball = joined(icosphere(4), random_soup(3, 100, 0.3));
+            const ModelArrays arrays = arrays_of(ball);
+            Running whole = run(arrays);
+            Running some = run(arrays);
+            TestMesh shape = ball;
+            std::mt19937 random(11);
+            const auto reversed = [](std::size_t count, Task task) {
+                for (std::size_t i = count; i-- > 0;) task(i);
+            };
+            for (int step = 0; step < 40; ++step) {
+                if (step == 20) shape = moved_by(ball, 0x1p-9, {1, 2, 3});
+                std::vector<std::uint32_t> vertices = move_some(shape, random, 1 << (step % 8), by);
+                if (step == 20) {
+                    vertices.resize(shape.positions.size());
+                    std::iota(vertices.begin(), vertices.end(), 0U);
+                }
+                const std::vector<Double3> positions = positions_at(shape, vertices);
+                ASSERT_TRUE(whole.object.refit(shape.positions));
+                ASSERT_TRUE(in_parallel ? some.object.refit(vertices, positions, reversed)
+                                        : some.object.refit(vertices, positions));
+                const auto image = [](const Running& of) { return of.model().bytes(); };
+                ASSERT_TRUE(std::ranges::equal(image(whole), image(some))) << by << ' ' << step;
+            }
+            EXPECT_TRUE(std::ranges::equal(whole.object.image(), some.object.image()));
+            EXPECT_FALSE(format::find_deep_damage(some.object.image()));
+        }
+    }
+}
+
+// Coordinates that are floats, then one that is not, then floats again: the leaves change their
+// kind and back.
+TEST(LiveModel, LeavesStayExactAsLongAsAllCoordinatesAreFloats) {
+    const TestMesh ball = in_floats(icosphere(3));
+    Running moving = run(arrays_of(ball));
+    const auto move_to = [&](double x) {
+        const std::array<std::uint32_t, 1> vertex = {5};
+        const std::array<Double3, 1> position = {Double3{x, 0.25, 0.5}};
+        ASSERT_TRUE(moving.object.refit(vertex, position));
+    };
+    EXPECT_TRUE(moving.model().has_exact_leaves());
+    move_to(0.1);
+    EXPECT_FALSE(moving.model().has_exact_leaves());
+    move_to(0.125);
+    EXPECT_TRUE(moving.model().has_exact_leaves());
+    TestMesh shape = ball;
+    shape.positions[5] = {0.125, 0.25, 0.5};
+    Running whole = run(arrays_of(ball));
+    ASSERT_TRUE(whole.object.refit(shape.positions));
+    EXPECT_TRUE(std::ranges::equal(whole.model().bytes(), moving.model().bytes()));
+}
+
+// The answers of a model whose vertices move a few at a time are those of brute force.
+TEST(LiveModel, AnswersAfterManySmallMovesAreThoseOfBruteForce) {
+    const TestMesh fixed = torus(1, 0.3, 18, 12);
+    const OpenModel other = open_tiny(fixed, {.double_precision = true});
+    TestMesh shape = icosphere(3);
+    Running moving = run(arrays_of(shape));
+    Workspace workspace;
+    PairCache cache;
+    std::mt19937 random(5);
+    const Placement placement = Placement::b_moves({});
+    std::size_t found = 0;
+    for (int step = 0; step < 200; ++step) {
+        const std::vector<std::uint32_t> vertices = move_some(shape, random, 20, 0.05);
+        ASSERT_TRUE(moving.object.refit(vertices, positions_at(shape, vertices)));
+        const bool touch =
+            collide({moving.model(), other.model, placement, {}, &cache}, workspace).hit ==
+            Answer::yes;
+        if (step % 10 != 0) continue;
+        auto pairs = all_pairs(moving.model(), other.model, placement, workspace);
+        auto expected = brute_force_pairs(shape, fixed, placement);
+        std::ranges::sort(pairs);
+        std::ranges::sort(expected);
+        EXPECT_EQ(pairs, expected);
+        EXPECT_EQ(touch, !expected.empty());
+        found += expected.size();
+    }
+    EXPECT_GT(found, 1000U);
+}
+
+TEST(LiveModel, BadMovesAreRefusedByNumberAndChangeNothing) {
+    const TestMesh ball = icosphere(2);
+    Running moving = run(arrays_of(ball));
+    const AlignedBytes before(moving.memory.span());
+    const std::vector<std::uint32_t> vertices = {3, 90, 41};
+    std::vector<Double3> positions = positions_at(ball, vertices);
+    positions[1].y = kNan;
+    EXPECT_EQ(moving.object.refit(vertices, positions).error().message,
+              "Vertex 90 cannot be used: its y coordinate is NaN.");
+    positions[1].y = 0;
+    EXPECT_EQ(moving.object.refit(vertices, std::span(positions).first(2)).error().message,
+              "3 vertices and 2 positions were given.");
+    const std::vector<std::uint32_t> beyond = {3, 162, 41};
+    EXPECT_EQ(moving.object.refit(beyond, positions).error().message,
+              "Vertex 162 does not exist: there are 162, numbered from 0.");
+    const std::span<const Double3> own = moving.model().mesh().positions_f64;
+    EXPECT_FALSE(moving.object.refit(vertices, own.first(3)));
+    EXPECT_TRUE(std::ranges::equal(before.span(), moving.memory.span()));
 }
 
 }  // namespace

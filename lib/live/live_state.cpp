@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+#include "live/live_state.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "build/chunks.h"
+#include "build/degenerate.h"
+#include "build/make_leaves.h"
+#include "build/make_nodes.h"
+#include "cdprep/advanced/mesh_arrays.h"
+#include "exact/powers_of_two.h"
+#include "live/image_table.h"
+
+// The frame stays as long as it holds all vertices and the model is not small in it. So a move of
+// some vertices leaves the boxes of others as they are.
+
+namespace cdprep {
+namespace {
+
+using build::Frame;
+using format::BvhNode;
+using format::Double3;
+using format::Float3;
+using format::kBvhWidth;
+using format::SectionEntry;
+using format::SectionId;
+using format::Triangle;
+
+/// Returns the elements of a section of a checked image.
+template <class Element>
+std::span<Element> elements_of(std::span<std::byte> image, SectionId id) {
+    const std::optional<SectionEntry> entry = format::find_section(image, id);
+    if (!entry || entry->count == 0) return {};
+    return {reinterpret_cast<Element*>(image.data() + entry->offset),
+            static_cast<std::size_t>(entry->count)};
+}
+
+bool is_positions(SectionId id) {
+    return id == SectionId::positions_f32 || id == SectionId::positions_f64;
+}
+
+/// Returns a number that differs, almost certainly, for other vertices and other positions. The
+/// constants are odd and have about as many ones as zeros.
+std::uint64_t hash_of(std::uint32_t vertex, const Double3& p) {
+    std::uint64_t hash = (vertex + 1) * 0x9e3779b97f4a7c15;
+    hash ^= std::bit_cast<std::uint64_t>(p.x) * 0xbf58476d1ce4e5b9;
+    hash ^= std::rotl(std::bit_cast<std::uint64_t>(p.y) * 0x94d049bb133111eb, 21);
+    hash ^= std::rotl(std::bit_cast<std::uint64_t>(p.z) * 0xd6e8feb86659fd93, 42);
+    hash = (hash ^ (hash >> 32)) * 0xa0761d6478bd642f;
+    return (hash ^ (hash >> 29)) * 0xe7037ed1a0b428db;
+}
+
+bool is_float(const Double3& p) {
+    const auto is_kept = [](double x) { return double{static_cast<float>(x)} == x; };
+    return is_kept(p.x) && is_kept(p.y) && is_kept(p.z);
+}
+
+/// Returns a position in the precision of the model. Floats are not made of doubles.
+template <class Kept, class Given>
+Kept as_kept(const Given& p) {
+    if constexpr (std::is_same_v<Kept, Given>) {
+        return p;
+    } else {
+        return build::as_double(p);
+    }
+}
+
+/// Returns the triangles in import order: components are numbered in that order.
+std::vector<Triangle> in_source_order(const Model& model) {
+    const auto triangles = model.mesh().triangles;
+    std::vector<Triangle> sorted(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        sorted[model.source().triangle[i]] = triangles[i];
+    }
+    return sorted;
+}
+
+std::vector<Double3> positions_of(const Model& model) {
+    std::vector<Double3> positions(model.mesh().positions_f64.begin(),
+                                   model.mesh().positions_f64.end());
+    for (const Float3& p : model.mesh().positions_f32) positions.push_back(build::as_double(p));
+    return positions;
+}
+
+}  // namespace
+
+void LiveModel::State::Sums::add(std::uint32_t vertex, const Double3& p) {
+    hash += hash_of(vertex, p);
+    rounded += is_float(p) ? 0 : 1;
+}
+
+void LiveModel::State::Sums::remove(std::uint32_t vertex, const Double3& p) {
+    hash -= hash_of(vertex, p);
+    rounded -= is_float(p) ? 0 : 1;
+}
+
+LiveModel::State::State(std::span<std::byte> bytes, Model opened, const LiveTables& empty)
+    : image(bytes),
+      model(std::move(opened)),
+      positions_f32(elements_of<Float3>(bytes, SectionId::positions_f32)),
+      positions_f64(elements_of<Double3>(bytes, SectionId::positions_f64)),
+      nodes(elements_of<BvhNode>(bytes, SectionId::bvh_nodes)),
+      leaves(elements_of<format::BvhLeaf>(bytes, SectionId::bvh_leaves)),
+      degenerate_bits(elements_of<std::uint64_t>(bytes, SectionId::degenerate_bits)),
+      components(elements_of<format::Component>(bytes, SectionId::components)),
+      tables(empty),
+      frame_{model.header().frame_origin, model.header().frame_exponent} {
+    std::ranges::fill(tables.vertex_of, kUnusedVertex);
+    const std::span<const std::uint32_t> source = model.source().vertex;
+    for (std::uint32_t vertex = 0; vertex < source.size(); ++vertex) {
+        tables.vertex_of[source[vertex]] = vertex;
+    }
+    const std::span<const Triangle> triangles = model.mesh().triangles;
+    for (std::uint32_t place = 0; place < triangles.size(); ++place) {
+        tables.users.add(place, triangles[place]);
+    }
+    const auto sum_up = [&](const auto& positions) {
+        for (std::uint32_t vertex = 0; vertex < positions.size(); ++vertex) {
+            sums_.add(vertex, build::as_double(positions[vertex]));
+        }
+    };
+    sum_up(positions_f32);
+    sum_up(positions_f64);
+}
+
+template <class Given>
+void LiveModel::State::set_all(std::span<const Given> positions, ParallelFor parallel_for) {
+    if constexpr (std::is_same_v<Given, Float3>) {
+        if (!positions_f32.empty()) return set_all(positions, positions_f32, parallel_for);
+    }
+    set_all(positions, positions_f64, parallel_for);
+}
+
+template <class Given>
+void LiveModel::State::set_some(std::span<const std::uint32_t> vertices,
+                                std::span<const Given> positions, ParallelFor parallel_for) {
+    if constexpr (std::is_same_v<Given, Float3>) {
+        if (!positions_f32.empty()) {
+            return set_some(vertices, positions, positions_f32, parallel_for);
+        }
+    }
+    set_some(vertices, positions, positions_f64, parallel_for);
+}
+
+template void LiveModel::State::set_all(std::span<const Double3>, ParallelFor);
+template void LiveModel::State::set_all(std::span<const Float3>, ParallelFor);
+template void LiveModel::State::set_some(std::span<const std::uint32_t>, std::span<const Double3>,
+                                         ParallelFor);
+template void LiveModel::State::set_some(std::span<const std::uint32_t>, std::span<const Float3>,
+                                         ParallelFor);
+
+template <class Given, class Kept>
+void LiveModel::State::set_all(std::span<const Given> given, std::span<Kept> kept,
+                               ParallelFor parallel_for) {
+    const std::span<const std::uint32_t> source = model.source().vertex;
+    assert(source.size() == kept.size());
+    std::atomic<std::uint64_t> hash = 0;
+    std::atomic<std::uint32_t> rounded = 0;
+    std::atomic<bool> in_frame = true;
+    for_chunks(kept.size(), build::kItemsPerTask, parallel_for,
+               [&](std::size_t first, std::size_t last) {
+                   Sums part;
+                   bool fits = true;
+                   for (std::size_t i = first; i < last; ++i) {
+                       kept[i] = as_kept<Kept>(given[source[i]]);
+                       const Double3 p = build::as_double(kept[i]);
+                       part.add(static_cast<std::uint32_t>(i), p);
+                       fits &= is_in_frame(p);
+                   }
+                   hash += part.hash;
+                   rounded += part.rounded;
+                   if (!fits) in_frame = false;
+               });
+    sums_ = {hash, rounded};
+    fit(kept, true, in_frame, parallel_for);
+}
+
+template <class Given, class Kept>
+void LiveModel::State::set_some(std::span<const std::uint32_t> vertices,
+                                std::span<const Given> given, std::span<Kept> kept,
+                                ParallelFor parallel_for) {
+    bool in_frame = true;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const std::uint32_t vertex = tables.vertex_of[vertices[i]];
+        if (vertex == kUnusedVertex) continue;
+        sums_.remove(vertex, build::as_double(kept[vertex]));
+        kept[vertex] = as_kept<Kept>(given[i]);
+        const Double3 p = build::as_double(kept[vertex]);
+        sums_.add(vertex, p);
+        in_frame &= is_in_frame(p);
+        tables.users.each_at(vertex,
+                             [&](std::uint32_t place) { tables.changed.mark(place / kBvhWidth); });
+    }
+    fit(kept, false, in_frame, parallel_for);
+}
+
+template <class Kept>
+void LiveModel::State::fit(std::span<Kept> kept, bool all, bool in_frame,
+                           ParallelFor parallel_for) {
+    if (leaves.empty()) return;
+    const std::span<const Kept> positions = kept;
+    const auto new_frame = [&] {
+        return build::frame_of(build::extent_of(positions, parallel_for));
+    };
+    const bool was_exact = model.has_exact_leaves();
+    if (!in_frame) frame_ = new_frame();
+    if (all) {
+        build::mark_degenerate(positions, model.mesh().triangles, degenerate_bits, parallel_for);
+    } else {
+        fit_changed(positions, parallel_for);
+    }
+    if (all || !in_frame || has_exact_leaves() != was_exact) fit_all(positions, parallel_for);
+    if (is_small_in_frame()) {
+        const Frame tight = new_frame();
+        if (tight.origin != frame_.origin || tight.exponent != frame_.exponent) {
+            frame_ = tight;
+            fit_all(positions, parallel_for);
+        }
+    }
+    update_header();
+}
+
+template <class Kept>
+void LiveModel::State::fit_all(std::span<const Kept> positions, ParallelFor parallel_for) {
+    const std::span<const Triangle> triangles = model.mesh().triangles;
+    build::make_leaves({frame_, has_exact_leaves(), nodes, leaves}, positions, triangles,
+                       parallel_for);
+    build::make_nodes(nodes, static_cast<std::uint32_t>(triangles.size()), parallel_for);
+}
+
+template <class Kept>
+void LiveModel::State::fit_changed(std::span<const Kept> positions, ParallelFor parallel_for) {
+    const std::span<const Triangle> triangles = model.mesh().triangles;
+    const build::LeafRoom room = {frame_, has_exact_leaves(), nodes, leaves};
+    const format::BvhShape& shape = model.bvh().shape;
+    tables.changed.sweep(
+        parallel_for,
+        [&](std::size_t first, std::size_t last) {
+            build::make_some_leaves(room, positions, triangles, first, last);
+            build::mark_some_degenerate(positions, triangles, degenerate_bits, first * kBvhWidth,
+                                        std::min(last * kBvhWidth, triangles.size()));
+        },
+        [&](std::uint32_t level, std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                build::set_box_around(nodes[shape.first[level + 1] + i / kBvhWidth], i % kBvhWidth,
+                                      nodes[shape.first[level] + i]);
+            }
+        });
+}
+
+bool LiveModel::State::is_in_frame(const Double3& p) const {
+    // A new frame leaves twice the room that the vertices take, and more.
+    constexpr double kReach = 1 - 0x1p-20;
+    const Scale scale(frame_.exponent);
+    const Double3& o = frame_.origin;
+    return std::fabs(scale(p.x - o.x)) <= kReach && std::fabs(scale(p.y - o.y)) <= kReach &&
+           std::fabs(scale(p.z - o.z)) <= kReach;
+}
+
+/// Boxes have 24 bits of the frame: in a frame that is much too large they would be too large.
+bool LiveModel::State::is_small_in_frame() const {
+    constexpr float kSmall = 0.125F;  // sides of a new frame are at least 0.5 long
+    const BvhNode& root = nodes[0];
+    return std::ranges::all_of(std::array{0, 1, 2}, [&](std::size_t axis) {
+        return std::ranges::max(root.upper[axis]) - std::ranges::min(root.lower[axis]) < kSmall;
+    });
+}
+
+bool LiveModel::State::has_exact_leaves() const {
+    return build::has_exact_leaves(sums_.rounded == 0, frame_);
+}
+
+/// The content hash must distinguish these positions from any others, because caches compare it.
+/// All else that moves follows from the positions, so their hash is enough.
+void LiveModel::State::update_header() {
+    format::FileHeader facts = format::read_header(image);
+    facts.flags &= ~format::model_exact_leaves;
+    if (has_exact_leaves()) facts.flags |= format::model_exact_leaves;
+    facts.frame_origin = frame_.origin;
+    facts.frame_exponent = frame_.exponent;
+    ImageTable table(image);
+    for (SectionEntry& entry : table.entries()) {
+        if (is_positions(entry.id)) entry.checksum = sums_.hash;
+    }
+    table.write(facts);
+}
+
+void LiveModel::State::complete_image() {
+    const auto fit_anew = [&](const auto& kept) { fit(kept, true, false, serial_for); };
+    positions_f32.empty() ? fit_anew(positions_f64) : fit_anew(positions_f32);
+    const build::Topology topology =
+        build::find_topology(positions_of(model), in_source_order(model));
+    if (components.size() == topology.components.size()) {
+        std::ranges::copy(topology.components, components.begin());
+    }
+    ImageTable table(image);
+    table.add_checksums();
+    table.write(format::read_header(image));
+}
+
+}  // namespace cdprep
