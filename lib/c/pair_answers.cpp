@@ -11,7 +11,7 @@ namespace {
 
 /// Returns the number of words with a bit for each triangle.
 std::size_t words_for(const Model& model) noexcept {
-    return (std::size_t{model.triangle_count()} + 63) / 64;
+    return (std::size_t{model.triangle_number_bound()} + 63) / 64;
 }
 
 int check_words(Call& call, const Name& bits_name, const Name& words_name,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/model.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -40,6 +41,7 @@ struct Model::State {
     HullView hulls;
     PieceView pieces;
     RecordView record;
+    std::uint32_t torn_number_bound = 0;  ///< of a torn model; otherwise 0
 
     void find_sections(SectionSet wanted);
 
@@ -215,6 +217,9 @@ std::optional<Refusal> Model::refusal(Ask asks) const {
 std::uint32_t Model::triangle_count() const noexcept {
     return state_->header->triangle_count;
 }
+std::uint32_t Model::triangle_number_bound() const noexcept {
+    return std::max(state_->torn_number_bound, triangle_count());
+}
 std::uint32_t Model::vertex_count() const noexcept {
     return state_->header->vertex_count;
 }
@@ -257,8 +262,17 @@ const RecordView& Model::record() const noexcept {
 bool Model::has_exact_leaves() const noexcept {
     return state_->has_exact_leaves();
 }
+bool Model::is_torn() const noexcept {
+    return state_->torn_number_bound > 0;
+}
+void Model::set_lanes(std::span<const std::uint8_t> lanes) noexcept {
+    state_->bvh.lanes = lanes;
+}
+void Model::set_torn(std::uint32_t triangle_number_bound) noexcept {
+    state_->torn_number_bound = triangle_number_bound;
+}
 bool Model::is_balanced() const noexcept {
-    return (state_->header->flags & format::model_balanced) != 0;
+    return (state_->header->flags & format::model_balanced) != 0 && !is_torn();
 }
 
 std::string_view Model::name(SectionId names, std::uint32_t index) const noexcept {

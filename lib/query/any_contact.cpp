@@ -8,8 +8,8 @@
 namespace cdprep {
 
 bool has_pair(const PairCache& cache, const Model& a, const Model& b) noexcept {
-    return (cache.holds & held_pair) != 0 && cache.triangle_a < a.triangle_count() &&
-           cache.triangle_b < b.triangle_count();
+    return (cache.holds & held_pair) != 0 && has_triangle(a, cache.triangle_a) &&
+           has_triangle(b, cache.triangle_b);
 }
 
 void remember_pair(PairCache& cache, const TreePair& pair) noexcept {
@@ -34,7 +34,7 @@ bool any_contact(const Model& a, const Model& b, const Placement& placement, Wor
 
 bool any_contact_near(TreePair& touched, const Pair& pair, Workspace& workspace) noexcept {
     const Model &a = pair.a, &b = pair.b;
-    if (touched.a < a.triangle_count() && touched.b < b.triangle_count()) {
+    if (has_triangle(a, touched.a) && has_triangle(b, touched.b)) {
         PairCache cache;
         remember_pair(cache, touched);
         CachedSearch search(a, b, pair.placement, workspace, pair.options, cache);

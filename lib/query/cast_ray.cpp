@@ -146,11 +146,10 @@ bool for_each_hit(const Model& model, const RayQuery& query, Workspace& workspac
     };
     const auto look_at = [&](const TriangleRun& run) {
         assert(run.first <= run.last && run.last <= model.triangle_count());
-        for (std::uint32_t i = run.first; i < run.last; ++i) {
+        return each_triangle(model, run.first, run.last, [&](std::uint32_t i) {
             const std::optional<double> t = query.meet(i);
-            if (t && *t <= query.limit() && !found(*t, i)) return false;
-        }
-        return true;
+            return !t || *t > query.limit() || found(*t, i);
+        });
     };
     return walk_nodes(model, workspace.storage(), judge, look_at, look_at);
 }
@@ -171,16 +170,15 @@ std::optional<RayHit> cast_ray(const Model& model, const Ray& ray, Workspace& wo
     double best_t = query.limit();
     std::optional<std::uint32_t> best;
     const auto look_at_leaf = [&](std::uint32_t leaf) {
-        const std::uint32_t first = leaf * format::kBvhWidth;
-        const std::uint32_t last = std::min(first + format::kBvhWidth, model.triangle_count());
-        for (std::uint32_t i = first; i < last; ++i) {
+        each_in_leaf(model, leaf, [&](std::uint32_t i) {
             const std::optional<double> t = query.meet(i);
-            if (!t || *t > best_t) continue;
+            if (!t || *t > best_t) return true;
             const std::uint32_t source = source_number(model, i);
-            if (best && *t == best_t && source > *best) continue;
+            if (best && *t == best_t && source > *best) return true;
             best = source;
             best_t = *t;
-        }
+            return true;
+        });
         return best_t;
     };
     walk_ordered(model, workspace.storage(), best_t, query.boxes(), look_at_leaf);

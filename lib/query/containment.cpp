@@ -10,6 +10,13 @@ namespace {
 /// Returns whether a component of `inner` lies inside `outer`.
 Containment find_inside(const MovedModel& inner, const MovedModel& outer,
                         Workspace::Storage& scratch, bool a_inside_b) noexcept {
+    // The components of a torn model may have come apart: a vertex of each does not decide.
+    if (inner.model->is_torn()) {
+        const bool may_be_inside = inner.model->triangle_count() > 0 &&
+                                   outer.model->triangle_count() > 0 &&
+                                   overlap(box_around(inner), box_around(outer));
+        return {may_be_inside ? Answer::unknown : Answer::no, 0, a_inside_b};
+    }
     Containment result;
     for (const format::Component& component : inner.model->record().components) {
         const Inclusion found = inclusion(outer, inner.position(component.vertex), scratch);

@@ -40,12 +40,11 @@ bool for_each_touching(const Model& model, const S& asked, Workspace& workspace,
     const typename AmongBoxesOf<S>::Type shape(moved, asked);
     const bool skips = options.degenerate == Degenerate::skip;
     const auto look_at = [&](const TriangleRun& run, bool certain) {
-        for (std::uint32_t i = run.first; i < run.last; ++i) {
-            if (skips && is_marked_degenerate(model, i)) continue;
-            if (!certain && !shape.touches(moved.corners(i))) continue;
-            if (!found(i)) return false;
-        }
-        return true;
+        return each_triangle(model, run.first, run.last, [&](std::uint32_t i) {
+            if (skips && is_marked_degenerate(model, i)) return true;
+            if (!certain && !shape.touches(moved.corners(i))) return true;
+            return static_cast<bool>(found(i));
+        });
     };
     return walk_nodes(
         model, workspace.storage(), [&](const format::BvhNode& node) { return shape.judge(node); },

@@ -17,15 +17,14 @@ namespace {
 template <class Near>
 void for_each_near(const MovedModel& model, const Corners& shape, ShapeGap& gap, double limit,
                    Workspace::Storage& scratch, Near&& near) noexcept {
-    const std::uint32_t count = model.model->triangle_count();
     const auto leaf = [&](std::uint32_t index) {
-        const std::uint32_t first = index * format::kBvhWidth;
-        for (std::uint32_t i = first; i < std::min(first + format::kBvhWidth, count); ++i) {
+        each_in_leaf(*model.model, index, [&](std::uint32_t i) {
             const Corners corners = model.corners(i);
-            if (gap(corners) > limit) continue;
+            if (gap(corners) > limit) return true;
             const TriangleDistance d = triangle_distance(shape, corners, false);
             if (d.lower <= limit) limit = std::min(limit, near(i, corners, d));
-        }
+            return true;
+        });
         return gap.in_frame(limit);
     };
     walk_ordered(*model.model, scratch, gap.in_frame(limit), gap, leaf);

@@ -51,8 +51,8 @@ std::size_t mark_overlaps(const Pair& pair, Workspace& workspace, std::span<std:
     const auto mark = [](std::span<std::uint64_t> bits, std::uint32_t triangle) {
         bits[triangle / 64] |= std::uint64_t{1} << (triangle % 64);
     };
-    const bool wants_a = bits_a.size() * 64 >= a.triangle_count();
-    const bool wants_b = bits_b.size() * 64 >= b.triangle_count();
+    const bool wants_a = bits_a.size() * 64 >= a.triangle_number_bound();
+    const bool wants_b = bits_b.size() * 64 >= b.triangle_number_bound();
     std::size_t count = 0;
     for_each_contact(a, b, pair.placement, workspace, pair.options, pair.cache,
                      [&](std::uint32_t at_a, std::uint32_t at_b) {

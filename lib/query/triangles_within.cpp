@@ -115,12 +115,11 @@ bool WithinSearch<Trees>::run(Found&& found) noexcept {
 template <class Trees>
 template <class Found>
 bool WithinSearch<Trees>::give_all(Found&& found) const noexcept {
-    for (std::uint32_t i = 0; i < a_.triangle_count(); ++i) {
-        for (std::uint32_t j = 0; j < b_.triangle_count(); ++j) {
-            if (!is_skipped(i, j) && !found(i, j, Touch::unknown)) return false;
-        }
-    }
-    return true;
+    return each_triangle(a_, 0, a_.triangle_count(), [&](std::uint32_t i) {
+        return each_triangle(b_, 0, b_.triangle_count(), [&](std::uint32_t j) {
+            return is_skipped(i, j) || static_cast<bool>(found(i, j, Touch::unknown));
+        });
+    });
 }
 
 template <class Trees, class Found>

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/moved_point.h"
+#include "core/triangle_facts.h"
 #include "exact/triangle_contact.h"
 #include "exact/winding.h"
 #include "walk/walk_model.h"
@@ -82,18 +83,14 @@ Inclusion exact_inclusion(const MovedModel& model, const Double3& q,
     const Double3 o = before_along_x(q, boxes.reach());
     long winding = 0;
     const auto add_leaf = [&](std::uint32_t leaf) {
-        const std::uint32_t first = leaf * format::kBvhWidth;
-        const std::uint32_t last =
-            std::min(first + format::kBvhWidth, model.model->triangle_count());
-        if (scratch.counts != nullptr) scratch.counts->ray_triangles += last - first;
-        for (std::uint32_t i = first; i < last; ++i) {
+        return each_in_leaf(*model.model, leaf, [&](std::uint32_t i) {
+            if (scratch.counts != nullptr) ++scratch.counts->ray_triangles;
             const Corners corners = model.corners(i);
-            if (!ray_meets(q, box_around(corners))) continue;
+            if (!ray_meets(q, box_around(corners))) return true;
             const WindingTerm term = winding_term(o, q, corners);
-            if (term.on_surface) return false;
             winding += term.crossings;
-        }
-        return true;
+            return !term.on_surface;
+        });
     };
     const bool off_surface = walk_model(
         *model.model, scratch,
@@ -108,11 +105,13 @@ Inclusion exact_inclusion(const MovedModel& model, const Double3& q,
 /// Returns the generalised winding number, summed over all triangles.
 Inclusion open_inclusion(const MovedModel& model, const Double3& q) noexcept {
     double angle = 0;
-    for (std::uint32_t i = 0; i < model.model->triangle_count(); ++i) {
-        const Corners corners = model.corners(i);
-        if (triangles_touch({q, q, q}, corners)) return {Answer::yes, true, 0};
-        angle += solid_angle(q, corners);
-    }
+    const bool off_surface =
+        each_triangle(*model.model, 0, model.model->triangle_count(), [&](std::uint32_t i) {
+            const Corners corners = model.corners(i);
+            angle += solid_angle(q, corners);
+            return !triangles_touch({q, q, q}, corners);
+        });
+    if (!off_surface) return {Answer::yes, true, 0};
     return {Answer::unknown, false, angle / (4 * std::numbers::pi)};
 }
 

@@ -28,21 +28,25 @@ struct LeafLanes {
 [[nodiscard]] kernels::LeafPlacement place_leaves(const build::Bvh& tree,
                                                   const PlacedBoxes& placed) noexcept;
 
-/// The one leaf that may hold fewer than eight triangles. Identified without reading the leaf,
-/// which may be far away in memory.
-class LastLeaf {
+/// The lanes of leaves that have a triangle. Found without reading a leaf, which may be far away in
+/// memory. Unless the model can tear, only the last leaf may hold fewer than eight triangles.
+class UsedLanes {
 public:
-    explicit LastLeaf(std::uint32_t triangles) noexcept
-        : leaf_((triangles - 1) / format::kBvhWidth),
-          used_(static_cast<std::uint8_t>((2U << ((triangles - 1) % format::kBvhWidth)) - 1)) {}
+    explicit UsedLanes(const Model& model) noexcept
+        : lanes_(model.bvh().lanes.data()),
+          last_((model.triangle_count() - 1) / format::kBvhWidth),
+          used_in_last_(static_cast<std::uint8_t>(
+              (2U << ((model.triangle_count() - 1) % format::kBvhWidth)) - 1)) {}
 
-    [[nodiscard]] std::uint8_t used_lanes(std::uint32_t leaf) const noexcept {
-        return leaf == leaf_ ? used_ : std::uint8_t{0xff};
+    [[nodiscard]] std::uint8_t operator()(std::uint32_t leaf) const noexcept {
+        if (lanes_ != nullptr) return lanes_[leaf];
+        return leaf == last_ ? used_in_last_ : std::uint8_t{0xff};
     }
 
 private:
-    std::uint32_t leaf_;
-    std::uint8_t used_;
+    const std::uint8_t* lanes_;  ///< or null: the model cannot tear
+    std::uint32_t last_;
+    std::uint8_t used_in_last_;
 };
 
 /// Triangles in the form that the kernels take: those of a leaf, or gathered like one.
@@ -60,8 +64,8 @@ public:
         : scratch_(scratch),
           leaves_a_(a.bvh().leaves.data()),
           leaves_b_(b.bvh().leaves.data()),
-          last_a_(a.triangle_count()),
-          last_b_(b.triangle_count()),
+          used_a_(a),
+          used_b_(b),
           source_a_(a.source().triangle.data()),
           source_b_(b.source().triangle.data()),
           placement_(place_leaves(a, b, placed)) {
@@ -95,11 +99,11 @@ public:
     }
     /// Returns a view of some triangles of a leaf.
     [[nodiscard]] LeafView view_a(const LeafLanes& in_a) const noexcept {
-        const auto used = static_cast<std::uint8_t>(last_a_.used_lanes(in_a.leaf) & in_a.lanes);
+        const auto used = static_cast<std::uint8_t>(used_a_(in_a.leaf) & in_a.lanes);
         return {leaves_a_[in_a.leaf].corner[0][0].data(), in_a.leaf, used};
     }
     [[nodiscard]] LeafView view_b(const LeafLanes& in_b) const noexcept {
-        const auto used = static_cast<std::uint8_t>(last_b_.used_lanes(in_b.leaf) & in_b.lanes);
+        const auto used = static_cast<std::uint8_t>(used_b_(in_b.leaf) & in_b.lanes);
         return {leaves_b_[in_b.leaf].corner[0][0].data(), in_b.leaf, used};
     }
     void add(const LeafView& in_a, const LeafView& in_b) noexcept {
@@ -194,8 +198,8 @@ private:
                                    leaves_b_[leaf_b].corner[0][0].data(),
                                    leaf_a,
                                    leaf_b,
-                                   last_a_.used_lanes(leaf_a),
-                                   last_b_.used_lanes(leaf_b)};
+                                   used_a_(leaf_a),
+                                   used_b_(leaf_b)};
     }
     static void prefetch_sources(const std::uint32_t* sources, std::uint32_t leaf) noexcept {
         if (sources != nullptr) prefetch(sources + std::size_t{leaf} * format::kBvhWidth);
@@ -211,8 +215,8 @@ private:
     Workspace::Storage& scratch_;
     const format::BvhLeaf* leaves_a_;
     const format::BvhLeaf* leaves_b_;
-    LastLeaf last_a_;
-    LastLeaf last_b_;
+    UsedLanes used_a_;
+    UsedLanes used_b_;
     const std::uint32_t* source_a_;  ///< or null
     const std::uint32_t* source_b_;
     kernels::LeafPlacement placement_;

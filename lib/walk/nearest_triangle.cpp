@@ -20,14 +20,11 @@ std::optional<NearestTriangle> nearest_triangle(const MovedModel& model, const D
     double lower = best_computed;
     std::uint32_t best_source = 0;
     const auto look_at_leaf = [&](std::uint32_t leaf) {
-        const std::uint32_t first = leaf * format::kBvhWidth;
-        const std::uint32_t last =
-            std::min(first + format::kBvhWidth, model.model->triangle_count());
-        for (std::uint32_t i = first; i < last; ++i) {
+        each_in_leaf(*model.model, leaf, [&](std::uint32_t i) {
             const Corners corners = model.corners(i);
-            if (gap(corners) > (best ? best->upper : max_distance)) continue;
+            if (gap(corners) > (best ? best->upper : max_distance)) return true;
             const PointTriangleDistance d = point_triangle_distance(query, corners);
-            if (d.lower > max_distance) continue;
+            if (d.lower > max_distance) return true;
             lower = std::min(lower, d.lower);
             const std::uint32_t source = source_number(*model.model, i);
             const double upper = best ? std::min(best->upper, d.upper) : d.upper;
@@ -41,7 +38,8 @@ std::optional<NearestTriangle> nearest_triangle(const MovedModel& model, const D
             } else {
                 best->upper = upper;
             }
-        }
+            return true;
+        });
         return gap.in_frame(best ? best->upper : max_distance);
     };
     walk_ordered(*model.model, scratch, gap.in_frame(max_distance), gap, look_at_leaf);

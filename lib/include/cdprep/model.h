@@ -118,6 +118,9 @@ public:
 
     [[nodiscard]] std::uint32_t triangle_count() const noexcept;  ///< from the header
     [[nodiscard]] std::uint32_t vertex_count() const noexcept;    ///< from the header
+    /// Returns a bound of the numbers by which answers name triangles: all are less. It is
+    /// triangle_count(), unless triangles were appended to a LiveModel.
+    [[nodiscard]] std::uint32_t triangle_number_bound() const noexcept;
 
     [[nodiscard]] const format::FileHeader& header() const noexcept;
 
@@ -157,6 +160,10 @@ public:
     /// text if there is none. Takes O(index) time.
     [[nodiscard]] std::string_view name(SectionId names, std::uint32_t index) const noexcept;
 
+    /// Returns whether a LiveModel has gained or lost triangles since it was made. Queries about
+    /// solids then give Answer::unknown unless boxes or the surface decide.
+    [[nodiscard]] bool is_torn() const noexcept;
+
     /// Returns whether bvh().leaves is not empty and holds model coordinates without loss.
     [[nodiscard]] bool has_exact_leaves() const noexcept;
     /// Returns whether every edge is used equally often in both directions. Winding numbers then
@@ -168,6 +175,9 @@ private:
     explicit Model(std::unique_ptr<State> state) noexcept;
     [[nodiscard]] static Result<Model> from_bytes(std::span<const std::byte> bytes,
                                                   const OpenOptions& options);
+    friend class LiveModel;
+    void set_lanes(std::span<const std::uint8_t> lanes) noexcept;
+    void set_torn(std::uint32_t triangle_number_bound) noexcept;
     std::unique_ptr<State> state_;
     Ask served_ = Ask::nothing;
 };

@@ -150,9 +150,10 @@ bool visit_overlaps(const Pair& pair, Workspace& workspace, PairVisitor visit) n
 
 /// Marks the triangles of each model that overlap any triangle of the other, and returns the number
 /// of pairs. The mark of source triangle i is bit i % 64 of element i / 64. Clears `bits_a` and
-/// `bits_b` first. Each needs an element for every 64 triangles of its model. A shorter array gets
-/// no marks. Faster than overlaps() if many pairs share few triangles. Reads options.overlap and
-/// degenerate. Needs Ask::overlap of both models.
+/// `bits_b` first. Each needs an element for every 64 numbers below
+/// Model::triangle_number_bound(). A shorter array gets no marks. Faster than overlaps() if many
+/// pairs share few triangles. Reads options.overlap and degenerate. Needs Ask::overlap of both
+/// models.
 std::size_t mark_overlaps(const Pair& pair, Workspace& workspace, std::span<std::uint64_t> bits_a,
                           std::span<std::uint64_t> bits_b) noexcept;
 

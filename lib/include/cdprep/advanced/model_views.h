@@ -64,6 +64,9 @@ struct BvhView {
 #define CDPREP_BVH_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
 #include "cdprep/format/section_table.inc"
     BvhShape shape;  ///< levels and counts; always set
+    /// Of a LiveModel that can tear, the places of each leaf that have a triangle: bit sets. Empty
+    /// for all other models, where every place has one.
+    std::span<const std::uint8_t> lanes = {};
 };
 
 /// The octree of equal cells, its hash tables and its sorted leaves (format/octree.h).
