@@ -2,6 +2,7 @@
 #include "build/make_leaves.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 
 #include "build/chunks.h"
@@ -156,6 +157,14 @@ private:
     std::span<const Triangle> triangles_;
 };
 
+/// Returns the lane whose triangle is stored in a lane: itself if it has one, else the last before
+/// it that has, else the first.
+std::size_t lane_for(std::size_t lane, unsigned lanes) {
+    const unsigned up_to = lanes & ((2U << lane) - 1);
+    return static_cast<std::size_t>(up_to != 0 ? std::bit_width(up_to) - 1
+                                               : std::countr_zero(lanes));
+}
+
 template <class Source>
 void make_range(const LeafRoom& room, const Source& source, std::size_t first, std::size_t last) {
     const LeafMaker maker(room.frame, room.exact);
@@ -166,9 +175,15 @@ void make_range(const LeafRoom& room, const Source& source, std::size_t first, s
     for (std::size_t leaf = first; leaf < last; ++leaf) {
         source.ask_ahead_of(leaf);
         const std::size_t begin = leaf * kBvhWidth;
-        const std::size_t used = std::min<std::size_t>(kBvhWidth, count - begin);
+        const std::size_t places = std::min<std::size_t>(kBvhWidth, count - begin);
+        const unsigned all = (1U << places) - 1;
+        const unsigned lanes = room.lanes == nullptr ? all : room.lanes[leaf];
+        if (lanes == 0) {
+            set_unused_box(lowest[leaf / kBvhWidth], leaf % kBvhWidth);
+            continue;
+        }
         for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
-            const Triangle& t = source.triangle(begin + std::min(lane, used - 1));
+            const Triangle& t = source.triangle(begin + lane_for(lane, lanes));
             for (std::size_t corner = 0; corner < 3; ++corner) {
                 const Double3& p = source.position(t.vertex[corner]);
                 const std::size_t at = corner * kBvhWidth + lane;
@@ -177,7 +192,7 @@ void make_range(const LeafRoom& room, const Source& source, std::size_t first, s
                 corners[2][at] = p.z;
             }
         }
-        maker.make(corners, static_cast<std::uint32_t>(used), room.leaves[leaf],
+        maker.make(corners, static_cast<std::uint32_t>(std::popcount(lanes)), room.leaves[leaf],
                    lowest[leaf / kBvhWidth], leaf % kBvhWidth);
     }
 }

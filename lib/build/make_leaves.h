@@ -11,6 +11,9 @@ struct LeafRoom {
     bool exact = false;  ///< the leaves hold model coordinates
     std::span<format::BvhNode> nodes;
     std::span<format::BvhLeaf> leaves;
+    /// The places of each leaf that have a triangle, at most eight bits; null: all have one. A leaf
+    /// without triangles gets an unused box.
+    const std::uint8_t* lanes = nullptr;
 };
 
 /// Fills leaves and the boxes around them, which are level 0 of the nodes. Requires triangles in

@@ -23,14 +23,16 @@ void set_box_around(BvhNode& node, std::size_t box, const BvhNode& below) {
     }
 }
 
+void set_unused_box(BvhNode& node, std::size_t box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        node.lower[axis][box] = 1;
+        node.upper[axis][box] = -1;
+    }
+}
+
 void set_unused_boxes(BvhNode& node, std::size_t first) {
     assert(first <= kBvhWidth);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t box = first; box < kBvhWidth; ++box) {
-            node.lower[axis][box] = 1;
-            node.upper[axis][box] = -1;
-        }
-    }
+    for (std::size_t box = first; box < kBvhWidth; ++box) set_unused_box(node, box);
 }
 
 void make_nodes(std::span<BvhNode> all, std::uint32_t triangle_count, ParallelFor parallel_for) {

@@ -12,6 +12,9 @@ void make_nodes(std::span<format::BvhNode> all, std::uint32_t triangle_count,
 /// Sets a box of a node to the one around the boxes of the node below.
 void set_box_around(format::BvhNode& node, std::size_t box, const format::BvhNode& below);
 
+/// Marks a box as unused: a place without contents.
+void set_unused_box(format::BvhNode& node, std::size_t box);
+
 /// Marks boxes from `first` on as unused.
 void set_unused_boxes(format::BvhNode& node, std::size_t first);
 
