@@ -35,6 +35,21 @@ public:
         }
     }
 
+    /// Removes the corners that add() added.
+    void remove(std::uint32_t place, const format::Triangle& triangle) noexcept {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t corner = 3 * place + k;
+            const std::uint32_t before = previous_[corner];
+            const std::uint32_t after = next_[corner];
+            (before == kNone ? first_[triangle.vertex[k]] : next_[before]) = after;
+            if (after != kNone) previous_[after] = before;
+        }
+    }
+
+    [[nodiscard]] bool is_used(std::uint32_t vertex) const noexcept {
+        return first_[vertex] != kNone;
+    }
+
     /// Calls visit(place) for the triangles at a vertex. A triangle with two corners there is
     /// visited twice.
     template <class Visit>

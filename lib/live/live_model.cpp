@@ -7,13 +7,14 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "build/bad_argument.h"
 #include "build/mesh_fault.h"
 #include "cdprep/format/float_environment.h"
-#include "cdprep/format/sections.h"
 #include "core/guarded_for.h"
+#include "core/smallest.h"
+#include "core/triangle_facts.h"
+#include "live/live_start.h"
 #include "live/live_state.h"
 
 namespace cdprep {
@@ -21,135 +22,32 @@ namespace {
 
 using build::bad_argument;
 using build::ModelArrays;
-using build::SectionList;
 using format::Double3;
 using format::Float3;
-using format::SectionId;
-using format::SectionSet;
+using format::Triangle;
 
-/// The sections of a live model: those that follow from its positions, and those that do not
-/// depend on them.
-constexpr SectionSet kSections = {
-    SectionId::positions_f32,   SectionId::positions_f64,   SectionId::triangles,
-    SectionId::source_triangle, SectionId::source_vertex,   SectionId::bvh_nodes,
-    SectionId::bvh_leaves,      SectionId::degenerate_bits, SectionId::components};
-
-/// Returns the facts without swept spheres, which a live model omits.
-format::FileHeader facts_of(format::FileHeader base) {
-    base.flags &= ~(format::model_swept_lines | format::model_swept_rectangles);
-    return base;
+LiveTables tables_of(Carver& carver, const LiveBase& base, const LiveLimits& limits) {
+    const bool can_tear = limits.triangles > 0;
+    const std::size_t vertices = vertices_for(base, limits);
+    return {carver,
+            {can_tear ? vertices : base.number_count(), vertices,
+             can_tear ? places_for(limits.triangles)
+                      : static_cast<std::uint32_t>(base.triangles.size()),
+             can_tear}};
 }
 
-/// The parts of a live model: views of its base.
-struct Start {
-    format::FileHeader facts;
-    SectionList list;
-    std::size_t vertices;
-    std::size_t numbers;  ///< of vertices in the imported file, without unused ones at its end
-    /// A triangle may become degenerate, so the model has marks even if none is set.
-    std::vector<std::uint64_t> no_marks;
-
-    Start(const format::FileHeader& base, SectionList views, bool has_marks,
-          std::span<const std::uint32_t> source_vertex)
-        : facts(facts_of(base)),
-          list(std::move(views)),
-          vertices(source_vertex.size()),
-          numbers(vertices == 0 ? 0 : std::size_t{std::ranges::max(source_vertex)} + 1) {
-        if (has_marks) return;
-        no_marks.resize((std::size_t{base.triangle_count} + 63) / 64);
-        list.add(SectionId::degenerate_bits, no_marks);
-    }
-    // The list has a view of the marks.
-    Start(const Start&) = delete;
-    Start& operator=(const Start&) = delete;
-};
-
-/// Returns why a model cannot be the base of a live model.
-std::optional<Error> find_fault(const Model& base) {
-    for (const SectionId id :
-         {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
-          SectionId::bvh_nodes, SectionId::bvh_leaves}) {
-        if (base.sections().contains(id)) continue;
-        return bad_argument(std::string("A live model needs the section ") +
-                            format::section_name(id) +
-                            ": bake it with --effects overlap, and open it "
-                            "with that section.");
-    }
-    if (!base.sections().contains(SectionId::positions_f32) &&
-        !base.sections().contains(SectionId::positions_f64)) {
-        return bad_argument(
-            "A live model needs positions: bake the mesh with --effects overlap, and open the "
-            "model for overlap.");
-    }
-    const auto source = base.source().vertex;
-    const auto made = std::ranges::find(source, format::kMadeByRepair);
-    if (made == source.end()) return std::nullopt;
-    return bad_argument("A live model cannot be made of this model: vertex " +
-                        std::to_string(made - source.begin()) +
-                        " was made by a repair, so the imported file has no position for it.");
-}
-
-SectionList views_of(const Model& base) {
-    SectionList list(kSections);
-    const SectionSet present = base.sections();
-    const auto add = [&](SectionId id, const auto& elements) {
-        if (present.contains(id)) list.add(id, elements);
-    };
-    add(SectionId::positions_f32, base.mesh().positions_f32);
-    add(SectionId::positions_f64, base.mesh().positions_f64);
-    add(SectionId::triangles, base.mesh().triangles);
-    add(SectionId::source_triangle, base.source().triangle);
-    add(SectionId::source_vertex, base.source().vertex);
-    add(SectionId::bvh_nodes, base.bvh().nodes);
-    add(SectionId::bvh_leaves, base.bvh().leaves);
-    add(SectionId::components, base.record().components);
-    list.add_unless_empty(SectionId::degenerate_bits, base.mesh().degenerate_bits);
-    return list;
-}
-
-Start start_of(const ModelArrays& base) {
-    return {base.facts, base.sections(kSections), !base.degenerate_bits.empty(),
-            base.source_vertex};
-}
-
-Start start_of(const Model& base) {
-    return {base.header(), views_of(base), !base.mesh().degenerate_bits.empty(),
-            base.source().vertex};
-}
-
-LiveTables tables_of(const Start& start, Carver& carver) {
-    return {carver, start.numbers, start.vertices, start.facts.triangle_count};
-}
-
-Result<std::size_t> bytes_of(const Start& start) {
-    const Result<std::size_t> image = build::image_size(start.list.sections());
+Result<std::size_t> bytes_of(const LiveBase& base, const LiveLimits& limits,
+                             std::span<const build::Section> sections) {
+    const Result<std::size_t> image = build::image_size(sections);
     if (!image) return image.error();
     Carver carver(nullptr);
-    tables_of(start, carver);
+    tables_of(carver, base, limits);
     return *image + carver.used();
 }
 
-/// A live model, as far as it is made without its state.
-struct Made {
-    std::span<std::byte> image;
-    Model model;
-    LiveTables tables;
-};
-
-Result<Made> make(std::span<std::byte> memory, const Start& start) {
-    const Result<std::size_t> size = bytes_of(start);
-    if (!size) return size.error();
-    if (memory.size() < *size) {
-        return bad_argument("The live model takes " + std::to_string(*size) + " bytes, and " +
-                            std::to_string(memory.size()) + " were given.");
-    }
-    const Result<std::span<std::byte>> image =
-        build::build_image(start.facts, start.list.sections(), memory);
-    if (!image) return image.error();
-    Result<Model> opened = Model::open(std::span<const std::byte>(*image), {.name = "live model"});
-    if (!opened) return opened.error();
-    Carver carver(image->data() + image->size());
-    return Made{*image, std::move(opened).value(), tables_of(start, carver)};
+Result<std::size_t> bytes_of(const LiveBase& base, const LiveLimits& limits) {
+    if (const auto fault = find_limit_fault(base, limits)) return *fault;
+    return bytes_of(base, limits, LiveStart(base, limits).sections());
 }
 
 bool shares_memory(std::span<const std::byte> a, std::span<const std::byte> b) {
@@ -165,26 +63,44 @@ LiveModel::LiveModel(LiveModel&&) noexcept = default;
 LiveModel& LiveModel::operator=(LiveModel&&) noexcept = default;
 LiveModel::~LiveModel() = default;
 
-Result<std::size_t> LiveModel::bytes(const ModelArrays& base) {
-    return bytes_of(start_of(base));
+Result<std::size_t> LiveModel::bytes(const ModelArrays& base, const LiveLimits& limits) {
+    return bytes_of(LiveBase(base), limits);
 }
 
-Result<std::size_t> LiveModel::bytes(const Model& base) {
-    if (const auto fault = find_fault(base)) return *fault;
-    return bytes_of(start_of(base));
+Result<std::size_t> LiveModel::bytes(const Model& base, const LiveLimits& limits) {
+    if (const auto fault = find_base_fault(base)) return *fault;
+    return bytes_of(LiveBase(base), limits);
 }
 
-Result<LiveModel> LiveModel::in(std::span<std::byte> memory, const ModelArrays& base) {
-    Result<Made> made = make(memory, start_of(base));
-    if (!made) return made.error();
-    return LiveModel(std::make_unique<State>(made->image, std::move(made->model), made->tables));
+Result<LiveModel> LiveModel::in(std::span<std::byte> memory, const ModelArrays& base,
+                                const LiveLimits& limits) {
+    return make(memory, LiveBase(base), limits);
 }
 
-Result<LiveModel> LiveModel::in(std::span<std::byte> memory, const Model& base) {
-    if (const auto fault = find_fault(base)) return *fault;
-    Result<Made> made = make(memory, start_of(base));
-    if (!made) return made.error();
-    return LiveModel(std::make_unique<State>(made->image, std::move(made->model), made->tables));
+Result<LiveModel> LiveModel::in(std::span<std::byte> memory, const Model& base,
+                                const LiveLimits& limits) {
+    if (const auto fault = find_base_fault(base)) return *fault;
+    return make(memory, LiveBase(base), limits);
+}
+
+Result<LiveModel> LiveModel::make(std::span<std::byte> memory, const LiveBase& base,
+                                  const LiveLimits& limits) {
+    if (const auto fault = find_limit_fault(base, limits)) return *fault;
+    const LiveStart start(base, limits);
+    const Result<std::size_t> size = bytes_of(base, limits, start.sections());
+    if (!size) return size.error();
+    if (memory.size() < *size) {
+        return bad_argument("The live model takes " + std::to_string(*size) + " bytes, and " +
+                            std::to_string(memory.size()) + " were given.");
+    }
+    const Result<std::span<std::byte>> image =
+        build::build_image(start.facts(), start.sections(), memory);
+    if (!image) return image.error();
+    Result<Model> opened = Model::open(std::span<const std::byte>(*image), {.name = "live model"});
+    if (!opened) return opened.error();
+    Carver carver(image->data() + image->size());
+    return LiveModel(std::make_unique<State>(*image, std::move(opened).value(),
+                                             tables_of(carver, base, limits), base, limits, start));
 }
 
 const Model& LiveModel::model() const noexcept {
@@ -192,7 +108,23 @@ const Model& LiveModel::model() const noexcept {
 }
 
 std::size_t LiveModel::position_count() const noexcept {
-    return state_->tables.vertex_of.size();
+    return state_->position_count();
+}
+
+std::uint32_t LiveModel::triangle_count() const noexcept {
+    return state_->tables.tear ? state_->tables.tear->count : state_->model.triangle_count();
+}
+
+std::size_t LiveModel::triangles(std::span<LiveTriangle> room) const noexcept {
+    if (!state_->tables.tear) return 0;
+    Smallest<LiveTriangle> smallest(room);
+    const Model& model = state_->model;
+    each_triangle(model, 0, model.triangle_count(), [&](std::uint32_t place) {
+        smallest.add({state_->source_triangle[place], state_->triangles[place].vertex});
+        return true;
+    });
+    std::ranges::sort(smallest.kept(), std::less<>());
+    return smallest.count();
 }
 
 double LiveModel::surface_cost() const noexcept {
@@ -240,11 +172,12 @@ Result<Done> LiveModel::refit_some(std::span<const std::uint32_t> vertices,
         return bad_argument(std::to_string(vertices.size()) + " vertices and " +
                             std::to_string(positions.size()) + " positions were given.");
     }
-    const auto beyond = std::ranges::find_if(
-        vertices, [&](std::uint32_t vertex) { return vertex >= position_count(); });
+    const std::size_t numbers = state_->tables.vertex_of.size();
+    const auto beyond =
+        std::ranges::find_if(vertices, [&](std::uint32_t vertex) { return vertex >= numbers; });
     if (beyond != vertices.end()) {
         return bad_argument("Vertex " + std::to_string(*beyond) + " does not exist: there are " +
-                            std::to_string(position_count()) + ", numbered from 0.");
+                            std::to_string(numbers) + ", numbered from 0.");
     }
     if (const auto fault = state_->find_fault(positions, vertices)) return *fault;
     state_->set_some(vertices, positions, guarded);
@@ -267,10 +200,30 @@ std::optional<Error> LiveModel::State::find_fault(std::span<const Position> posi
     return build::find_bad_position(positions, vertices);
 }
 
-std::span<const std::byte> LiveModel::image() {
+Result<std::uint32_t> LiveModel::append(std::span<const Triangle> triangles) {
     const format::FloatEnvironment environment;
+    if (const auto fault = state_->find_fault(triangles)) return *fault;
+    const std::uint32_t first = state_->tables.tear->next_id;
+    state_->append(triangles);
+    return first;
+}
+
+Result<Done> LiveModel::remove(std::span<const std::uint32_t> numbers) {
+    const format::FloatEnvironment environment;
+    if (const auto fault = state_->find_fault(numbers)) return *fault;
+    state_->remove(numbers);
+    return Done{};
+}
+
+Result<std::span<const std::byte>> LiveModel::image() {
+    const format::FloatEnvironment environment;
+    if (state_->tables.tear) {
+        return bad_argument(
+            "A live model that can tear has places without triangles: build a model of its "
+            "triangles().");
+    }
     state_->complete_image();
-    return state_->image;
+    return std::span<const std::byte>(state_->image);
 }
 
 }  // namespace cdprep

@@ -26,6 +26,7 @@ namespace cdprep {
 namespace {
 
 using build::Frame;
+using build::frame_of;
 using format::BvhNode;
 using format::Double3;
 using format::Float3;
@@ -102,9 +103,12 @@ void LiveModel::State::Sums::remove(std::uint32_t vertex, const Double3& p) {
     rounded -= is_float(p) ? 0 : 1;
 }
 
-LiveModel::State::State(std::span<std::byte> bytes, Model opened, const LiveTables& empty)
+LiveModel::State::State(std::span<std::byte> bytes, Model opened, const LiveTables& empty,
+                        const LiveBase& base, const LiveLimits& limits, const LiveStart& start)
     : image(bytes),
       model(std::move(opened)),
+      triangles(elements_of<Triangle>(bytes, SectionId::triangles)),
+      source_triangle(elements_of<std::uint32_t>(bytes, SectionId::source_triangle)),
       positions_f32(elements_of<Float3>(bytes, SectionId::positions_f32)),
       positions_f64(elements_of<Double3>(bytes, SectionId::positions_f64)),
       nodes(elements_of<BvhNode>(bytes, SectionId::bvh_nodes)),
@@ -114,21 +118,20 @@ LiveModel::State::State(std::span<std::byte> bytes, Model opened, const LiveTabl
       tables(empty),
       frame_{model.header().frame_origin, model.header().frame_exponent} {
     std::ranges::fill(tables.vertex_of, kUnusedVertex);
-    const std::span<const std::uint32_t> source = model.source().vertex;
-    for (std::uint32_t vertex = 0; vertex < source.size(); ++vertex) {
-        tables.vertex_of[source[vertex]] = vertex;
+    for (std::uint32_t i = 0; i < base.source_vertex.size(); ++i) {
+        const std::uint32_t number = base.source_vertex[i];
+        const std::uint32_t vertex = tables.tear ? number : i;
+        tables.vertex_of[number] = vertex;
+        with_positions(
+            [&](const auto& positions) { sums_.add(vertex, build::as_double(positions[vertex])); });
     }
-    const std::span<const Triangle> triangles = model.mesh().triangles;
-    for (std::uint32_t place = 0; place < triangles.size(); ++place) {
-        tables.users.add(place, triangles[place]);
-    }
-    const auto sum_up = [&](const auto& positions) {
-        for (std::uint32_t vertex = 0; vertex < positions.size(); ++vertex) {
-            sums_.add(vertex, build::as_double(positions[vertex]));
+    if (tables.tear) {
+        start_to_tear(base, limits, start);
+    } else {
+        for (std::uint32_t place = 0; place < triangles.size(); ++place) {
+            tables.users.add(place, triangles[place]);
         }
-    };
-    sum_up(positions_f32);
-    sum_up(positions_f64);
+    }
 }
 
 template <class Given>
@@ -161,26 +164,26 @@ template <class Given, class Kept>
 void LiveModel::State::set_all(std::span<const Given> given, std::span<Kept> kept,
                                ParallelFor parallel_for) {
     const std::span<const std::uint32_t> source = model.source().vertex;
-    assert(source.size() == kept.size());
+    const std::size_t count = tables.tear ? position_count() : kept.size();
     std::atomic<std::uint64_t> hash = 0;
     std::atomic<std::uint32_t> rounded = 0;
     std::atomic<bool> in_frame = true;
-    for_chunks(kept.size(), build::kItemsPerTask, parallel_for,
-               [&](std::size_t first, std::size_t last) {
-                   Sums part;
-                   bool fits = true;
-                   for (std::size_t i = first; i < last; ++i) {
-                       kept[i] = as_kept<Kept>(given[source[i]]);
-                       const Double3 p = build::as_double(kept[i]);
-                       part.add(static_cast<std::uint32_t>(i), p);
-                       fits &= is_in_frame(p);
-                   }
-                   hash += part.hash;
-                   rounded += part.rounded;
-                   if (!fits) in_frame = false;
-               });
+    for_chunks(count, build::kItemsPerTask, parallel_for, [&](std::size_t first, std::size_t last) {
+        Sums part;
+        bool fits = true;
+        for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
+            kept[i] = as_kept<Kept>(given[source[i]]);
+            tables.vertex_of[source[i]] = i;
+            const Double3 p = build::as_double(kept[i]);
+            part.add(i, p);
+            fits &= is_in_frame(p) || !tables.users.is_used(i);
+        }
+        hash += part.hash;
+        rounded += part.rounded;
+        if (!fits) in_frame = false;
+    });
     sums_ = {hash, rounded};
-    fit(kept, true, in_frame, parallel_for);
+    fit(true, in_frame, parallel_for);
 }
 
 template <class Given, class Kept>
@@ -189,71 +192,88 @@ void LiveModel::State::set_some(std::span<const std::uint32_t> vertices,
                                 ParallelFor parallel_for) {
     bool in_frame = true;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const std::uint32_t vertex = tables.vertex_of[vertices[i]];
-        if (vertex == kUnusedVertex) continue;
-        sums_.remove(vertex, build::as_double(kept[vertex]));
+        std::uint32_t& vertex = tables.vertex_of[vertices[i]];
+        if (vertex != kUnusedVertex) {
+            sums_.remove(vertex, build::as_double(kept[vertex]));
+        } else if (tables.tear) {
+            vertex = vertices[i];
+            tables.tear->positions = std::max(tables.tear->positions, vertex + 1);
+        } else {
+            continue;
+        }
         kept[vertex] = as_kept<Kept>(given[i]);
         const Double3 p = build::as_double(kept[vertex]);
         sums_.add(vertex, p);
-        in_frame &= is_in_frame(p);
+        in_frame &= is_in_frame(p) || !tables.users.is_used(vertex);
         tables.users.each_at(vertex,
                              [&](std::uint32_t place) { tables.changed.mark(place / kBvhWidth); });
     }
-    fit(kept, false, in_frame, parallel_for);
+    fit(false, in_frame, parallel_for);
 }
 
-template <class Kept>
-void LiveModel::State::fit(std::span<Kept> kept, bool all, bool in_frame,
-                           ParallelFor parallel_for) {
+void LiveModel::State::fit(bool all, bool in_frame, ParallelFor parallel_for) {
     if (leaves.empty()) return;
-    const std::span<const Kept> positions = kept;
-    const auto new_frame = [&] {
-        return build::frame_of(build::extent_of(positions, parallel_for));
-    };
-    const bool was_exact = model.has_exact_leaves();
-    if (!in_frame) frame_ = new_frame();
+    const bool was_exact = (model.header().flags & format::model_exact_leaves) != 0;
+    if (!in_frame) frame_ = new_frame(parallel_for);
     if (all) {
-        build::mark_degenerate(positions, model.mesh().triangles, degenerate_bits, parallel_for);
+        with_positions([&](const auto& positions) {
+            build::mark_degenerate(positions, triangles, degenerate_bits, parallel_for);
+        });
     } else {
-        fit_changed(positions, parallel_for);
+        fit_changed(parallel_for);
     }
-    if (all || !in_frame || has_exact_leaves() != was_exact) fit_all(positions, parallel_for);
+    if (all || !in_frame || has_exact_leaves() != was_exact) fit_all(parallel_for);
     if (is_small_in_frame()) {
-        const Frame tight = new_frame();
+        const Frame tight = new_frame(parallel_for);
         if (tight.origin != frame_.origin || tight.exponent != frame_.exponent) {
             frame_ = tight;
-            fit_all(positions, parallel_for);
+            fit_all(parallel_for);
         }
     }
     update_header();
 }
 
-template <class Kept>
-void LiveModel::State::fit_all(std::span<const Kept> positions, ParallelFor parallel_for) {
-    const std::span<const Triangle> triangles = model.mesh().triangles;
-    build::make_leaves({frame_, has_exact_leaves(), nodes, leaves}, positions, triangles,
-                       parallel_for);
+Frame LiveModel::State::new_frame(ParallelFor parallel_for) const {
+    if (tables.tear) return tables.tear->count > 0 ? frame_of(used_extent()) : frame_;
+    return with_positions(
+        [&](const auto& positions) { return frame_of(build::extent_of(positions, parallel_for)); });
+}
+
+build::LeafRoom LiveModel::State::leaf_room() const {
+    return {frame_, has_exact_leaves(), nodes, leaves,
+            tables.tear ? tables.tear->lanes.data() : nullptr};
+}
+
+void LiveModel::State::fit_all(ParallelFor parallel_for) {
+    with_positions([&](const auto& positions) {
+        build::make_leaves(leaf_room(), positions, triangles, parallel_for);
+    });
     build::make_nodes(nodes, static_cast<std::uint32_t>(triangles.size()), parallel_for);
 }
 
-template <class Kept>
-void LiveModel::State::fit_changed(std::span<const Kept> positions, ParallelFor parallel_for) {
-    const std::span<const Triangle> triangles = model.mesh().triangles;
-    const build::LeafRoom room = {frame_, has_exact_leaves(), nodes, leaves};
+void LiveModel::State::fit_changed(ParallelFor parallel_for) {
+    with_positions([&](const auto& positions) {
+        const build::LeafRoom room = leaf_room();
+        tables.changed.sweep(
+            parallel_for,
+            [&](std::size_t first, std::size_t last) {
+                build::make_some_leaves(room, positions, triangles, first, last);
+                build::mark_some_degenerate(positions, triangles, degenerate_bits,
+                                            first * kBvhWidth,
+                                            std::min(last * kBvhWidth, triangles.size()));
+            },
+            [&](std::uint32_t level, std::size_t first, std::size_t last) {
+                fit_boxes_around(level, first, last);
+            });
+    });
+}
+
+void LiveModel::State::fit_boxes_around(std::uint32_t level, std::size_t first, std::size_t last) {
     const format::BvhShape& shape = model.bvh().shape;
-    tables.changed.sweep(
-        parallel_for,
-        [&](std::size_t first, std::size_t last) {
-            build::make_some_leaves(room, positions, triangles, first, last);
-            build::mark_some_degenerate(positions, triangles, degenerate_bits, first * kBvhWidth,
-                                        std::min(last * kBvhWidth, triangles.size()));
-        },
-        [&](std::uint32_t level, std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) {
-                build::set_box_around(nodes[shape.first[level + 1] + i / kBvhWidth], i % kBvhWidth,
-                                      nodes[shape.first[level] + i]);
-            }
-        });
+    for (std::size_t i = first; i < last; ++i) {
+        build::set_box_around(nodes[shape.first[level + 1] + i / kBvhWidth], i % kBvhWidth,
+                              nodes[shape.first[level] + i]);
+    }
 }
 
 bool LiveModel::State::is_in_frame(const Double3& p) const {
@@ -289,13 +309,18 @@ void LiveModel::State::update_header() {
     ImageTable table(image);
     for (SectionEntry& entry : table.entries()) {
         if (is_positions(entry.id)) entry.checksum = sums_.hash;
+        if (tables.tear && entry.id == SectionId::triangles) entry.checksum = tables.tear->hash;
+    }
+    // Without triangles, no query looks at the places.
+    if (tables.tear) {
+        const bool is_empty = tables.tear->count == 0;
+        facts.triangle_count = is_empty ? 0 : static_cast<std::uint32_t>(triangles.size());
     }
     table.write(facts);
 }
 
 void LiveModel::State::complete_image() {
-    const auto fit_anew = [&](const auto& kept) { fit(kept, true, false, serial_for); };
-    positions_f32.empty() ? fit_anew(positions_f64) : fit_anew(positions_f32);
+    fit(true, false, serial_for);
     const build::Topology topology =
         build::find_topology(positions_of(model), in_source_order(model));
     if (components.size() == topology.components.size()) {

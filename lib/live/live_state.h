@@ -6,33 +6,49 @@
 #include <span>
 
 #include "build/frame_map.h"
+#include "build/make_leaves.h"
 #include "cdprep/live_model.h"
 #include "core/carver.h"
+#include "exact/box3.h"
 #include "live/changed_boxes.h"
 #include "live/corner_lists.h"
+#include "live/live_start.h"
+#include "live/tear_tables.h"
 
 namespace cdprep {
 
 /// The number of a vertex of the imported file that no triangle uses.
 inline constexpr std::uint32_t kUnusedVertex = 0xffffffff;
 
+/// The counts that decide how much memory a live model takes besides its image.
+struct LiveCounts {
+    std::size_t numbers;   ///< of vertices, in the imported file
+    std::size_t vertices;  ///< of the model
+    std::uint32_t places;  ///< for triangles
+    bool can_tear;
+};
+
 /// What a live model keeps besides its image. Lives in the memory behind it.
 struct LiveTables {
-    LiveTables(Carver& carver, std::size_t numbers, std::size_t vertices,
-               std::uint32_t triangles) noexcept
-        : vertex_of(carver.take<std::uint32_t>(numbers), numbers),
-          users(carver, vertices, triangles),
-          changed(carver, format::bvh_shape(triangles)) {}
+    LiveTables(Carver& carver, const LiveCounts& counts) noexcept
+        : vertex_of(carver.take<std::uint32_t>(counts.numbers), counts.numbers),
+          users(carver, counts.vertices, counts.places),
+          changed(carver, format::bvh_shape(counts.places)) {
+        if (counts.can_tear) tear.emplace(carver, counts.places);
+    }
 
-    /// By number in the imported file: the vertex of the model, or kUnusedVertex.
+    /// By number in the imported file: the vertex of the model, or kUnusedVertex. In a model that
+    /// can tear, a vertex with a position has its own number.
     std::span<std::uint32_t> vertex_of;
     CornerLists users;
     ChangedBoxes changed;
+    std::optional<TearTables> tear;
 };
 
 struct LiveModel::State {
-    /// `image` is that of `opened`.
-    State(std::span<std::byte> image, Model opened, const LiveTables& empty);
+    /// `image` is that of `opened`. `start` is what it was made of.
+    State(std::span<std::byte> image, Model opened, const LiveTables& empty, const LiveBase& base,
+          const LiveLimits& limits, const LiveStart& start);
 
     /// Returns why positions cannot be set. `vertices` are their numbers; empty: 0, 1, 2 and so on.
     template <class Given>
@@ -45,11 +61,24 @@ struct LiveModel::State {
     template <class Given>
     void set_some(std::span<const std::uint32_t> vertices, std::span<const Given> positions,
                   ParallelFor parallel_for);
-    /// Makes the image that of a bake of the same arrays.
+    /// Makes the image that of a bake of the same arrays. Requires a model that cannot tear.
     void complete_image();
+
+    /// Returns why triangles cannot be appended.
+    [[nodiscard]] std::optional<Error> find_fault(std::span<const format::Triangle> added) const;
+    void append(std::span<const format::Triangle> added);
+    /// Returns why triangles cannot be removed.
+    [[nodiscard]] std::optional<Error> find_fault(std::span<const std::uint32_t> removed) const;
+    void remove(std::span<const std::uint32_t> removed);
+
+    [[nodiscard]] std::size_t position_count() const {
+        return tables.tear ? tables.tear->positions : tables.vertex_of.size();
+    }
 
     std::span<std::byte> image;
     Model model;
+    std::span<format::Triangle> triangles;
+    std::span<std::uint32_t> source_triangle;
 
     // The sections that follow from the positions.
     std::span<format::Float3> positions_f32;  ///< empty if the model keeps doubles
@@ -77,16 +106,38 @@ private:
     void set_some(std::span<const std::uint32_t> vertices, std::span<const Given> given,
                   std::span<Kept> kept, ParallelFor parallel_for);
     /// Chooses a frame if the present one does not hold all vertices, and fits the boxes.
-    template <class Kept>
-    void fit(std::span<Kept> kept, bool all, bool is_in_frame, ParallelFor parallel_for);
-    template <class Kept>
-    void fit_all(std::span<const Kept> positions, ParallelFor parallel_for);
-    template <class Kept>
-    void fit_changed(std::span<const Kept> positions, ParallelFor parallel_for);
+    void fit(bool all, bool is_in_frame, ParallelFor parallel_for);
+    void fit_all(ParallelFor parallel_for);
+    void fit_changed(ParallelFor parallel_for);
+    /// Fits the boxes around nodes of a level.
+    void fit_boxes_around(std::uint32_t level, std::size_t first, std::size_t last);
     [[nodiscard]] bool is_in_frame(const Double3& p) const;
     [[nodiscard]] bool is_small_in_frame() const;
     [[nodiscard]] bool has_exact_leaves() const;
+    [[nodiscard]] build::LeafRoom leaf_room() const;
+    [[nodiscard]] build::Frame new_frame(ParallelFor parallel_for) const;
     void update_header();
+    /// Calls visit(positions) with those of the kept precision.
+    template <class Visit>
+    decltype(auto) with_positions(const Visit& visit) const {
+        return positions_f32.empty() ? visit(std::span<const Double3>(positions_f64))
+                                     : visit(std::span<const format::Float3>(positions_f32));
+    }
+
+    // Of a model that can tear.
+    void start_to_tear(const LiveBase& base, const LiveLimits& limits, const LiveStart& start);
+    /// Returns the bounds of all vertices that triangles use.
+    [[nodiscard]] build::Extent used_extent() const;
+    void widen_frame(std::span<const format::Triangle> added);
+    void insert(const format::Triangle& triangle, std::uint32_t id);
+    void put(std::uint32_t place, const format::Triangle& triangle, std::uint32_t id);
+    void take_out(std::uint32_t place);
+    /// Distributes the triangles of a subtree that has room for one more, and that one.
+    void insert_around(std::uint32_t leaf, const format::Triangle& triangle, std::uint32_t id);
+    [[nodiscard]] std::uint32_t nearest_leaf(const format::Triangle& triangle) const;
+    [[nodiscard]] Corners corners(const format::Triangle& triangle) const;
+    void fit_leaves(std::uint32_t first, std::uint32_t last);
+    void note_tear();
 
     build::Frame frame_;
     Sums sums_;

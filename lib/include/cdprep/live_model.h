@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,18 +14,41 @@
 
 namespace cdprep {
 
-/// A model whose vertices move, such as an object that deforms. It is refitted each frame and
-/// queried like any other. It lives in the caller's memory, is made once, and then allocates
-/// nothing.
+struct LiveBase;
+
+/// The room of a live model that can tear. Without limits, a live model cannot.
+struct LiveLimits {
+    std::uint32_t triangles = 0;  ///< the most triangles at a time; 0: the model cannot tear
+    /// Triangles may use the vertices with numbers less than this. 0: those of the base.
+    std::uint32_t vertices = 0;
+};
+
+/// A triangle of a live model that can tear.
+struct LiveTriangle {
+    std::uint32_t number;                 ///< by which answers name it
+    std::array<std::uint32_t, 3> vertex;  ///< numbers as in LiveModel::refit()
+
+    friend bool operator<(const LiveTriangle& a, const LiveTriangle& b) noexcept {
+        return a.number < b.number;
+    }
+};
+
+/// A model whose vertices move and whose triangles come and go: an object that deforms and tears.
+/// It is refitted each frame and queried like any other. It lives in the caller's memory, is made
+/// once, and then allocates nothing.
 ///
-/// Triangles, source numbers and the order of the BVH never change. Each refit() updates positions,
-/// boxes, leaves and marks of degenerate triangles. The model has no oriented boxes, because a
-/// refit with them would take three times as long. It has no swept spheres, hulls, pieces, octrees,
-/// bounds or mass. It serves the queries that need none of these: collide, overlap, distance,
-/// within, ray, closest, inside and touch.
+/// Each refit() updates positions, boxes, leaves and marks of degenerate triangles. The model has
+/// no oriented boxes, because a refit with them would take three times as long. It has no swept
+/// spheres, hulls, pieces, octrees, bounds or mass. It serves the queries that need none of these:
+/// collide, overlap, distance, within, ray, closest, inside and touch.
+///
+/// A model made with LiveLimits can tear: append() and remove(). From the first of these calls on
+/// it is_torn(): it counts as open, so only boxes and surfaces decide about solids. Some places of
+/// its tree order have no triangle: model().triangle_count() counts places, or is 0 without
+/// triangles. Its mesh() and source() views have an element for each place.
 ///
 /// Move-only; a move leaves the model's bytes in place. Const members, and queries about model(),
-/// may run on any number of threads at once. They must not run during refit() or image().
+/// may run on any number of threads at once. They must not run during a change.
 ///
 ///     const auto arrays = build::build_model(positions, triangles,
 ///                                            {.bounds = build::BvhBounds::aligned});
@@ -37,21 +61,27 @@ namespace cdprep {
 class LiveModel {
 public:
     /// Returns the number of bytes that in() takes: those of the base's sections, and about 30 per
-    /// triangle. Fails if in() rejects `base`.
-    [[nodiscard]] static Result<std::size_t> bytes(const build::ModelArrays& base);
-    [[nodiscard]] static Result<std::size_t> bytes(const Model& base);
+    /// triangle. With limits, it counts places, of which there are nine for eight triangles, and
+    /// about 50 more bytes for each. Fails if in() rejects `base` or `limits`.
+    [[nodiscard]] static Result<std::size_t> bytes(const build::ModelArrays& base,
+                                                   const LiveLimits& limits = {});
+    [[nodiscard]] static Result<std::size_t> bytes(const Model& base,
+                                                   const LiveLimits& limits = {});
 
     /// Makes a live model of arrays or of another model, such as a baked one. `memory` must start
     /// at a multiple of format::kSectionAlignment and stay in place while the live model lives.
-    /// `base` is not used afterwards. Allocates.
+    /// `base` is not used afterwards. Allocates. Takes O(n) time; with limits, O(n log n) time.
     ///
     /// Fails with `bad_argument` if `memory` is too small or misaligned. Also fails if a baked
-    /// `base` has vertices that a repair made. Fails if it lacks, or was opened without, one of
-    /// these sections: triangles, source_triangle, source_vertex, bvh_nodes, bvh_leaves and
-    /// positions.
+    /// `base` has vertices that a repair made, or can tear. Fails if it lacks, or was opened
+    /// without, one of these sections: triangles, source_triangle, source_vertex, bvh_nodes,
+    /// bvh_leaves and positions. Fails if limits are lower than the counts of the base, or higher
+    /// than a model may have.
     [[nodiscard]] static Result<LiveModel> in(std::span<std::byte> memory,
-                                              const build::ModelArrays& base);
-    [[nodiscard]] static Result<LiveModel> in(std::span<std::byte> memory, const Model& base);
+                                              const build::ModelArrays& base,
+                                              const LiveLimits& limits = {});
+    [[nodiscard]] static Result<LiveModel> in(std::span<std::byte> memory, const Model& base,
+                                              const LiveLimits& limits = {});
 
     LiveModel(LiveModel&&) noexcept;
     LiveModel& operator=(LiveModel&&) noexcept;
@@ -61,8 +91,8 @@ public:
     /// into it stay valid.
     [[nodiscard]] const Model& model() const noexcept;
 
-    /// Returns the number of positions: that of the mesh from which the base was made, without
-    /// unused vertices at its end.
+    /// Returns one more than the largest number of a vertex with a position. At first, it is the
+    /// number of vertices of the mesh from which the base was made, without unused ones at its end.
     [[nodiscard]] std::size_t position_count() const noexcept;
 
     /// Moves all vertices. `positions` are numbered as in the mesh from which the base was made,
@@ -90,16 +120,42 @@ public:
     /// listed twice, the last position counts. The model is then the same, byte for byte, as after
     /// a refit of all vertices to the same positions.
     ///
-    /// Fails as above, and if a number is not less than position_count(), or there are more or
-    /// fewer positions than numbers. Takes O(m log n) time for m triangles at these vertices. Takes
-    /// O(n) if a vertex leaves the frame of the boxes: a cube of at least twice the model's size
-    /// when the frame was chosen. Also takes O(n) if the model has become much smaller than it.
+    /// In a model that can tear, a vertex that no triangle uses may get its first position.
+    ///
+    /// Fails as above, and if there are more or fewer positions than numbers. Also fails if a
+    /// number is not less than position_count() or, in a model that can tear, LiveLimits::vertices.
+    /// Takes O(m log n) time for m triangles at these vertices. Takes O(n) if a vertex leaves the
+    /// frame of the boxes: a cube of at least twice the model's size when the frame was chosen.
+    /// Also takes O(n) if the model has become much smaller than it.
     Result<Done> refit(std::span<const std::uint32_t> vertices,
                        std::span<const format::Double3> positions,
                        ParallelFor parallel_for = serial_for);
     Result<Done> refit(std::span<const std::uint32_t> vertices,
                        std::span<const format::Float3> positions,
                        ParallelFor parallel_for = serial_for);
+
+    /// Adds triangles, whose vertices have numbers as in refit(). Returns the number of the first.
+    /// The others follow. Answers name a triangle by its number, which no other ever gets.
+    ///
+    /// Fails with `bad_argument`, and then changes nothing, if the model cannot tear or would have
+    /// more triangles than LiveLimits::triangles. Also fails if a vertex does not exist or has no
+    /// position, or if numbers would exceed 2^31 - 1. Takes O(m log^2 n) time for m triangles,
+    /// amortised. Takes O(n) more if a vertex lies outside the frame of the boxes. Allocates only
+    /// on failure.
+    Result<std::uint32_t> append(std::span<const format::Triangle> triangles);
+
+    /// Removes triangles by their numbers. A number that is listed twice counts once. Fails with
+    /// `bad_argument`, and then changes nothing, if the model cannot tear or lacks a triangle.
+    /// Takes O(m log n) time. Allocates only on failure.
+    Result<Done> remove(std::span<const std::uint32_t> numbers);
+
+    /// Returns the number of triangles.
+    [[nodiscard]] std::uint32_t triangle_count() const noexcept;
+
+    /// Stores the triangles of a model that can tear, or as many of the first as `room` holds, by
+    /// rising number. Returns how many there are; 0 for a model that cannot tear. Takes O(n log n)
+    /// time.
+    std::size_t triangles(std::span<LiveTriangle> room) const noexcept;
 
     /// Returns build::surface_cost() of the BVH. When it has grown by half, build a new model.
     /// Takes O(n) time.
@@ -109,11 +165,15 @@ public:
     /// volumes of components are out of date; no query reads them. This function updates both, so
     /// that Model::open() accepts a copy of the bytes. The bytes depend only on the base and the
     /// positions. Takes O(bytes) time. Allocates.
-    [[nodiscard]] std::span<const std::byte> image();
+    ///
+    /// Fails with `bad_argument` if the model can tear: build a model of its triangles() instead.
+    [[nodiscard]] Result<std::span<const std::byte>> image();
 
 private:
     struct State;
     explicit LiveModel(std::unique_ptr<State> state) noexcept;
+    static Result<LiveModel> make(std::span<std::byte> memory, const LiveBase& base,
+                                  const LiveLimits& limits);
     template <class Position>
     Result<Done> refit_all(std::span<const Position> positions, ParallelFor parallel_for);
     template <class Position>

@@ -106,8 +106,8 @@ TEST(LiveModel, ARefittedImageIsThatOfAModelMadeAnew) {
         for (const TestMesh& shape : motion.shapes) {
             ASSERT_TRUE(moving.object.refit(shape.positions));
             Running expected = made_anew(arrays, shape);
-            const auto image = moving.object.image();
-            EXPECT_TRUE(std::ranges::equal(image, expected.object.image()));
+            const auto image = moving.object.image().value();
+            EXPECT_TRUE(std::ranges::equal(image, expected.object.image().value()));
             EXPECT_FALSE(format::find_deep_damage(image));
             EXPECT_TRUE(Model::open(image));
         }
@@ -208,7 +208,7 @@ TEST(LiveModel, AModelOfDoublesTakesFloats) {
     Running doubles = run(arrays);
     ASSERT_TRUE(floats.object.refit(floats_of(ball)));
     ASSERT_TRUE(doubles.object.refit(ball.positions));
-    EXPECT_TRUE(std::ranges::equal(floats.object.image(), doubles.object.image()));
+    EXPECT_TRUE(std::ranges::equal(floats.object.image().value(), doubles.object.image().value()));
 }
 
 TEST(LiveModel, ABakedModelIsABaseToo) {
@@ -428,8 +428,9 @@ TEST(LiveModel, AMoveOfSomeVerticesEqualsAMoveOfAll) {
                 const auto image = [](const Running& of) { return of.model().bytes(); };
                 ASSERT_TRUE(std::ranges::equal(image(whole), image(some))) << by << ' ' << step;
             }
-            EXPECT_TRUE(std::ranges::equal(whole.object.image(), some.object.image()));
-            EXPECT_FALSE(format::find_deep_damage(some.object.image()));
+            EXPECT_TRUE(
+                std::ranges::equal(whole.object.image().value(), some.object.image().value()));
+            EXPECT_FALSE(format::find_deep_damage(some.object.image().value()));
         }
     }
 }

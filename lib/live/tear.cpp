@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+#include "build/bad_argument.h"
+#include "build/degenerate.h"
+#include "build/frame_map.h"
+#include "build/make_nodes.h"
+#include "build/mesh_fault.h"
+#include "core/numbers.h"
+#include "live/live_state.h"
+
+// Triangles lie in an implicit tree, of whose places some are free. A new one takes a free place
+// in the leaf whose box grows least. If that leaf is full, the triangles of the smallest subtree
+// with enough free places are distributed anew. The higher the subtree, the more must be free, so
+// the next time is far off: a packed-memory array (Bender, Demaine and Farach-Colton 2005).
+
+namespace cdprep {
+namespace {
+
+using build::bad_argument;
+using format::BvhNode;
+using format::Double3;
+using format::kBvhWidth;
+using format::Triangle;
+
+/// Ids count upward to this.
+constexpr std::uint32_t kIdLimit = 0x7fffffff;
+
+constexpr std::uint8_t kFullLeaf = 0xff;
+
+/// What stands at a place without a triangle.
+constexpr Triangle kNoTriangle = {{0, 0, 0}};
+
+/// Returns a number that differs, almost certainly, for other triangles. The constants are odd and
+/// have about as many ones as zeros.
+std::uint64_t hash_of(std::uint32_t id, const Triangle& triangle) {
+    std::uint64_t hash = (id + std::uint64_t{1}) * 0x9e3779b97f4a7c15;
+    for (const std::uint32_t vertex : triangle.vertex) {
+        hash = (hash ^ (hash >> 32) ^ vertex) * 0xd6e8feb86659fd93;
+    }
+    return hash ^ (hash >> 32);
+}
+
+/// Returns half the sum of the edges by which a box of a node grows with a triangle's box.
+float growth(const BvhNode& node, std::size_t box, const std::array<build::Interval, 3>& around) {
+    float sum = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        sum += std::max(0.0F, node.lower[axis][box] - around[axis].lower) +
+               std::max(0.0F, around[axis].upper - node.upper[axis][box]);
+    }
+    return sum;
+}
+
+constexpr build::Extent kNoExtent = {
+    {kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}, true};
+
+void grow(build::Extent& extent, const Double3& p) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        extent.lower[axis] = std::min(extent.lower[axis], build::coordinate(p, axis));
+        extent.upper[axis] = std::max(extent.upper[axis], build::coordinate(p, axis));
+    }
+}
+
+}  // namespace
+
+void LiveModel::State::start_to_tear(const LiveBase& base, const LiveLimits& limits,
+                                     const LiveStart& start) {
+    TearTables& tear = *tables.tear;
+    tear.limit = limits.triangles;
+    tear.count = static_cast<std::uint32_t>(base.triangles.size());
+    tear.next_id = tear.count;
+    tear.positions = static_cast<std::uint32_t>(base.number_count());
+    std::ranges::copy(start.lanes(), tear.lanes.begin());
+    for (std::uint32_t place = 0; place < triangles.size(); ++place) {
+        if (((tear.lanes[place / kBvhWidth] >> (place % kBvhWidth)) & 1) == 0) {
+            triangles[place] = kNoTriangle;
+            continue;
+        }
+        tables.users.add(place, triangles[place]);
+        tear.ids.set(source_triangle[place], place);
+        tear.hash += hash_of(source_triangle[place], triangles[place]);
+    }
+    // What the free places of the image added.
+    const auto places = static_cast<std::uint32_t>(triangles.size());
+    components[0].triangle_count -= places - tear.count;
+    model.set_lanes(tear.lanes);
+    fit_leaves(0, model.bvh().shape.leaf_count);
+    update_header();
+}
+
+// --- What is refused --------------------------------------------------------------------
+
+std::optional<Error> LiveModel::State::find_fault(std::span<const Triangle> added) const {
+    if (!tables.tear) {
+        return bad_argument(
+            "This live model cannot tear: make it with a limit of triangles (LiveLimits).");
+    }
+    const TearTables& tear = *tables.tear;
+    if (added.size() > tear.limit - tear.count) {
+        return bad_argument("The live model has " + std::to_string(tear.count) +
+                            " triangles and room for " + std::to_string(tear.limit) + "; " +
+                            std::to_string(added.size()) + " more do not fit.");
+    }
+    if (added.size() > kIdLimit - tear.next_id) {
+        return bad_argument("Triangles have been numbered up to " + std::to_string(tear.next_id) +
+                            ", and no number may exceed " + std::to_string(kIdLimit) +
+                            ": build a new live model.");
+    }
+    if (const auto fault = build::find_bad_triangle(tables.vertex_of.size(), added)) return fault;
+    for (std::size_t i = 0; i < added.size(); ++i) {
+        for (const std::uint32_t vertex : added[i].vertex) {
+            if (tables.vertex_of[vertex] != kUnusedVertex) continue;
+            return bad_argument("Triangle " + std::to_string(i) + " uses vertex " +
+                                std::to_string(vertex) +
+                                ", which has no position: give it one with refit().");
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<Error> LiveModel::State::find_fault(std::span<const std::uint32_t> removed) const {
+    if (!tables.tear) {
+        return bad_argument(
+            "This live model cannot tear: make it with a limit of triangles (LiveLimits).");
+    }
+    const auto missing = std::ranges::find_if(
+        removed, [&](std::uint32_t id) { return tables.tear->ids.find(id) == IdMap::kNone; });
+    if (missing == removed.end()) return std::nullopt;
+    return bad_argument(
+        "Triangle " + std::to_string(*missing) +
+        (*missing < tables.tear->next_id ? " was removed before." : " was never appended."));
+}
+
+// --- Changes ----------------------------------------------------------------------------
+
+void LiveModel::State::append(std::span<const Triangle> added) {
+    widen_frame(added);
+    for (const Triangle& triangle : added) insert(triangle, tables.tear->next_id++);
+    if (!added.empty()) note_tear();
+}
+
+void LiveModel::State::remove(std::span<const std::uint32_t> removed) {
+    for (const std::uint32_t id : removed) {
+        const std::uint32_t place = tables.tear->ids.find(id);
+        if (place == IdMap::kNone) continue;  // listed twice
+        tables.changed.mark(place / kBvhWidth);
+        tables.tear->ids.erase(id);
+        tables.tear->hash -= hash_of(id, triangles[place]);
+        --tables.tear->count;
+        take_out(place);
+    }
+    fit_changed(serial_for);
+    if (!removed.empty()) note_tear();
+}
+
+/// Winding numbers and components are those of the triangles that were.
+void LiveModel::State::note_tear() {
+    model.set_torn(tables.tear->next_id);
+    update_header();
+}
+
+build::Extent LiveModel::State::used_extent() const {
+    build::Extent extent = kNoExtent;
+    with_positions([&](const auto& positions) {
+        for (std::uint32_t vertex = 0; vertex < tables.tear->positions; ++vertex) {
+            if (tables.users.is_used(vertex)) grow(extent, build::as_double(positions[vertex]));
+        }
+    });
+    return extent;
+}
+
+/// Chooses a new frame if the present one does not hold all vertices of new triangles.
+void LiveModel::State::widen_frame(std::span<const Triangle> added) {
+    const bool fits = std::ranges::all_of(added, [&](const Triangle& triangle) {
+        const Corners c = corners(triangle);
+        return is_in_frame(c[0]) && is_in_frame(c[1]) && is_in_frame(c[2]);
+    });
+    if (fits) return;
+    build::Extent extent = used_extent();
+    for (const Triangle& triangle : added) {
+        for (const Double3& p : corners(triangle)) grow(extent, p);
+    }
+    frame_ = build::frame_of(extent);
+    fit_all(serial_for);
+}
+
+void LiveModel::State::insert(const Triangle& triangle, std::uint32_t id) {
+    TearTables& tear = *tables.tear;
+    const std::uint32_t leaf = nearest_leaf(triangle);
+    ++tear.count;
+    tear.hash += hash_of(id, triangle);
+    if (tear.lanes[leaf] == kFullLeaf) {
+        insert_around(leaf, triangle, id);
+        return;
+    }
+    const auto lane = static_cast<std::uint32_t>(std::countr_one(tear.lanes[leaf]));
+    put(leaf * kBvhWidth + lane, triangle, id);
+    fit_leaves(leaf, leaf + 1);
+}
+
+void LiveModel::State::put(std::uint32_t place, const Triangle& triangle, std::uint32_t id) {
+    TearTables& tear = *tables.tear;
+    triangles[place] = triangle;
+    source_triangle[place] = id;
+    tear.lanes[place / kBvhWidth] |= static_cast<std::uint8_t>(1U << (place % kBvhWidth));
+    tear.ids.set(id, place);
+    tables.users.add(place, triangle);
+}
+
+void LiveModel::State::take_out(std::uint32_t place) {
+    tables.tear->lanes[place / kBvhWidth] &=
+        static_cast<std::uint8_t>(~(1U << (place % kBvhWidth)));
+    tables.users.remove(place, triangles[place]);
+    triangles[place] = kNoTriangle;
+}
+
+std::uint32_t LiveModel::State::nearest_leaf(const Triangle& triangle) const {
+    const build::FrameMap map(frame_);
+    const Corners c = corners(triangle);
+    std::array<build::Interval, 3> around{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto [low, high] =
+            std::minmax({build::coordinate(c[0], axis), build::coordinate(c[1], axis),
+                         build::coordinate(c[2], axis)});
+        around[axis] = {map.around(low, axis).lower, map.around(high, axis).upper};
+    }
+    const format::BvhShape& shape = model.bvh().shape;
+    std::uint32_t place = 0;
+    for (std::uint32_t level = shape.levels; level-- > 0;) {
+        const BvhNode& node = nodes[shape.first[level] + place];
+        const std::uint32_t used = shape.used_boxes(level, place);
+        std::uint32_t best = 0;
+        float least = growth(node, 0, around);
+        for (std::uint32_t box = 1; box < used; ++box) {
+            const float grown = growth(node, box, around);
+            if (grown >= least) continue;
+            least = grown;
+            best = box;
+        }
+        place = place * kBvhWidth + best;
+    }
+    return place;
+}
+
+void LiveModel::State::insert_around(std::uint32_t leaf, const Triangle& triangle,
+                                     std::uint32_t id) {
+    TearTables& tear = *tables.tear;
+    const format::BvhShape& shape = model.bvh().shape;
+    std::uint32_t first = leaf, last = leaf + 1, size = 1, count = 0;
+    for (std::uint32_t level = 0; level < shape.levels; ++level) {
+        size *= kBvhWidth;
+        first = leaf / size * size;
+        last = std::min(first + size, shape.leaf_count);
+        count = 1;
+        for (std::uint32_t i = first; i < last; ++i) {
+            count += static_cast<std::uint32_t>(std::popcount(tear.lanes[i]));
+        }
+        const std::uint64_t room = std::uint64_t{last - first} * kBvhWidth;
+        const std::uint64_t to_be_free = room * (level + 1) / (kFreeShare * shape.levels);
+        if (count + to_be_free <= room) break;
+    }
+    assert(count <= (last - first) * kBvhWidth);
+    const build::FrameMap map(frame_);
+    std::uint32_t items = 0;
+    const auto add = [&](const Triangle& t, std::uint32_t number) {
+        const Corners c = corners(t);
+        tear.items[items] = {middle_of(map, c[0], c[1], c[2]), number, items};
+        tear.triangles[items++] = t;
+    };
+    for (std::uint32_t place = first * kBvhWidth; place < last * kBvhWidth; ++place) {
+        if (((tear.lanes[place / kBvhWidth] >> (place % kBvhWidth)) & 1) == 0) continue;
+        add(triangles[place], source_triangle[place]);
+        take_out(place);
+    }
+    add(triangle, id);
+    const std::span<SpreadItem> all = tear.items.first(items);
+    spread(all, last - first);
+    for (std::uint32_t i = 0; i < last - first; ++i) {
+        const std::size_t begin = first_in_leaf(items, i, last - first);
+        const std::size_t end = first_in_leaf(items, i + 1, last - first);
+        for (std::size_t at = begin; at < end; ++at) {
+            put(static_cast<std::uint32_t>((first + i) * kBvhWidth + (at - begin)),
+                tear.triangles[all[at].from], all[at].id);
+        }
+    }
+    fit_leaves(first, last);
+}
+
+/// Fits leaves, and the boxes around them up to the root.
+void LiveModel::State::fit_leaves(std::uint32_t first, std::uint32_t last) {
+    with_positions([&](const auto& positions) {
+        build::make_some_leaves(leaf_room(), positions, triangles, first, last);
+        build::mark_some_degenerate(positions, triangles, degenerate_bits,
+                                    std::size_t{first} * kBvhWidth, std::size_t{last} * kBvhWidth);
+    });
+    const format::BvhShape& shape = model.bvh().shape;
+    for (std::uint32_t level = 0; level + 1 < shape.levels; ++level) {
+        first /= kBvhWidth;
+        last = (last - 1) / kBvhWidth + 1;
+        fit_boxes_around(level, first, last);
+    }
+}
+
+Corners LiveModel::State::corners(const Triangle& triangle) const {
+    return with_positions([&](const auto& positions) {
+        return Corners{build::as_double(positions[triangle.vertex[0]]),
+                       build::as_double(positions[triangle.vertex[1]]),
+                       build::as_double(positions[triangle.vertex[2]])};
+    });
+}
+
+}  // namespace cdprep
