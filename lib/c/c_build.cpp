@@ -287,7 +287,7 @@ int lay_out(Call& call, const Planned& planned, const build::ModelArrays& arrays
     Result<Model> opened =
         Model::open(std::span<const std::byte>(image.value()), {.name = "built model"});
     if (!opened) return call.fail(CDPREP_INTERNAL, opened.error().message);
-    *to = new (block) cdprep_model{std::move(opened).value(), own.take(), {}, {}, {}, {}};
+    *to = new (block) cdprep_model(std::move(opened).value(), own.take(), {}, {});
     make_index(**to, block + layout.index);
     return CDPREP_OK;
 }

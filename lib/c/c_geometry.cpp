@@ -106,6 +106,7 @@ std::uint32_t name_of_run(std::span<const format::NamedRun> runs, std::uint32_t 
 
 std::uint32_t component_of(const cdprep_model& model, std::uint32_t vertex) noexcept {
     if (!model.component_of_vertex.empty()) return model.component_of_vertex[vertex];
+    if (model.can_tear()) return CDPREP_NONE;
     return model.model.record().components.size() == 1 ? 0 : CDPREP_NONE;
 }
 
@@ -114,10 +115,16 @@ bool is_degenerate(const Model& model, std::uint32_t tree_triangle) noexcept {
     return !bits.empty() && (bits[tree_triangle / 64] >> (tree_triangle % 64) & 1) != 0;
 }
 
+/// Returns the place of a triangle in the tree order, or CDPREP_NONE.
+std::uint32_t place_of(const cdprep_model& model, std::uint32_t triangle) noexcept {
+    if (model.can_tear()) return model.live->place_of(triangle).value_or(CDPREP_NONE);
+    return triangle < model.tree_triangle.size() ? model.tree_triangle[triangle] : CDPREP_NONE;
+}
+
 cdprep_corners corners_of(const cdprep_model& model, std::uint32_t triangle) noexcept {
-    assert(triangle < model.tree_triangle.size());
     const Model& m = model.model;
-    const std::uint32_t at = model.tree_triangle[triangle];
+    const std::uint32_t at = place_of(model, triangle);
+    assert(at != CDPREP_NONE);
     cdprep_corners corners{};
     for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t vertex = m.mesh().triangles[at].vertex[i];
@@ -138,12 +145,22 @@ cdprep_corners corners_of(const cdprep_model& model, std::uint32_t triangle) noe
     return corners;
 }
 
+/// Returns the number of triangles, and not that of their places.
+std::uint32_t count_triangles(const cdprep_model& model) noexcept {
+    return model.live != nullptr ? model.live->triangle_count() : model.model.triangle_count();
+}
+
 int check_triangles(Call& call, const std::uint32_t* triangles, std::size_t count,
-                    std::uint32_t triangle_count) noexcept {
+                    const cdprep_model& model) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
-        if (triangles[i] < triangle_count) continue;
+        if (place_of(model, triangles[i]) != CDPREP_NONE) continue;
+        if (model.can_tear()) {
+            return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"triangles", i},
+                               "is %u, and the model has no such triangle.", triangles[i]);
+        }
         return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"triangles", i},
-                           "is %u, but the model has %u triangles.", triangles[i], triangle_count);
+                           "is %u, but the model has %u triangles.", triangles[i],
+                           count_triangles(model));
     }
     return CDPREP_OK;
 }
@@ -246,7 +263,7 @@ int cdprep_model_describe(const cdprep_model* model, cdprep_model_info* info, cd
     if (const int code = call.need(info, {"info"})) return code;
     const cdprep::format::FloatEnvironment environment;
     const Model& m = model->model;
-    info->triangles = m.triangle_count();
+    info->triangles = cdprep::c::count_triangles(*model);
     info->vertices = m.vertex_count();
     info->components = static_cast<uint32_t>(m.record().components.size());
     info->instances = static_cast<uint32_t>(m.source().instances.size());
@@ -272,8 +289,7 @@ int cdprep_model_corners(const cdprep_model* model, const uint32_t* triangles, s
         if (count == 0) return CDPREP_OK;
         if (const int code = call.need(triangles, {"triangles"})) return code;
         if (const int code = call.need(corners, {"corners"})) return code;
-        if (const int code =
-                cdprep::c::check_triangles(call, triangles, count, model->model.triangle_count())) {
+        if (const int code = cdprep::c::check_triangles(call, triangles, count, *model)) {
             return code;
         }
         const cdprep::format::FloatEnvironment environment;
@@ -295,11 +311,13 @@ int cdprep_model_mesh(const cdprep_model* model, cdprep_mesh* mesh, cdprep_error
         for (uint32_t i = 0; i < m.vertex_count() && writer.has_room_for_vertex(); ++i) {
             writer.add_vertex(cdprep::c::position_of(m, i), cdprep::c::source_vertex_of(m, i));
         }
-        for (uint32_t i = 0; i < m.triangle_count() && writer.has_room_for_triangle(); ++i) {
-            writer.add_triangle(m.mesh().triangles[model->tree_triangle[i]].vertex);
+        const std::uint32_t numbers = m.triangle_number_bound();
+        for (uint32_t i = 0; i < numbers && writer.has_room_for_triangle(); ++i) {
+            const std::uint32_t at = cdprep::c::place_of(*model, i);
+            if (at != CDPREP_NONE) writer.add_triangle(m.mesh().triangles[at].vertex);
         }
         mesh->vertex_count = m.vertex_count();
-        mesh->triangle_count = m.triangle_count();
+        mesh->triangle_count = cdprep::c::count_triangles(*model);
         return CDPREP_OK;
     });
 }

@@ -76,7 +76,7 @@ int make_model(Call& call, const Asked& asked, Model&& model, const Memory& byte
         release_all(object, bytes, index);
         return code;
     }
-    *to = new (object.start) cdprep_model{std::move(model), object, bytes, index, {}, {}};
+    *to = new (object.start) cdprep_model(std::move(model), object, bytes, index);
     make_index(**to, index.start);
     return CDPREP_OK;
 }

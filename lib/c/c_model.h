@@ -2,23 +2,44 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "c/input.h"
 #include "c/memory.h"
 #include "cdprep/c/model.h"
+#include "cdprep/live_model.h"
 #include "cdprep/model.h"
 
 /// An open model, with indices for cdprep_model_corners() and cdprep_model_mesh().
 struct cdprep_model {
-    cdprep::Model model;
-    cdprep::c::Memory object;  ///< this object; none in the caller's memory
-    cdprep::c::Memory bytes;   ///< a copy of the file, or none
-    cdprep::c::Memory index;   ///< of what follows, or none
-    /// By source number; empty where the model does not serve Ask::corners.
+    std::optional<cdprep::Model> own;  ///< none if a live model has it
+    const cdprep::Model& model;
+    const cdprep::LiveModel* live = nullptr;  ///< or null
+    cdprep::c::Memory object;                 ///< this object; none in the caller's memory
+    cdprep::c::Memory bytes;                  ///< a copy of the file, or none
+    cdprep::c::Memory index;                  ///< of what follows, or none
+    /// By source number. Empty where the model does not serve Ask::corners, and where it can tear.
     std::span<std::uint32_t> tree_triangle;
-    /// Empty where there is at most one component.
+    /// Empty where there is at most one component, and where the model can tear.
     std::span<std::uint32_t> component_of_vertex;
+
+    cdprep_model(cdprep::Model opened, const cdprep::c::Memory& of_object,
+                 const cdprep::c::Memory& of_bytes, const cdprep::c::Memory& of_index) noexcept
+        : own(std::move(opened)),
+          model(*own),
+          object(of_object),
+          bytes(of_bytes),
+          index(of_index) {}
+    explicit cdprep_model(const cdprep::LiveModel& of) noexcept : model(of.model()), live(&of) {}
+    cdprep_model(const cdprep_model&) = delete;
+    cdprep_model& operator=(const cdprep_model&) = delete;
+    ~cdprep_model() = default;
+
+    [[nodiscard]] bool can_tear() const noexcept {
+        return !model.bvh().lanes.empty();
+    }
 };
 
 namespace cdprep::c {

@@ -24,7 +24,7 @@ public:
     /// Returns the place of a number, or kNone.
     [[nodiscard]] std::uint32_t find(std::uint32_t id) const noexcept {
         const Entry& entry = entries_[slot_of(id)];
-        return entry.id == id ? entry.place : kNone;
+        return entry.id == id && id != kNone ? entry.place : kNone;
     }
     /// Adds a number, or changes its place.
     void set(std::uint32_t id, std::uint32_t place) noexcept {

@@ -115,6 +115,12 @@ std::uint32_t LiveModel::triangle_count() const noexcept {
     return state_->tables.tear ? state_->tables.tear->count : state_->model.triangle_count();
 }
 
+std::optional<std::uint32_t> LiveModel::place_of(std::uint32_t number) const noexcept {
+    if (!state_->tables.tear) return std::nullopt;
+    const std::uint32_t place = state_->tables.tear->ids.find(number);
+    return place == IdMap::kNone ? std::nullopt : std::optional(place);
+}
+
 std::size_t LiveModel::triangles(std::span<LiveTriangle> room) const noexcept {
     if (!state_->tables.tear) return 0;
     Smallest<LiveTriangle> smallest(room);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "cdprep/advanced/build_model.h"
@@ -151,6 +152,10 @@ public:
 
     /// Returns the number of triangles.
     [[nodiscard]] std::uint32_t triangle_count() const noexcept;
+
+    /// Returns the place of a triangle of a model that can tear in the views of model(). Returns
+    /// nothing if there is no triangle of this number, or the model cannot tear. O(1).
+    [[nodiscard]] std::optional<std::uint32_t> place_of(std::uint32_t number) const noexcept;
 
     /// Stores the triangles of a model that can tear, or as many of the first as `room` holds, by
     /// rising number. Returns how many there are; 0 for a model that cannot tear. Takes O(n log n)

@@ -354,6 +354,22 @@ PLACE(cdprep_box_pairs, complete, 24);
 PLACE(cdprep_box_pairs, escaped, 28);
 PLACE(cdprep_box_pairs, kept, 32);
 PLACE(cdprep_box_pairs, reserved, 36);
+SIZE(cdprep_live_options, 32);
+PLACE(cdprep_live_options, base, 8);
+PLACE(cdprep_live_options, max_triangles, 16);
+PLACE(cdprep_live_options, max_vertices, 20);
+PLACE(cdprep_live_options, allocator, 24);
+SIZE(cdprep_live_move, 40);
+PLACE(cdprep_live_move, vertices, 8);
+PLACE(cdprep_live_move, positions, 16);
+PLACE(cdprep_live_move, positions_f32, 24);
+PLACE(cdprep_live_move, count, 32);
+SIZE(cdprep_live_info, 56);
+PLACE(cdprep_live_info, number_bound, 4);
+PLACE(cdprep_live_info, vertices, 8);
+PLACE(cdprep_live_info, is_torn, 12);
+PLACE(cdprep_live_info, surface_cost, 16);
+PLACE(cdprep_live_info, reserved, 24);
 #endif
 
 /// What an initialiser writes, read as any caller could.
@@ -383,6 +399,8 @@ TEST(CAbi, TagsAreWhatTheyWere) {
     EXPECT_EQ(tag_of(cdprep_object_options_init), 0xcd50000eU);
     EXPECT_EQ(tag_of(cdprep_broad_phase_options_init), 0xcd50000fU);
     EXPECT_EQ(tag_of(cdprep_box_update_init), 0xcd500010U);
+    EXPECT_EQ(tag_of(cdprep_live_options_init), 0xcd500011U);
+    EXPECT_EQ(tag_of(cdprep_live_move_init), 0xcd500012U);
 }
 
 }  // namespace

@@ -331,9 +331,9 @@ TEST(LiveTear, WhatCannotBeDoneIsRefusedByNumberAndChangesNothing) {
     const std::vector<Triangle> beyond = {{{0, 1, 50}}};
     EXPECT_EQ(sentence(object.append(beyond)),
               "Triangle 0 uses vertex 50 of 50: vertices are numbered from 0.");
-    const std::vector<std::uint32_t> gone = {5, 3}, never = {80};
+    const std::vector<std::uint32_t> gone = {5, 3}, never = {0xffffffff};
     EXPECT_EQ(sentence(object.remove(gone)), "Triangle 3 was removed before.");
-    EXPECT_EQ(sentence(object.remove(never)), "Triangle 80 was never appended.");
+    EXPECT_EQ(sentence(object.remove(never)), "Triangle 4294967295 was never appended.");
     EXPECT_EQ(sentence(object.image()).find("A live model that can tear has places"), 0U);
     EXPECT_TRUE(std::ranges::equal(before.span(), torn.memory.span()));
 

@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef CDPREP_C_LIVE_H
+#define CDPREP_C_LIVE_H
+
+#include "cdprep/c/model.h"
+
+/* Models whose vertices move and whose triangles come and go: objects that deform and tear. */
+
+/* A live model. It is queried through cdprep_live_model(). While one call changes it, all other
+ * calls that change it fail with CDPREP_WHY_BUSY. No query about its model may run then: this is
+ * not checked. */
+typedef struct cdprep_live cdprep_live;
+
+typedef struct cdprep_live_options {
+    cdprep_head head;
+    const cdprep_model* base; /* the model to start from, baked or built; read only while making */
+    uint32_t max_triangles;   /* 0: triangles neither come nor go; else the most at a time */
+    uint32_t max_vertices;    /* 0: that of the base; triangles may use numbers less than this */
+    const cdprep_allocator* allocator; /* null: the heap; copied */
+} cdprep_live_options;
+
+/* Makes default options. Writes `size` bytes, which must be sizeof(cdprep_live_options). */
+CDPREP_API void cdprep_live_options_init(cdprep_live_options* options, size_t size);
+
+/* Stores the number of bytes that cdprep_live_make() needs for these options. On failure *size is
+ * 0. Without max_triangles, it is about 120 for each triangle. With it, it is about 180 for each
+ * place, of which there are nine for eight triangles.
+ * Errors: those of cdprep_live_make(). */
+CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size,
+                                cdprep_error* error);
+
+/* Makes a live model. On failure *live is null. End it with cdprep_live_end().
+ *
+ * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_live_size() bytes.
+ * With null memory of size 0, the allocator makes one allocation of that size. In addition, the
+ * model takes about 1 KiB of the heap. Takes O(n) time, and O(n log n) with max_triangles. No later
+ * call but cdprep_live_end() allocates or frees memory, except to report an error.
+ *
+ * Errors:
+ * - CDPREP_WHY_NULL: no base.
+ * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: the base does not serve CDPREP_ASK_OVERLAP.
+ * - CDPREP_WHY_OUT_OF_RANGE: max_triangles or max_vertices is less than the base has, or more than
+ *   a model may have. Or the base has vertices that a repair made. Or `memory` is not aligned.
+ * - CDPREP_WHY_NO_MEANING: max_vertices without max_triangles, or an allocator in addition to
+ *   memory.
+ * - CDPREP_WHY_TOO_SMALL: `size` is less than cdprep_live_size() stores.
+ * - CDPREP_OVER_BUDGET: there is not enough memory. */
+CDPREP_API int cdprep_live_make(const cdprep_live_options* options, void* memory, size_t size,
+                                cdprep_live** live, cdprep_error* error);
+
+/* Ends a live model, unless another call uses it. Null does nothing. */
+CDPREP_API void cdprep_live_end(cdprep_live* live);
+
+/* Returns the model to query; null of null. It is the same object after each change, and lives as
+ * long as the live model: do not close it. It serves CDPREP_ASK_COLLIDE, _OVERLAP, _DISTANCE,
+ * _WITHIN, _INSIDE, _RAY, _CLOSEST, _TOUCH, _CORNERS and _SOLID.
+ *
+ * After cdprep_live_append() or cdprep_live_remove(), it counts as open. Queries about solids then
+ * store CDPREP_UNKNOWN, unless boxes or surfaces decide. */
+CDPREP_API const cdprep_model* cdprep_live_model(const cdprep_live* live);
+
+/* New positions of vertices. */
+typedef struct cdprep_live_move {
+    cdprep_head head;
+    const uint32_t* vertices;   /* null: 0, 1, 2 and so on: all; otherwise their numbers */
+    const double* positions;    /* null: 3 numbers per vertex, model units */
+    const float* positions_f32; /* null: the same as floats; set one of the two */
+    size_t count;               /* 0: of vertices */
+} cdprep_live_move;
+
+CDPREP_API void cdprep_live_move_init(cdprep_live_move* move, size_t size);
+
+/* Moves vertices, which are numbered as in the mesh from which the base was made. Without
+ * move.vertices, all are moved: there must be a position for each number, up to the last one with
+ * a position. Query results are then those of a model built from the new positions. They do not
+ * depend on the number of lanes, which share the work. If a vertex is listed twice, the last
+ * position counts. A pair cache of the model stays valid.
+ *
+ * With max_triangles, a vertex that no triangle uses may get its first position. Takes O(n) time;
+ * with move.vertices, O(m log n) for m triangles at these vertices. Takes O(n) then only if the
+ * model has grown or shrunk to several times its size.
+ *
+ * On failure, nothing changes. Errors:
+ * - CDPREP_WHY_NULL: no positions.
+ * - CDPREP_WHY_NO_MEANING: both positions are set.
+ * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite: `move.positions[7]` is the eighth.
+ * - CDPREP_WHY_OUT_OF_RANGE: There are too few positions for all vertices. Or a vertex does not
+ *   exist. Or a position is beyond 2^1000. Or positions are doubles and the model keeps floats. Or
+ *   they are those of the model itself.
+ * - CDPREP_WHY_BUSY: another call changes the live model or uses the workspace. */
+CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* move,
+                                 cdprep_workspace* workspace, cdprep_error* error);
+
+/* Adds `count` triangles: 3 vertices each, numbered as in cdprep_live_refit(). *first is the number
+ * of the first; the others follow. Answers name a triangle by its number, which no other ever gets.
+ * Takes O(m log^2 n) time for m triangles, amortised.
+ *
+ * On failure, nothing changes and *first is CDPREP_NONE. Errors:
+ * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.
+ * - CDPREP_WHY_OUT_OF_RANGE: There would be more triangles than max_triangles. Or a vertex does not
+ *   exist or has no position: `triangles[12]` is the thirteenth triangle. Or numbers would exceed
+ *   2^31 - 1.
+ * - CDPREP_WHY_BUSY: another call changes the live model. */
+CDPREP_API int cdprep_live_append(cdprep_live* live, const uint32_t* triangles, size_t count,
+                                  uint32_t* first, cdprep_error* error);
+
+/* Removes `count` triangles by their numbers. A number that is listed twice counts once. Takes
+ * O(m log n) time.
+ *
+ * On failure, nothing changes. Errors:
+ * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.
+ * - CDPREP_WHY_STALE: a triangle was removed before, or was never added: `numbers[5]` is the sixth.
+ * - CDPREP_WHY_BUSY: another call changes the live model. */
+CDPREP_API int cdprep_live_remove(cdprep_live* live, const uint32_t* numbers, size_t count,
+                                  cdprep_error* error);
+
+typedef struct cdprep_live_info {
+    uint32_t triangles;    /* now */
+    uint32_t number_bound; /* all numbers of triangles are less than this */
+    uint32_t vertices;     /* all numbers of vertices with a position are less than this */
+    uint32_t is_torn;      /* CDPREP_YES after the first append or remove; else CDPREP_NO */
+    double surface_cost;   /* of the BVH: less is better; compare it with that when made */
+    uint64_t reserved[4];  /* 0 */
+} cdprep_live_info;
+
+/* Stores facts about a live model. Takes O(n) time. */
+CDPREP_API int cdprep_live_describe(const cdprep_live* live, cdprep_live_info* info,
+                                    cdprep_error* error);
+
+#endif /* CDPREP_C_LIVE_H */

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: MIT
+// Live models through the C API: their answers, and what a caller can get wrong.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "cdprep/cdprep.h"
+#include "support/aligned_bytes.h"
+#include "support/c_lanes.h"
+#include "support/c_mistakes.h"
+#include "support/c_models.h"
+#include "support/c_questions.h"
+#include "support/meshes.h"
+#include "support/tiny_baker.h"
+
+namespace cdprep::test {
+namespace {
+
+constexpr std::uint32_t kServed = CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP | CDPREP_ASK_DISTANCE |
+                                  CDPREP_ASK_WITHIN | CDPREP_ASK_INSIDE | CDPREP_ASK_RAY |
+                                  CDPREP_ASK_CLOSEST | CDPREP_ASK_TOUCH | CDPREP_ASK_CORNERS |
+                                  CDPREP_ASK_SOLID;
+
+cdprep_live_options options_for(const cdprep_model* base, std::uint32_t triangles = 0,
+                                std::uint32_t vertices = 0) {
+    cdprep_live_options options;
+    cdprep_live_options_init(&options, sizeof options);
+    options.base = base;
+    options.max_triangles = triangles;
+    options.max_vertices = vertices;
+    return options;
+}
+
+/// A live model in memory of the heap. Ends the test program on failure.
+class CLive {
+public:
+    explicit CLive(const cdprep_live_options& options) {
+        cdprep_error error;
+        if (cdprep_live_make(&options, nullptr, 0, &live_, &error) == CDPREP_OK) return;
+        std::fprintf(stderr, "%s\n", error.message);
+        std::abort();
+    }
+    CLive(const CLive&) = delete;
+    CLive& operator=(const CLive&) = delete;
+    ~CLive() {
+        cdprep_live_end(live_);
+    }
+    [[nodiscard]] cdprep_live* get() const {
+        return live_;
+    }
+    [[nodiscard]] const cdprep_model* model() const {
+        return cdprep_live_model(live_);
+    }
+    [[nodiscard]] cdprep_live_info info() const {
+        cdprep_live_info info;
+        EXPECT_EQ(cdprep_live_describe(live_, &info, nullptr), CDPREP_OK);
+        return info;
+    }
+    void move(const std::vector<std::uint32_t>& vertices, const std::vector<Double3>& to,
+              cdprep_workspace* workspace) {
+        cdprep_live_move move;
+        cdprep_live_move_init(&move, sizeof move);
+        move.vertices = vertices.empty() ? nullptr : vertices.data();
+        move.positions = &to[0].x;
+        move.count = to.size();
+        cdprep_error error;
+        EXPECT_EQ(cdprep_live_refit(live_, &move, workspace, &error), CDPREP_OK) << error.message;
+    }
+
+private:
+    cdprep_live* live_ = nullptr;
+};
+
+AlignedBytes baked(const TestMesh& mesh) {
+    return bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true});
+}
+
+void expect_same_answers(const cdprep_model* live, const cdprep_model* expected,
+                         cdprep_workspace* workspace) {
+    std::size_t answered = 0;
+    for (const CQuestion& question : c_questions()) {
+        const CAnswer answer = question.ask({live, live, 0.5, workspace});
+        if ((question.needs & ~kServed) != 0) {
+            EXPECT_EQ(answer.why, CDPREP_WHY_NOT_BAKED) << question.name;
+            continue;
+        }
+        const CAnswer same = question.ask({expected, expected, 0.5, workspace});
+        EXPECT_EQ(answer.code, same.code) << question.name;
+        EXPECT_TRUE(answer.bytes == same.bytes) << question.name;
+        ++answered;
+    }
+    EXPECT_GT(answered, 20u);
+}
+
+// With and without room for more triangles, as it is made and after its vertices moved.
+TEST(CLiveModel, EveryQuestionGetsTheAnswerOfABake) {
+    const CWorkspace workspace;
+    for (const std::uint32_t room : {0U, 2000U}) {
+        const TestMesh ball = icosphere(3);
+        const AlignedBytes file = baked(ball);
+        const CModel base(file);
+        CLive live(options_for(base.get(), room));
+        EXPECT_EQ(live.info().triangles, ball.triangles.size());
+        EXPECT_EQ(live.info().vertices, ball.positions.size());
+        EXPECT_EQ(live.info().is_torn, std::uint32_t{CDPREP_NO});
+        expect_same_answers(live.model(), base.get(), workspace.get());
+        TestMesh shape = ball;
+        for (Double3& p : shape.positions) p = {2 * p.x, p.y + 0.25 * p.z, p.z};
+        live.move({}, shape.positions, workspace.get());
+        const AlignedBytes moved = baked(shape);
+        const CModel expected(moved);
+        cdprep_model_info info{};
+        ASSERT_EQ(cdprep_model_describe(live.model(), &info, nullptr), CDPREP_OK);
+        EXPECT_EQ(info.serves, kServed);
+        EXPECT_EQ(info.triangles, ball.triangles.size());
+        // Some vertices back to where they were.
+        const std::vector<std::uint32_t> vertices = {0, 5, 9};
+        std::vector<Double3> back;
+        for (const std::uint32_t v : vertices) back.push_back(ball.positions[v]);
+        live.move(vertices, back, workspace.get());
+        for (std::size_t i = 0; i < 3; ++i) shape.positions[vertices[i]] = back[i];
+        for (std::uint32_t i = 0; i < ball.triangles.size(); ++i) {
+            cdprep_corners corners{};
+            ASSERT_EQ(cdprep_model_corners(live.model(), &i, 1, &corners, nullptr), CDPREP_OK);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t vertex = ball.triangles[i].vertex[k];
+                EXPECT_EQ(corners.vertex[k], vertex);
+                EXPECT_EQ(corners.point[k][0], shape.positions[vertex].x);
+                EXPECT_EQ(corners.point[k][1], shape.positions[vertex].y);
+            }
+        }
+    }
+}
+
+// Torn in two: the numbers of what is left stay, those of what comes are new.
+TEST(CLiveModel, TrianglesComeAndGoByTheirNumbers) {
+    const CWorkspace workspace;
+    const TestMesh sheet = grid_sheet(8, 8);
+    const AlignedBytes file = baked(sheet);
+    const CModel base(file);
+    CLive live(options_for(base.get(), 200, 100));
+    const auto count = static_cast<std::uint32_t>(sheet.triangles.size());
+    const std::vector<std::uint32_t> gone = {3, 4, 3};
+    ASSERT_EQ(cdprep_live_remove(live.get(), gone.data(), gone.size(), nullptr), CDPREP_OK);
+    std::uint32_t first = 0;
+    const std::array<std::uint32_t, 6> two = {0, 1, 99, 2, 99, 3};
+    cdprep_error error;
+    EXPECT_EQ(cdprep_live_append(live.get(), two.data(), 2, &first, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(first, CDPREP_NONE);
+    live.move({99}, {{0.5, 0.5, 3}}, workspace.get());
+    ASSERT_EQ(cdprep_live_append(live.get(), two.data(), 2, &first, &error), CDPREP_OK);
+    EXPECT_EQ(first, count);
+    EXPECT_EQ(live.info().triangles, count);
+    EXPECT_EQ(live.info().number_bound, count + 2);
+    EXPECT_EQ(live.info().vertices, 100u);
+    EXPECT_EQ(live.info().is_torn, std::uint32_t{CDPREP_YES});
+
+    // A ray from above meets the new triangle first.
+    const Double3 &p = sheet.positions[0], &q = sheet.positions[1];
+    const cdprep_ray ray = {{(p.x + q.x + 0.5) / 3, (p.y + q.y + 0.5) / 3, 9}, {0, 0, -1}, 99};
+    cdprep_ray_query query;
+    cdprep_ray_query_init(&query, sizeof query);
+    query.model = live.model();
+    query.rays = &ray;
+    cdprep_ray_hit hit{};
+    ASSERT_EQ(cdprep_rays_cast(&query, workspace.get(), &hit, &error), CDPREP_OK) << error.message;
+    EXPECT_EQ(hit.triangle, first);
+
+    std::vector<std::uint32_t> corners(3 * 200);
+    std::vector<double> positions(3 * 100);
+    cdprep_mesh mesh{};
+    mesh.positions = positions.data();
+    mesh.triangles = corners.data();
+    mesh.vertex_room = 100;
+    mesh.triangle_room = 200;
+    ASSERT_EQ(cdprep_model_mesh(live.model(), &mesh, nullptr), CDPREP_OK);
+    EXPECT_EQ(mesh.triangle_count, count);
+    EXPECT_EQ(corners[3 * 3], sheet.triangles[5].vertex[0]);  // 3 and 4 are gone
+    EXPECT_EQ(corners[3 * (count - 1) + 1], 99u);
+    EXPECT_EQ(positions[3 * 99 + 2], 3);
+    const std::array<std::uint32_t, 2> asked = {count + 1, 3};
+    std::array<cdprep_corners, 2> facts{};
+    EXPECT_EQ(cdprep_model_corners(live.model(), asked.data(), 1, facts.data(), nullptr),
+              CDPREP_OK);
+    EXPECT_EQ(facts[0].vertex[1], 99u);
+    EXPECT_EQ(cdprep_model_corners(live.model(), asked.data(), 2, facts.data(), &error),
+              CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "triangles[1]");
+}
+
+class CLiveHostile : public testing::Test {
+protected:
+    Outcome make(const cdprep_live_options* given) {
+        cdprep_error error;
+        std::size_t size = 77;
+        const int sized = cdprep_live_size(given, &size, &error);
+        const Outcome result{sized, error.why, error.argument, size == 0};
+        auto* made = reinterpret_cast<cdprep_live*>(1);
+        EXPECT_EQ(cdprep_live_make(given, nullptr, 0, &made, &error), sized);
+        EXPECT_EQ(made == nullptr, sized != CDPREP_OK);
+        cdprep_live_end(made);
+        return result;
+    }
+    Outcome refit(const cdprep_live_move* given) {
+        cdprep_error error;
+        const int code = cdprep_live_refit(live_.get(), given, workspace_.get(), &error);
+        return {code, error.why, error.argument, true};
+    }
+
+    CWorkspace workspace_;
+    TestMesh ball_ = icosphere(1);
+    AlignedBytes file_ = baked(ball_);
+    CModel base_{file_};
+    CLive live_{options_for(base_.get(), 100, 60)};
+};
+
+TEST_F(CLiveHostile, OptionsAreCheckedFieldByField) {
+    using O = cdprep_live_options;
+    static const cdprep_allocator none = {nullptr, nullptr, nullptr};
+    const CModel few(file_, CDPREP_ASK_RAY);
+    std::vector<Mistake<O>> all = struct_mistakes<O>("options");
+    all.push_back({"no base", [](O& o) { o.base = nullptr; }, CDPREP_WHY_NULL, "options.base"});
+    all.push_back({"sections not opened", [&](O& o) { o.base = few.get(); }, CDPREP_WHY_NOT_OPENED,
+                   "options.base"});
+    all.push_back(
+        {"few triangles", [](O& o) { o.max_triangles = 79; }, CDPREP_WHY_OUT_OF_RANGE, "options"});
+    all.push_back(
+        {"few vertices", [](O& o) { o.max_vertices = 41; }, CDPREP_WHY_OUT_OF_RANGE, "options"});
+    all.push_back({"many triangles", [](O& o) { o.max_triangles = UINT32_MAX; },
+                   CDPREP_WHY_OUT_OF_RANGE, "options"});
+    all.push_back({"vertices alone", [](O& o) { o.max_triangles = 0; }, CDPREP_WHY_NO_MEANING,
+                   "options.max_vertices"});
+    all.push_back(
+        {"no functions", [](O& o) { o.allocator = &none; }, CDPREP_WHY_NULL, "options.allocator"});
+    expect_refused(options_for(base_.get(), 80, 42), all,
+                   [&](const O* given) { return make(given); });
+}
+
+TEST_F(CLiveHostile, MovesAreCheckedFieldByField) {
+    using M = cdprep_live_move;
+    static std::vector<double> positions(180, 0.5);
+    static const std::vector<float> floats(180, 0.5F);
+    static std::vector<double> spoilt = positions, far = positions;
+    spoilt[7] = kNan;
+    far[5] = 0x1p1001;
+    static const std::array<std::uint32_t, 3> vertices = {1, 2, 60};
+    M right;
+    cdprep_live_move_init(&right, sizeof right);
+    right.positions = positions.data();
+    right.count = 42;
+    std::vector<Mistake<M>> all = struct_mistakes<M>("move");
+    all.push_back(
+        {"no positions", [](M& m) { m.positions = nullptr; }, CDPREP_WHY_NULL, "move.positions"});
+    all.push_back({"both", [](M& m) { m.positions_f32 = floats.data(); }, CDPREP_WHY_NO_MEANING,
+                   "move.positions_f32"});
+    all.push_back({"NaN", [](M& m) { m.positions = spoilt.data(); }, CDPREP_WHY_NOT_FINITE,
+                   "move.positions[2]"});
+    all.push_back({"far", [](M& m) { m.positions = far.data(); }, CDPREP_WHY_OUT_OF_RANGE,
+                   "move.positions[1]"});
+    all.push_back({"few", [](M& m) { m.count = 41; }, CDPREP_WHY_OUT_OF_RANGE, "move"});
+    all.push_back({"no such vertex",
+                   [](M& m) {
+                       m.vertices = vertices.data();
+                       m.count = 3;
+                   },
+                   CDPREP_WHY_OUT_OF_RANGE, "move"});
+    expect_refused(right, all, [&](const M* given) { return refit(given); });
+}
+
+TEST_F(CLiveHostile, TearsAreChecked) {
+    cdprep_error error;
+    std::uint32_t first = 0;
+    const std::array<std::uint32_t, 3> corners = {0, 1, 60};
+    const auto expect = [&](int code, int why, const char* argument) {
+        EXPECT_EQ(code, CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error.why, why);
+        EXPECT_STREQ(error.argument, argument);
+    };
+    cdprep_live* const live = live_.get();
+    expect(cdprep_live_append(live, corners.data(), 1, &first, &error), CDPREP_WHY_OUT_OF_RANGE,
+           "triangles");
+    EXPECT_EQ(first, CDPREP_NONE);
+    expect(cdprep_live_append(nullptr, corners.data(), 1, &first, &error), CDPREP_WHY_NULL, "live");
+    expect(cdprep_live_append(live, nullptr, 1, &first, &error), CDPREP_WHY_NULL, "triangles");
+    expect(cdprep_live_append(live, corners.data(), 1, nullptr, &error), CDPREP_WHY_NULL, "first");
+    expect(cdprep_live_append(live, corners.data(), SIZE_MAX, &first, &error),
+           CDPREP_WHY_OUT_OF_RANGE, "triangles");
+    expect(cdprep_live_remove(nullptr, corners.data(), 1, &error), CDPREP_WHY_NULL, "live");
+    expect(cdprep_live_remove(live, nullptr, 1, &error), CDPREP_WHY_NULL, "numbers");
+    const std::array<std::uint32_t, 2> gone = {7, UINT32_MAX};
+    expect(cdprep_live_remove(live, gone.data(), 2, &error), CDPREP_WHY_STALE, "numbers[1]");
+    EXPECT_EQ(live_.info().triangles, 80u);
+    EXPECT_EQ(live_.info().is_torn, std::uint32_t{CDPREP_NO});
+    CLive whole(options_for(base_.get()));
+    expect(cdprep_live_remove(whole.get(), gone.data(), 1, &error), CDPREP_WHY_NO_MEANING, "live");
+    expect(cdprep_live_append(whole.get(), corners.data(), 1, &first, &error),
+           CDPREP_WHY_NO_MEANING, "live");
+}
+
+TEST_F(CLiveHostile, NullAndMemoryAreChecked) {
+    cdprep_error error;
+    cdprep_live_options options = options_for(base_.get(), 90);
+    std::size_t size = 0;
+    ASSERT_EQ(cdprep_live_size(&options, &size, nullptr), CDPREP_OK);
+    AlignedBytes memory(size + 64);
+    std::byte* const start = memory.span().data();
+    cdprep_live* made = nullptr;
+    const auto why = [&](void* at, std::size_t room) {
+        made = live_.get();
+        (void)cdprep_live_make(&options, at, room, &made, &error);
+        EXPECT_EQ(made == nullptr, error.code != CDPREP_OK);
+        return error.why;
+    };
+    EXPECT_EQ(why(start, size - 1), CDPREP_WHY_TOO_SMALL);
+    EXPECT_EQ(why(start + 32, size), CDPREP_WHY_OUT_OF_RANGE);
+    EXPECT_EQ(why(nullptr, size), CDPREP_WHY_NULL);
+    Blocks blocks;
+    options.allocator = &blocks.allocator;
+    EXPECT_EQ(why(start, size), CDPREP_WHY_NO_MEANING);
+    EXPECT_EQ(why(nullptr, 0), 0);
+    cdprep_live_end(made);
+    EXPECT_EQ(blocks.given, 1u);
+    EXPECT_EQ(blocks.taken, 1u);
+    options.allocator = nullptr;
+    EXPECT_EQ(why(start, size), 0);
+    cdprep_live_end(made);
+    const auto expect_null = [&](int code, const char* argument) {
+        EXPECT_EQ(code, CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error.why, CDPREP_WHY_NULL);
+        EXPECT_STREQ(error.argument, argument);
+    };
+    cdprep_live_move move;
+    cdprep_live_move_init(&move, sizeof move);
+    cdprep_live_info info;
+    expect_null(cdprep_live_size(nullptr, &size, &error), "options");
+    expect_null(cdprep_live_size(&options, nullptr, &error), "size");
+    expect_null(cdprep_live_make(nullptr, nullptr, 0, &made, &error), "options");
+    expect_null(cdprep_live_make(&options, nullptr, 0, nullptr, &error), "live");
+    expect_null(cdprep_live_refit(nullptr, &move, workspace_.get(), &error), "live");
+    expect_null(cdprep_live_refit(live_.get(), nullptr, workspace_.get(), &error), "move");
+    expect_null(cdprep_live_refit(live_.get(), &move, nullptr, &error), "workspace");
+    expect_null(cdprep_live_describe(nullptr, &info, &error), "live");
+    expect_null(cdprep_live_describe(live_.get(), nullptr, &error), "info");
+    EXPECT_EQ(cdprep_live_model(nullptr), nullptr);
+    cdprep_live_end(nullptr);
+    cdprep_live_options_init(nullptr, sizeof options);
+    cdprep_live_move_init(nullptr, sizeof move);
+}
+
+}  // namespace
+}  // namespace cdprep::test
