@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/model.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -41,7 +40,8 @@ struct Model::State {
     HullView hulls;
     PieceView pieces;
     RecordView record;
-    std::uint32_t torn_number_bound = 0;  ///< of a torn model; otherwise 0
+    std::uint32_t number_bound = 0;  ///< of a model that can tear; otherwise 0
+    bool is_torn = false;
 
     void find_sections(SectionSet wanted);
 
@@ -218,7 +218,7 @@ std::uint32_t Model::triangle_count() const noexcept {
     return state_->header->triangle_count;
 }
 std::uint32_t Model::triangle_number_bound() const noexcept {
-    return std::max(state_->torn_number_bound, triangle_count());
+    return state_->bvh.lanes.empty() ? triangle_count() : state_->number_bound;
 }
 std::uint32_t Model::vertex_count() const noexcept {
     return state_->header->vertex_count;
@@ -263,13 +263,16 @@ bool Model::has_exact_leaves() const noexcept {
     return state_->has_exact_leaves();
 }
 bool Model::is_torn() const noexcept {
-    return state_->torn_number_bound > 0;
+    return state_->is_torn;
 }
-void Model::set_lanes(std::span<const std::uint8_t> lanes) noexcept {
+void Model::set_lanes(std::span<const std::uint8_t> lanes,
+                      std::uint32_t triangle_number_bound) noexcept {
     state_->bvh.lanes = lanes;
+    state_->number_bound = triangle_number_bound;
 }
 void Model::set_torn(std::uint32_t triangle_number_bound) noexcept {
-    state_->torn_number_bound = triangle_number_bound;
+    state_->is_torn = true;
+    state_->number_bound = triangle_number_bound;
 }
 bool Model::is_balanced() const noexcept {
     return (state_->header->flags & format::model_balanced) != 0 && !is_torn();

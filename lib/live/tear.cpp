@@ -88,7 +88,7 @@ void LiveModel::State::start_to_tear(const LiveBase& base, const LiveLimits& lim
     // What the free places of the image added.
     const auto places = static_cast<std::uint32_t>(triangles.size());
     components[0].triangle_count -= places - tear.count;
-    model.set_lanes(tear.lanes);
+    model.set_lanes(tear.lanes, tear.next_id);
     fit_leaves(0, model.bvh().shape.leaf_count);
     update_header();
 }

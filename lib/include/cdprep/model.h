@@ -119,7 +119,7 @@ public:
     [[nodiscard]] std::uint32_t triangle_count() const noexcept;  ///< from the header
     [[nodiscard]] std::uint32_t vertex_count() const noexcept;    ///< from the header
     /// Returns a bound of the numbers by which answers name triangles: all are less. It is
-    /// triangle_count(), unless triangles were appended to a LiveModel.
+    /// triangle_count(), unless the model is a LiveModel that can tear.
     [[nodiscard]] std::uint32_t triangle_number_bound() const noexcept;
 
     [[nodiscard]] const format::FileHeader& header() const noexcept;
@@ -176,7 +176,8 @@ private:
     [[nodiscard]] static Result<Model> from_bytes(std::span<const std::byte> bytes,
                                                   const OpenOptions& options);
     friend class LiveModel;
-    void set_lanes(std::span<const std::uint8_t> lanes) noexcept;
+    void set_lanes(std::span<const std::uint8_t> lanes,
+                   std::uint32_t triangle_number_bound) noexcept;
     void set_torn(std::uint32_t triangle_number_bound) noexcept;
     std::unique_ptr<State> state_;
     Ask served_ = Ask::nothing;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "cdprep/live_model.h"
 #include "cdprep/pairs.h"
@@ -56,6 +57,35 @@ TEST(LiveModel, AHundredFramesAllocateNothingAndAnswerAsBruteForce) {
         found += count;
     }
     EXPECT_GT(found, 100U);
+}
+
+// A sheet loses a hundredth of its triangles each frame and gets it back. Other triangles come and
+// go in turn, so that all subtrees are distributed anew.
+TEST(LiveTear, AThousandFramesAllocateNothing) {
+    const TestMesh sheet = grid_sheet(40, 40);
+    const auto count = static_cast<std::uint32_t>(sheet.triangles.size());
+    const auto arrays =
+        build::build_model(sheet.positions, sheet.triangles, {.bounds = build::BvhBounds::aligned});
+    ASSERT_TRUE(arrays);
+    const LiveLimits limits = {.triangles = count};
+    AlignedBytes memory(LiveModel::bytes(arrays.value(), limits).value());
+    auto made = LiveModel::in(memory.span(), arrays.value(), limits);
+    ASSERT_TRUE(made);
+    LiveModel& object = made.value();
+    std::vector<std::uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    const std::size_t before = most = used;
+    bool is_done = true;
+    for (std::uint32_t frame = 0; frame < 1000; ++frame) {
+        const std::size_t size = count / 100, first = frame * 7 * size % (count - size);
+        const auto gone = std::span(numbers).subspan(first, size);
+        is_done = is_done && object.remove(gone).ok();
+        const auto added = object.append(std::span(sheet.triangles).subspan(first, size));
+        if (added) std::iota(gone.begin(), gone.end(), added.value());
+        is_done = is_done && added.ok() && object.triangle_count() == count;
+    }
+    EXPECT_EQ(most, before);
+    EXPECT_TRUE(is_done);
 }
 
 }  // namespace
