@@ -133,6 +133,11 @@ std::size_t LiveModel::triangles(std::span<LiveTriangle> room) const noexcept {
     return smallest.count();
 }
 
+std::uint32_t LiveModel::rebuild(std::uint32_t most_triangles) noexcept {
+    const format::FloatEnvironment environment;
+    return state_->rebuild(most_triangles);
+}
+
 double LiveModel::surface_cost() const noexcept {
     return build::surface_cost(state_->nodes);
 }

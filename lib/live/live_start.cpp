@@ -213,13 +213,14 @@ void LiveStart::place_triangles(const LiveBase& base) {
         items.push_back({middle_of(map, position(v[0]), position(v[1]), position(v[2])),
                          base.source_triangle[i], i});
     }
-    spread(items, leaf_count);
+    spread(items, leaf_count, Fill::even);
     triangles_.resize(facts_.triangle_count);
     source_triangle_.resize(facts_.triangle_count);
     lanes_.resize(leaf_count);
     for (std::uint32_t leaf = 0; leaf < leaf_count; ++leaf) {
-        const std::size_t first = first_in_leaf(items.size(), leaf, leaf_count);
-        const std::size_t count = first_in_leaf(items.size(), leaf + 1, leaf_count) - first;
+        const std::size_t first = first_in_leaf(items.size(), leaf, leaf_count, Fill::even);
+        const std::size_t count =
+            first_in_leaf(items.size(), leaf + 1, leaf_count, Fill::even) - first;
         lanes_[leaf] = static_cast<std::uint8_t>((1U << count) - 1);
         for (std::size_t lane = 0; lane < kBvhWidth && !items.empty(); ++lane) {
             const std::size_t at =

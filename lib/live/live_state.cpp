@@ -132,6 +132,7 @@ LiveModel::State::State(std::span<std::byte> bytes, Model opened, const LiveTabl
             tables.users.add(place, triangles[place]);
         }
     }
+    note_costs();
 }
 
 template <class Given>

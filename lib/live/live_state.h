@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,12 +14,28 @@
 #include "live/changed_boxes.h"
 #include "live/corner_lists.h"
 #include "live/live_start.h"
+#include "live/spread.h"
 #include "live/tear_tables.h"
 
 namespace cdprep {
 
 /// The number of a vertex of the imported file that no triangle uses.
 inline constexpr std::uint32_t kUnusedVertex = 0xffffffff;
+
+/// The leaves of the subtrees that a rebuild distributes anew, one at a time: three levels.
+inline constexpr std::uint32_t kSubtreeLeaves = 512;
+
+/// Consecutive leaves.
+struct LeafRange {
+    std::uint32_t first;
+    std::uint32_t last;  ///< one past
+};
+
+/// A triangle and its number.
+struct NumberedTriangle {
+    format::Triangle triangle;
+    std::uint32_t number;
+};
 
 /// The counts that decide how much memory a live model takes besides its image.
 struct LiveCounts {
@@ -34,6 +51,16 @@ struct LiveTables {
         : vertex_of(carver.take<std::uint32_t>(counts.numbers), counts.numbers),
           users(carver, counts.vertices, counts.places),
           changed(carver, format::bvh_shape(counts.places)) {
+        const std::size_t leaves =
+            (std::size_t{counts.places} + format::kBvhWidth - 1) / format::kBvhWidth;
+        const std::size_t subtrees = (leaves + kSubtreeLeaves - 1) / kSubtreeLeaves;
+        const std::size_t most =
+            counts.can_tear
+                ? counts.places
+                : std::min<std::size_t>(counts.places, kSubtreeLeaves * format::kBvhWidth);
+        built_cost = {carver.take<float>(subtrees), subtrees};
+        items = {carver.take<SpreadItem>(most), most};
+        item_triangles = {carver.take<format::Triangle>(most), most};
         if (counts.can_tear) tear.emplace(carver, counts.places);
     }
 
@@ -42,6 +69,10 @@ struct LiveTables {
     std::span<std::uint32_t> vertex_of;
     CornerLists users;
     ChangedBoxes changed;
+    std::span<float> built_cost;  ///< of each subtree when its triangles were distributed
+    // Triangles that are being distributed.
+    std::span<SpreadItem> items;
+    std::span<format::Triangle> item_triangles;
     std::optional<TearTables> tear;
 };
 
@@ -70,6 +101,10 @@ struct LiveModel::State {
     /// Returns why triangles cannot be removed.
     [[nodiscard]] std::optional<Error> find_fault(std::span<const std::uint32_t> removed) const;
     void remove(std::span<const std::uint32_t> removed);
+
+    /// Distributes the triangles of subtrees anew, those first whose boxes have grown most, as
+    /// LiveModel::rebuild(). Returns the number of triangles distributed.
+    std::uint32_t rebuild(std::uint32_t most);
 
     [[nodiscard]] std::size_t position_count() const {
         return tables.tear ? tables.tear->positions : tables.vertex_of.size();
@@ -129,18 +164,32 @@ private:
     /// Returns the bounds of all vertices that triangles use.
     [[nodiscard]] build::Extent used_extent() const;
     void widen_frame(std::span<const format::Triangle> added);
-    void insert(const format::Triangle& triangle, std::uint32_t id);
-    void put(std::uint32_t place, const format::Triangle& triangle, std::uint32_t id);
+    void insert(const NumberedTriangle& added);
+    /// Returns whether a place has a triangle, also while the header does not count it yet.
+    [[nodiscard]] bool is_taken(std::uint32_t place) const {
+        return !tables.tear ||
+               ((tables.tear->lanes[place / format::kBvhWidth] >> (place % format::kBvhWidth)) &
+                1) != 0;
+    }
+    void put(std::uint32_t place, const NumberedTriangle& added);
     void take_out(std::uint32_t place);
-    /// Distributes the triangles of a subtree that has room for one more, and that one.
-    void insert_around(std::uint32_t leaf, const format::Triangle& triangle, std::uint32_t id);
     [[nodiscard]] std::uint32_t nearest_leaf(const format::Triangle& triangle) const;
+    /// Returns the smallest subtree around a leaf that has enough free places for one more.
+    [[nodiscard]] LeafRange find_room_around(std::uint32_t leaf) const;
+    /// Distributes the triangles of a subtree anew, and one more if it is not null.
+    void redistribute(const LeafRange& leaves, const NumberedTriangle* added);
     [[nodiscard]] Corners corners(const format::Triangle& triangle) const;
-    void fit_leaves(std::uint32_t first, std::uint32_t last);
+    void fit_leaves(const LeafRange& leaves);
     void note_tear();
+
+    [[nodiscard]] LeafRange subtree(std::uint32_t number) const;
+    /// Returns the cost of a subtree by the surface-area heuristic.
+    [[nodiscard]] float cost_of(std::uint32_t number) const;
+    void note_costs();
 
     build::Frame frame_;
     Sums sums_;
+    bool is_rebuilding_ = false;
 };
 
 }  // namespace cdprep

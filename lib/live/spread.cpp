@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "cdprep/format/limits.h"
-
 namespace cdprep {
 namespace {
 
@@ -37,10 +35,11 @@ std::uint32_t middle_leaf(std::uint32_t first, std::uint32_t last) {
 struct Spread {
     std::span<SpreadItem> items;
     std::uint32_t leaves;
+    Fill fill;
 
     void split(std::uint32_t first, std::uint32_t last) const {
-        const std::size_t begin = first_in_leaf(items.size(), first, leaves);
-        const std::size_t end = first_in_leaf(items.size(), last, leaves);
+        const std::size_t begin = first_in_leaf(items.size(), first, leaves, fill);
+        const std::size_t end = first_in_leaf(items.size(), last, leaves, fill);
         const std::span<SpreadItem> part = items.subspan(begin, end - begin);
         if (part.empty()) return;
         if (last - first == 1) {
@@ -48,7 +47,7 @@ struct Spread {
             return;
         }
         const std::uint32_t middle = middle_leaf(first, last);
-        const std::size_t cut = first_in_leaf(items.size(), middle, leaves) - begin;
+        const std::size_t cut = first_in_leaf(items.size(), middle, leaves, fill) - begin;
         const std::size_t axis = longest_axis(part);
         std::nth_element(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(cut), part.end(),
                          [&](const SpreadItem& a, const SpreadItem& b) {
@@ -64,8 +63,8 @@ struct Spread {
 
 }  // namespace
 
-void spread(std::span<SpreadItem> items, std::uint32_t leaves) noexcept {
-    if (leaves > 0) Spread{items, leaves}.split(0, leaves);
+void spread(std::span<SpreadItem> items, std::uint32_t leaves, Fill fill) noexcept {
+    if (leaves > 0) Spread{items, leaves, fill}.split(0, leaves);
 }
 
 }  // namespace cdprep

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "build/frame_map.h"
+#include "cdprep/format/limits.h"
 
 namespace cdprep {
 
@@ -28,15 +30,22 @@ struct SpreadItem {
     return {at(a.x, b.x, c.x, 0), at(a.y, b.y, c.y, 1), at(a.z, b.z, c.z, 2)};
 }
 
+/// How items are distributed over leaves.
+enum class Fill : std::uint8_t {
+    even,  ///< equal numbers, up to one
+    full,  ///< eight in each leaf but the last that has any
+};
+
 /// Returns the index of the first item that spread() gives to a leaf.
 [[nodiscard]] constexpr std::size_t first_in_leaf(std::size_t items, std::uint32_t leaf,
-                                                  std::uint32_t leaves) noexcept {
-    return static_cast<std::size_t>(std::uint64_t{items} * leaf / leaves);
+                                                  std::uint32_t leaves, Fill fill) noexcept {
+    if (fill == Fill::even) return static_cast<std::size_t>(std::uint64_t{items} * leaf / leaves);
+    return std::min(items, std::size_t{leaf} * format::kBvhWidth);
 }
 
-/// Sorts items so that those of each leaf of a subtree are consecutive and near each other. Leaves
-/// get equal numbers, up to one. Within a leaf, items are sorted by id. The result depends only on
-/// the set of items. Splits along the longest axis, between whole children. Takes O(n log n) time.
-void spread(std::span<SpreadItem> items, std::uint32_t leaves) noexcept;
+/// Sorts items so that those of each leaf of a subtree are consecutive and near each other. Within
+/// a leaf, items are sorted by id. The result depends only on the set of items. Splits along the
+/// longest axis, between whole children. Takes O(n log n) time.
+void spread(std::span<SpreadItem> items, std::uint32_t leaves, Fill fill) noexcept;
 
 }  // namespace cdprep

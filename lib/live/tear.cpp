@@ -77,7 +77,7 @@ void LiveModel::State::start_to_tear(const LiveBase& base, const LiveLimits& lim
     tear.positions = static_cast<std::uint32_t>(base.number_count());
     std::ranges::copy(start.lanes(), tear.lanes.begin());
     for (std::uint32_t place = 0; place < triangles.size(); ++place) {
-        if (((tear.lanes[place / kBvhWidth] >> (place % kBvhWidth)) & 1) == 0) {
+        if (!is_taken(place)) {
             triangles[place] = kNoTriangle;
             continue;
         }
@@ -89,7 +89,7 @@ void LiveModel::State::start_to_tear(const LiveBase& base, const LiveLimits& lim
     const auto places = static_cast<std::uint32_t>(triangles.size());
     components[0].triangle_count -= places - tear.count;
     model.set_lanes(tear.lanes, tear.next_id);
-    fit_leaves(0, model.bvh().shape.leaf_count);
+    fit_leaves({0, model.bvh().shape.leaf_count});
     update_header();
 }
 
@@ -140,7 +140,7 @@ std::optional<Error> LiveModel::State::find_fault(std::span<const std::uint32_t>
 
 void LiveModel::State::append(std::span<const Triangle> added) {
     widen_frame(added);
-    for (const Triangle& triangle : added) insert(triangle, tables.tear->next_id++);
+    for (const Triangle& triangle : added) insert({triangle, tables.tear->next_id++});
     if (!added.empty()) note_tear();
 }
 
@@ -189,33 +189,34 @@ void LiveModel::State::widen_frame(std::span<const Triangle> added) {
     fit_all(serial_for);
 }
 
-void LiveModel::State::insert(const Triangle& triangle, std::uint32_t id) {
+void LiveModel::State::insert(const NumberedTriangle& added) {
     TearTables& tear = *tables.tear;
-    const std::uint32_t leaf = nearest_leaf(triangle);
+    const std::uint32_t leaf = nearest_leaf(added.triangle);
     ++tear.count;
-    tear.hash += hash_of(id, triangle);
+    tear.hash += hash_of(added.number, added.triangle);
     if (tear.lanes[leaf] == kFullLeaf) {
-        insert_around(leaf, triangle, id);
+        redistribute(find_room_around(leaf), &added);
         return;
     }
     const auto lane = static_cast<std::uint32_t>(std::countr_one(tear.lanes[leaf]));
-    put(leaf * kBvhWidth + lane, triangle, id);
-    fit_leaves(leaf, leaf + 1);
+    put(leaf * kBvhWidth + lane, added);
+    fit_leaves({leaf, leaf + 1});
 }
 
-void LiveModel::State::put(std::uint32_t place, const Triangle& triangle, std::uint32_t id) {
-    TearTables& tear = *tables.tear;
-    triangles[place] = triangle;
-    source_triangle[place] = id;
-    tear.lanes[place / kBvhWidth] |= static_cast<std::uint8_t>(1U << (place % kBvhWidth));
-    tear.ids.set(id, place);
-    tables.users.add(place, triangle);
+void LiveModel::State::put(std::uint32_t place, const NumberedTriangle& added) {
+    triangles[place] = added.triangle;
+    source_triangle[place] = added.number;
+    tables.users.add(place, added.triangle);
+    if (!tables.tear) return;
+    tables.tear->lanes[place / kBvhWidth] |= static_cast<std::uint8_t>(1U << (place % kBvhWidth));
+    tables.tear->ids.set(added.number, place);
 }
 
 void LiveModel::State::take_out(std::uint32_t place) {
+    tables.users.remove(place, triangles[place]);
+    if (!tables.tear) return;
     tables.tear->lanes[place / kBvhWidth] &=
         static_cast<std::uint8_t>(~(1U << (place % kBvhWidth)));
-    tables.users.remove(place, triangles[place]);
     triangles[place] = kNoTriangle;
 }
 
@@ -247,63 +248,23 @@ std::uint32_t LiveModel::State::nearest_leaf(const Triangle& triangle) const {
     return place;
 }
 
-void LiveModel::State::insert_around(std::uint32_t leaf, const Triangle& triangle,
-                                     std::uint32_t id) {
-    TearTables& tear = *tables.tear;
+LeafRange LiveModel::State::find_room_around(std::uint32_t leaf) const {
     const format::BvhShape& shape = model.bvh().shape;
-    std::uint32_t first = leaf, last = leaf + 1, size = 1, count = 0;
+    LeafRange leaves{leaf, leaf + 1};
+    std::uint32_t size = 1;
     for (std::uint32_t level = 0; level < shape.levels; ++level) {
         size *= kBvhWidth;
-        first = leaf / size * size;
-        last = std::min(first + size, shape.leaf_count);
-        count = 1;
-        for (std::uint32_t i = first; i < last; ++i) {
-            count += static_cast<std::uint32_t>(std::popcount(tear.lanes[i]));
+        leaves.first = leaf / size * size;
+        leaves.last = std::min(leaves.first + size, shape.leaf_count);
+        std::uint64_t count = 1;
+        for (std::uint32_t i = leaves.first; i < leaves.last; ++i) {
+            count += static_cast<std::uint64_t>(std::popcount(tables.tear->lanes[i]));
         }
-        const std::uint64_t room = std::uint64_t{last - first} * kBvhWidth;
-        const std::uint64_t to_be_free = room * (level + 1) / (kFreeShare * shape.levels);
-        if (count + to_be_free <= room) break;
+        const std::uint64_t places = std::uint64_t{leaves.last - leaves.first} * kBvhWidth;
+        const std::uint64_t to_be_free = places * (level + 1) / (kFreeShare * shape.levels);
+        if (count + to_be_free <= places) break;
     }
-    assert(count <= (last - first) * kBvhWidth);
-    const build::FrameMap map(frame_);
-    std::uint32_t items = 0;
-    const auto add = [&](const Triangle& t, std::uint32_t number) {
-        const Corners c = corners(t);
-        tear.items[items] = {middle_of(map, c[0], c[1], c[2]), number, items};
-        tear.triangles[items++] = t;
-    };
-    for (std::uint32_t place = first * kBvhWidth; place < last * kBvhWidth; ++place) {
-        if (((tear.lanes[place / kBvhWidth] >> (place % kBvhWidth)) & 1) == 0) continue;
-        add(triangles[place], source_triangle[place]);
-        take_out(place);
-    }
-    add(triangle, id);
-    const std::span<SpreadItem> all = tear.items.first(items);
-    spread(all, last - first);
-    for (std::uint32_t i = 0; i < last - first; ++i) {
-        const std::size_t begin = first_in_leaf(items, i, last - first);
-        const std::size_t end = first_in_leaf(items, i + 1, last - first);
-        for (std::size_t at = begin; at < end; ++at) {
-            put(static_cast<std::uint32_t>((first + i) * kBvhWidth + (at - begin)),
-                tear.triangles[all[at].from], all[at].id);
-        }
-    }
-    fit_leaves(first, last);
-}
-
-/// Fits leaves, and the boxes around them up to the root.
-void LiveModel::State::fit_leaves(std::uint32_t first, std::uint32_t last) {
-    with_positions([&](const auto& positions) {
-        build::make_some_leaves(leaf_room(), positions, triangles, first, last);
-        build::mark_some_degenerate(positions, triangles, degenerate_bits,
-                                    std::size_t{first} * kBvhWidth, std::size_t{last} * kBvhWidth);
-    });
-    const format::BvhShape& shape = model.bvh().shape;
-    for (std::uint32_t level = 0; level + 1 < shape.levels; ++level) {
-        first /= kBvhWidth;
-        last = (last - 1) / kBvhWidth + 1;
-        fit_boxes_around(level, first, last);
-    }
+    return leaves;
 }
 
 Corners LiveModel::State::corners(const Triangle& triangle) const {

@@ -6,7 +6,6 @@
 
 #include "core/carver.h"
 #include "live/id_map.h"
-#include "live/spread.h"
 
 namespace cdprep {
 
@@ -14,9 +13,7 @@ namespace cdprep {
 struct TearTables {
     TearTables(Carver& carver, std::uint32_t places) noexcept
         : lanes(carver.take<std::uint8_t>(places / format::kBvhWidth), places / format::kBvhWidth),
-          ids(carver, places),
-          items(carver.take<SpreadItem>(places), places),
-          triangles(carver.take<format::Triangle>(places), places) {}
+          ids(carver, places) {}
 
     std::span<std::uint8_t> lanes;  ///< per leaf: the places that have a triangle, a bit each
     IdMap ids;
@@ -25,9 +22,6 @@ struct TearTables {
     std::uint32_t next_id = 0;
     std::uint64_t hash = 0;       ///< the sum over all triangles
     std::uint32_t positions = 0;  ///< one more than the largest number with a position
-    // Room for spread().
-    std::span<SpreadItem> items;
-    std::span<format::Triangle> triangles;
 };
 
 }  // namespace cdprep

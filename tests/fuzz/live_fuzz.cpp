@@ -68,6 +68,7 @@ public:
     }
 
     void change() {
+        if (draw_.one_in(8)) MUST(live_->rebuild(draw_.below(3) * 200) <= 400);
         switch (draw_.below(5)) {
             case 0:
                 return append();

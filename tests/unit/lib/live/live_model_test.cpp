@@ -486,6 +486,50 @@ TEST(LiveModel, AnswersAfterManySmallMovesAreThoseOfBruteForce) {
     EXPECT_GT(found, 1000U);
 }
 
+// A rebuild changes no answer and makes the tree better, a part at a time; then it rests.
+TEST(LiveModel, ARebuildMakesBoxesSmallerAndChangesNoAnswer) {
+    const TestMesh cloud = random_soup(5, 9000, 0.02);
+    const OpenModel other = open_tiny(icosphere(3), {.double_precision = true});
+    Running moving = run(arrays_of(cloud));
+    EXPECT_EQ(moving.object.rebuild(1'000'000), 0U);
+    TestMesh shape = cloud;  // neighbours have parted
+    std::mt19937 random(8);
+    std::normal_distribution<double> normal(0, 0.2);
+    for (const format::Triangle& t : cloud.triangles) {
+        const Double3 by = {normal(random), normal(random), normal(random)};
+        for (const std::uint32_t v : t.vertex) {
+            const Double3& p = cloud.positions[v];
+            shape.positions[v] = {p.x + by.x, p.y + by.y, p.z + by.z};
+        }
+    }
+    ASSERT_TRUE(moving.object.refit(shape.positions));
+    const double cost = moving.object.surface_cost();
+    Workspace workspace;
+    const auto pairs_of = [&] {
+        auto pairs = all_pairs(moving.model(), other.model, Placement::b_moves({}), workspace);
+        std::ranges::sort(pairs);
+        return pairs;
+    };
+    const auto before = pairs_of();
+    EXPECT_GT(before.size(), 100U);
+    EXPECT_EQ(moving.object.rebuild(4095), 0U);  // less than a subtree
+    std::uint32_t calls = 0;
+    for (; moving.object.rebuild(4096) > 0; ++calls) EXPECT_EQ(pairs_of(), before);
+    EXPECT_GE(calls, 2U);
+    EXPECT_LT(calls, 5U);
+    EXPECT_LT(moving.object.surface_cost(), 0.8 * cost);
+    EXPECT_EQ(moving.object.rebuild(1'000'000), 0U);
+    // Moves of some and of all vertices find their leaves in the new order.
+    const std::vector<std::uint32_t> vertices = {1, 400, 7000};
+    ASSERT_TRUE(moving.object.refit(vertices, positions_at(cloud, vertices)));
+    TestMesh changed = shape;
+    for (const std::uint32_t v : vertices) changed.positions[v] = cloud.positions[v];
+    const AlignedBytes some(moving.memory.span());
+    ASSERT_TRUE(moving.object.refit(changed.positions));
+    EXPECT_TRUE(std::ranges::equal(some.span(), moving.memory.span()));
+    EXPECT_FALSE(format::find_deep_damage(moving.object.image().value()));
+}
+
 TEST(LiveModel, BadMovesAreRefusedByNumberAndChangeNothing) {
     const TestMesh ball = icosphere(2);
     Running moving = run(arrays_of(ball));

@@ -32,26 +32,32 @@ std::vector<std::uint32_t> ids_of(const std::vector<SpreadItem>& items) {
 
 TEST(Spread, GivesEachLeafItsShareInAnyOrderOfItems) {
     for (const std::uint32_t leaves : {1U, 2U, 7U, 8U, 9U, 63U, 64U, 65U, 600U}) {
-        for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{leaves},
-                                        std::size_t{5} * leaves, std::size_t{8} * leaves}) {
-            std::vector<SpreadItem> items = random_items(count, leaves);
-            std::vector<SpreadItem> shuffled = items;
-            std::ranges::shuffle(shuffled, std::mt19937(1));
-            spread(items, leaves);
-            spread(shuffled, leaves);
-            EXPECT_EQ(ids_of(items), ids_of(shuffled));
-            for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
-                const std::size_t first = first_in_leaf(count, leaf, leaves);
-                const std::size_t last = first_in_leaf(count, leaf + 1, leaves);
-                EXPECT_LE(last - first, 8U);
-                EXPECT_LE(count / leaves, last - first);
-                EXPECT_TRUE(std::ranges::is_sorted(
-                    items.begin() + static_cast<std::ptrdiff_t>(first),
-                    items.begin() + static_cast<std::ptrdiff_t>(last), {}, &SpreadItem::id));
+        for (const Fill fill : {Fill::even, Fill::full}) {
+            for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{leaves},
+                                            std::size_t{5} * leaves, std::size_t{8} * leaves}) {
+                std::vector<SpreadItem> items = random_items(count, leaves);
+                std::vector<SpreadItem> shuffled = items;
+                std::ranges::shuffle(shuffled, std::mt19937(1));
+                spread(items, leaves, fill);
+                spread(shuffled, leaves, fill);
+                EXPECT_EQ(ids_of(items), ids_of(shuffled));
+                for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) {
+                    const std::size_t first = first_in_leaf(count, leaf, leaves, fill);
+                    const std::size_t last = first_in_leaf(count, leaf + 1, leaves, fill);
+                    EXPECT_LE(last - first, 8U);
+                    if (fill == Fill::even) {
+                        EXPECT_LE(count / leaves, last - first);
+                    } else {
+                        EXPECT_TRUE(last - first == 8 || last == count);
+                    }
+                    EXPECT_TRUE(std::ranges::is_sorted(
+                        items.begin() + static_cast<std::ptrdiff_t>(first),
+                        items.begin() + static_cast<std::ptrdiff_t>(last), {}, &SpreadItem::id));
+                }
+                std::vector<std::uint32_t> all = ids_of(items);
+                std::ranges::sort(all);
+                EXPECT_TRUE(std::ranges::equal(all, ids_of(random_items(count, leaves))));
             }
-            std::vector<std::uint32_t> all = ids_of(items);
-            std::ranges::sort(all);
-            EXPECT_TRUE(std::ranges::equal(all, ids_of(random_items(count, leaves))));
         }
     }
 }
@@ -63,12 +69,12 @@ TEST(Spread, PutsNeighboursInOneLeaf) {
         const std::uint32_t at = i * 2003 % 4000;
         items.push_back({{static_cast<float>(at), 0, 0}, i, at});
     }
-    spread(items, 512);
+    spread(items, 512, Fill::even);
     for (std::uint32_t leaf = 0; leaf < 512; ++leaf) {
-        for (std::size_t i = first_in_leaf(4000, leaf, 512); i < first_in_leaf(4000, leaf + 1, 512);
-             ++i) {
-            EXPECT_GE(items[i].from, first_in_leaf(4000, leaf, 512));
-            EXPECT_LT(items[i].from, first_in_leaf(4000, leaf + 1, 512));
+        for (std::size_t i = first_in_leaf(4000, leaf, 512, Fill::even);
+             i < first_in_leaf(4000, leaf + 1, 512, Fill::even); ++i) {
+            EXPECT_GE(items[i].from, first_in_leaf(4000, leaf, 512, Fill::even));
+            EXPECT_LT(items[i].from, first_in_leaf(4000, leaf + 1, 512, Fill::even));
         }
     }
 }

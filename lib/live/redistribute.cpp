@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cassert>
+
+#include "build/degenerate.h"
+#include "build/frame_map.h"
+#include "build/make_nodes.h"
+#include "live/live_state.h"
+
+namespace cdprep {
+namespace {
+
+using format::BvhNode;
+using format::kBvhWidth;
+
+/// A rebuild begins when the boxes of a subtree have grown by this factor, and goes on with others
+/// until none has grown by the second one.
+constexpr float kBegin = 1.4F;
+constexpr float kEnd = 1.2F;
+
+/// Returns the sum of the half areas of a node's boxes; unused ones have none.
+float half_areas(const BvhNode& node) {
+    float sum = 0;
+    for (std::size_t box = 0; box < kBvhWidth; ++box) {
+        const float x = node.upper[0][box] - node.lower[0][box];
+        const float y = node.upper[1][box] - node.lower[1][box];
+        const float z = node.upper[2][box] - node.lower[2][box];
+        sum += x < 0 ? 0 : x * y + y * z + z * x;
+    }
+    return sum;
+}
+
+/// Returns the half area of the box around a node's boxes.
+float area_around(const BvhNode& node) {
+    std::array<float, 3> side{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        side[axis] = std::ranges::max(node.upper[axis]) - std::ranges::min(node.lower[axis]);
+    }
+    return side[0] < 0 ? 0 : side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
+}
+
+}  // namespace
+
+void LiveModel::State::redistribute(const LeafRange& leaves, const NumberedTriangle* added) {
+    const build::FrameMap map(frame_);
+    std::uint32_t count = 0;
+    const auto add = [&](const NumberedTriangle& each) {
+        const Corners c = corners(each.triangle);
+        tables.items[count] = {middle_of(map, c[0], c[1], c[2]), each.number, count};
+        tables.item_triangles[count++] = each.triangle;
+    };
+    const auto end = static_cast<std::uint32_t>(
+        std::min(std::size_t{leaves.last} * kBvhWidth, triangles.size()));
+    for (std::uint32_t place = leaves.first * kBvhWidth; place < end; ++place) {
+        if (!is_taken(place)) continue;
+        add({triangles[place], source_triangle[place]});
+        take_out(place);
+    }
+    if (added != nullptr) add(*added);
+    const std::uint32_t leaf_count = leaves.last - leaves.first;
+    const Fill fill = tables.tear ? Fill::even : Fill::full;
+    const std::span<SpreadItem> items = tables.items.first(count);
+    spread(items, leaf_count, fill);
+    for (std::uint32_t leaf = 0; leaf < leaf_count; ++leaf) {
+        const std::size_t first = first_in_leaf(count, leaf, leaf_count, fill);
+        const std::size_t last = first_in_leaf(count, leaf + 1, leaf_count, fill);
+        assert(last - first <= kBvhWidth);
+        for (std::size_t i = first; i < last; ++i) {
+            put(static_cast<std::uint32_t>((leaves.first + leaf) * kBvhWidth + (i - first)),
+                {tables.item_triangles[items[i].from], items[i].id});
+        }
+    }
+    fit_leaves(leaves);
+}
+
+/// Fits leaves, and the boxes around them up to the root.
+void LiveModel::State::fit_leaves(const LeafRange& leaves) {
+    with_positions([&](const auto& positions) {
+        build::make_some_leaves(leaf_room(), positions, triangles, leaves.first, leaves.last);
+        build::mark_some_degenerate(
+            positions, triangles, degenerate_bits, std::size_t{leaves.first} * kBvhWidth,
+            std::min(std::size_t{leaves.last} * kBvhWidth, triangles.size()));
+    });
+    const format::BvhShape& shape = model.bvh().shape;
+    LeafRange nodes_of = leaves;
+    for (std::uint32_t level = 0; level + 1 < shape.levels; ++level) {
+        nodes_of = {nodes_of.first / kBvhWidth, (nodes_of.last - 1) / kBvhWidth + 1};
+        fit_boxes_around(level, nodes_of.first, nodes_of.last);
+    }
+}
+
+// --- Rebuilds ---------------------------------------------------------------------------
+
+std::uint32_t LiveModel::State::rebuild(std::uint32_t most) {
+    std::uint32_t done = 0;
+    const auto subtrees = static_cast<std::uint32_t>(tables.built_cost.size());
+    while (true) {
+        std::uint32_t worst = 0;
+        float ratio = 0;
+        for (std::uint32_t i = 0; i < subtrees; ++i) {
+            const float grown = cost_of(i) / tables.built_cost[i];
+            if (!(grown > ratio)) continue;
+            ratio = grown;
+            worst = i;
+        }
+        is_rebuilding_ = ratio > (is_rebuilding_ ? kEnd : kBegin);
+        if (!is_rebuilding_) return done;
+        const LeafRange leaves = subtree(worst);
+        const std::uint32_t size = (leaves.last - leaves.first) * kBvhWidth;
+        if (size > most - done) return done;
+        redistribute(leaves, nullptr);
+        tables.built_cost[worst] = cost_of(worst);
+        done += size;
+    }
+}
+
+LeafRange LiveModel::State::subtree(std::uint32_t number) const {
+    const std::uint32_t first = number * kSubtreeLeaves;
+    return {first, std::min(first + kSubtreeLeaves, model.bvh().shape.leaf_count)};
+}
+
+float LiveModel::State::cost_of(std::uint32_t number) const {
+    const format::BvhShape& shape = model.bvh().shape;
+    LeafRange below = subtree(number);
+    float sum = 0;
+    float whole = 0;
+    for (std::uint32_t level = 0; level < shape.levels && below.last - below.first > 1; ++level) {
+        below = {below.first / kBvhWidth, (below.last - 1) / kBvhWidth + 1};
+        for (std::uint32_t i = below.first; i < below.last; ++i) {
+            const BvhNode& node = nodes[shape.first[level] + i];
+            sum += half_areas(node);
+            whole = area_around(node);
+        }
+    }
+    return whole > 0 ? sum / whole : 1;
+}
+
+void LiveModel::State::note_costs() {
+    for (std::uint32_t i = 0; i < tables.built_cost.size(); ++i) tables.built_cost[i] = cost_of(i);
+}
+
+}  // namespace cdprep
