@@ -48,17 +48,26 @@ bool is_positions(SectionId id) {
     return id == SectionId::positions_f32 || id == SectionId::positions_f64;
 }
 
-/// Returns a number that differs, almost certainly, for other vertices and other positions. The
-/// constants are odd and have about as many ones as zeros.
-std::uint64_t hash_of(std::uint32_t vertex, const Double3& p) {
-    std::uint64_t hash = (vertex + 1) * 0x9e3779b97f4a7c15;
-    hash ^= std::bit_cast<std::uint64_t>(p.x) * 0xbf58476d1ce4e5b9;
-    hash ^= std::rotl(std::bit_cast<std::uint64_t>(p.y) * 0x94d049bb133111eb, 21);
-    hash ^= std::rotl(std::bit_cast<std::uint64_t>(p.z) * 0xd6e8feb86659fd93, 42);
+/// Mixes the bits of two words. The constants are odd and have about as many ones as zeros.
+std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
+    std::uint64_t hash = a * 0xbf58476d1ce4e5b9 ^ std::rotl(b * 0x94d049bb133111eb, 32);
     hash = (hash ^ (hash >> 32)) * 0xa0761d6478bd642f;
     return (hash ^ (hash >> 29)) * 0xe7037ed1a0b428db;
 }
 
+/// Returns a number that differs, almost certainly, for other vertices and other positions.
+std::uint64_t hash_of(std::uint32_t vertex, const Float3& p) {
+    const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
+    return mixed(bits(p.x) | bits(p.y) << 32, bits(p.z) | std::uint64_t{vertex} << 32);
+}
+std::uint64_t hash_of(std::uint32_t vertex, const Double3& p) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    return mixed(mixed(bits(p.x), bits(p.y)), bits(p.z) + vertex * 0x9e3779b97f4a7c15);
+}
+
+bool is_float(const Float3& /*p*/) {
+    return true;
+}
 bool is_float(const Double3& p) {
     const auto is_kept = [](double x) { return double{static_cast<float>(x)} == x; };
     return is_kept(p.x) && is_kept(p.y) && is_kept(p.z);
@@ -93,12 +102,14 @@ std::vector<Double3> positions_of(const Model& model) {
 
 }  // namespace
 
-void LiveModel::State::Sums::add(std::uint32_t vertex, const Double3& p) {
+template <class Kept>
+void LiveModel::State::Sums::add(std::uint32_t vertex, const Kept& p) {
     hash += hash_of(vertex, p);
     rounded += is_float(p) ? 0 : 1;
 }
 
-void LiveModel::State::Sums::remove(std::uint32_t vertex, const Double3& p) {
+template <class Kept>
+void LiveModel::State::Sums::remove(std::uint32_t vertex, const Kept& p) {
     hash -= hash_of(vertex, p);
     rounded -= is_float(p) ? 0 : 1;
 }
@@ -195,7 +206,7 @@ void LiveModel::State::set_some(std::span<const std::uint32_t> vertices,
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         std::uint32_t& vertex = tables.vertex_of[vertices[i]];
         if (vertex != kUnusedVertex) {
-            sums_.remove(vertex, build::as_double(kept[vertex]));
+            sums_.remove(vertex, kept[vertex]);
         } else if (tables.tear) {
             vertex = vertices[i];
             tables.tear->positions = std::max(tables.tear->positions, vertex + 1);
@@ -203,9 +214,8 @@ void LiveModel::State::set_some(std::span<const std::uint32_t> vertices,
             continue;
         }
         kept[vertex] = as_kept<Kept>(given[i]);
-        const Double3 p = build::as_double(kept[vertex]);
-        sums_.add(vertex, p);
-        in_frame &= is_in_frame(p) || !tables.users.is_used(vertex);
+        sums_.add(vertex, kept[vertex]);
+        in_frame &= is_in_frame(build::as_double(kept[vertex])) || !tables.users.is_used(vertex);
         tables.users.each_at(vertex,
                              [&](std::uint32_t place) { tables.changed.mark(place / kBvhWidth); });
     }

@@ -131,8 +131,10 @@ private:
         std::uint64_t hash = 0;     ///< the sum over all vertices
         std::uint32_t rounded = 0;  ///< vertices with a coordinate that is not a float
 
-        void add(std::uint32_t vertex, const Double3& p);
-        void remove(std::uint32_t vertex, const Double3& p);
+        template <class Kept>
+        void add(std::uint32_t vertex, const Kept& p);
+        template <class Kept>
+        void remove(std::uint32_t vertex, const Kept& p);
     };
 
     template <class Given, class Kept>
@@ -177,9 +179,9 @@ private:
     /// Returns the smallest subtree around a leaf that has enough free places for one more.
     [[nodiscard]] LeafRange find_room_around(std::uint32_t leaf) const;
     /// Distributes the triangles of a subtree anew, and one more if it is not null.
-    void redistribute(const LeafRange& leaves, const NumberedTriangle* added);
+    void redistribute(const LeafRange& range, const NumberedTriangle* added);
     [[nodiscard]] Corners corners(const format::Triangle& triangle) const;
-    void fit_leaves(const LeafRange& leaves);
+    void fit_leaves(const LeafRange& range);
     void note_tear();
 
     [[nodiscard]] LeafRange subtree(std::uint32_t number) const;

@@ -41,7 +41,7 @@ float area_around(const BvhNode& node) {
 
 }  // namespace
 
-void LiveModel::State::redistribute(const LeafRange& leaves, const NumberedTriangle* added) {
+void LiveModel::State::redistribute(const LeafRange& range, const NumberedTriangle* added) {
     const build::FrameMap map(frame_);
     std::uint32_t count = 0;
     const auto add = [&](const NumberedTriangle& each) {
@@ -49,15 +49,15 @@ void LiveModel::State::redistribute(const LeafRange& leaves, const NumberedTrian
         tables.items[count] = {middle_of(map, c[0], c[1], c[2]), each.number, count};
         tables.item_triangles[count++] = each.triangle;
     };
-    const auto end = static_cast<std::uint32_t>(
-        std::min(std::size_t{leaves.last} * kBvhWidth, triangles.size()));
-    for (std::uint32_t place = leaves.first * kBvhWidth; place < end; ++place) {
+    const auto end =
+        static_cast<std::uint32_t>(std::min(std::size_t{range.last} * kBvhWidth, triangles.size()));
+    for (std::uint32_t place = range.first * kBvhWidth; place < end; ++place) {
         if (!is_taken(place)) continue;
         add({triangles[place], source_triangle[place]});
         take_out(place);
     }
     if (added != nullptr) add(*added);
-    const std::uint32_t leaf_count = leaves.last - leaves.first;
+    const std::uint32_t leaf_count = range.last - range.first;
     const Fill fill = tables.tear ? Fill::even : Fill::full;
     const std::span<SpreadItem> items = tables.items.first(count);
     spread(items, leaf_count, fill);
@@ -66,23 +66,23 @@ void LiveModel::State::redistribute(const LeafRange& leaves, const NumberedTrian
         const std::size_t last = first_in_leaf(count, leaf + 1, leaf_count, fill);
         assert(last - first <= kBvhWidth);
         for (std::size_t i = first; i < last; ++i) {
-            put(static_cast<std::uint32_t>((leaves.first + leaf) * kBvhWidth + (i - first)),
+            put(static_cast<std::uint32_t>((range.first + leaf) * kBvhWidth + (i - first)),
                 {tables.item_triangles[items[i].from], items[i].id});
         }
     }
-    fit_leaves(leaves);
+    fit_leaves(range);
 }
 
 /// Fits leaves, and the boxes around them up to the root.
-void LiveModel::State::fit_leaves(const LeafRange& leaves) {
+void LiveModel::State::fit_leaves(const LeafRange& range) {
     with_positions([&](const auto& positions) {
-        build::make_some_leaves(leaf_room(), positions, triangles, leaves.first, leaves.last);
+        build::make_some_leaves(leaf_room(), positions, triangles, range.first, range.last);
         build::mark_some_degenerate(
-            positions, triangles, degenerate_bits, std::size_t{leaves.first} * kBvhWidth,
-            std::min(std::size_t{leaves.last} * kBvhWidth, triangles.size()));
+            positions, triangles, degenerate_bits, std::size_t{range.first} * kBvhWidth,
+            std::min(std::size_t{range.last} * kBvhWidth, triangles.size()));
     });
     const format::BvhShape& shape = model.bvh().shape;
-    LeafRange nodes_of = leaves;
+    LeafRange nodes_of = range;
     for (std::uint32_t level = 0; level + 1 < shape.levels; ++level) {
         nodes_of = {nodes_of.first / kBvhWidth, (nodes_of.last - 1) / kBvhWidth + 1};
         fit_boxes_around(level, nodes_of.first, nodes_of.last);
@@ -105,10 +105,10 @@ std::uint32_t LiveModel::State::rebuild(std::uint32_t most) {
         }
         is_rebuilding_ = ratio > (is_rebuilding_ ? kEnd : kBegin);
         if (!is_rebuilding_) return done;
-        const LeafRange leaves = subtree(worst);
-        const std::uint32_t size = (leaves.last - leaves.first) * kBvhWidth;
+        const LeafRange range = subtree(worst);
+        const std::uint32_t size = (range.last - range.first) * kBvhWidth;
         if (size > most - done) return done;
-        redistribute(leaves, nullptr);
+        redistribute(range, nullptr);
         tables.built_cost[worst] = cost_of(worst);
         done += size;
     }

@@ -250,21 +250,21 @@ std::uint32_t LiveModel::State::nearest_leaf(const Triangle& triangle) const {
 
 LeafRange LiveModel::State::find_room_around(std::uint32_t leaf) const {
     const format::BvhShape& shape = model.bvh().shape;
-    LeafRange leaves{leaf, leaf + 1};
+    LeafRange range{leaf, leaf + 1};
     std::uint32_t size = 1;
     for (std::uint32_t level = 0; level < shape.levels; ++level) {
         size *= kBvhWidth;
-        leaves.first = leaf / size * size;
-        leaves.last = std::min(leaves.first + size, shape.leaf_count);
+        range.first = leaf / size * size;
+        range.last = std::min(range.first + size, shape.leaf_count);
         std::uint64_t count = 1;
-        for (std::uint32_t i = leaves.first; i < leaves.last; ++i) {
+        for (std::uint32_t i = range.first; i < range.last; ++i) {
             count += static_cast<std::uint64_t>(std::popcount(tables.tear->lanes[i]));
         }
-        const std::uint64_t places = std::uint64_t{leaves.last - leaves.first} * kBvhWidth;
+        const std::uint64_t places = std::uint64_t{range.last - range.first} * kBvhWidth;
         const std::uint64_t to_be_free = places * (level + 1) / (kFreeShare * shape.levels);
         if (count + to_be_free <= places) break;
     }
-    return leaves;
+    return range;
 }
 
 Corners LiveModel::State::corners(const Triangle& triangle) const {
