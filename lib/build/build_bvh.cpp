@@ -93,17 +93,6 @@ double surface_cost(const Bvh& bvh) noexcept {
 double surface_cost(std::span<const BvhNode> nodes) noexcept {
     const format::FloatEnvironment environment;
     if (nodes.empty()) return 0;
-    // The sides of unused boxes are -2: they count as 0.
-    const auto half_areas = [](const BvhNode& node) {
-        Lanes<double, kBvhWidth> area;
-        for_lanes<kBvhWidth>([&](std::size_t box) {
-            const double x = double{node.upper[0][box]} - double{node.lower[0][box]};
-            const double y = double{node.upper[1][box]} - double{node.lower[1][box]};
-            const double z = double{node.upper[2][box]} - double{node.lower[2][box]};
-            area[box] = x < 0 ? 0 : x * y + y * z + z * x;
-        });
-        return area;
-    };
     Lanes<double, kBvhWidth> sum{};
     for (const BvhNode& node : nodes) {
         const Lanes<double, kBvhWidth> area = half_areas(node);
@@ -111,11 +100,7 @@ double surface_cost(std::span<const BvhNode> nodes) noexcept {
     }
     double total = 0;
     for (const double area : sum) total += area;
-    std::array<double, 3> side{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        side[axis] = double{greatest(nodes[0].upper[axis])} - double{least(nodes[0].lower[axis])};
-    }
-    const double whole = side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
+    const double whole = half_area_around(nodes[0]);
     return whole > 0 ? total / whole : 0;
 }
 

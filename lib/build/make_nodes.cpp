@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "build/make_nodes.h"
 
+#include <array>
 #include <cassert>
 
-#include "build/lanes.h"
 #include "cdprep/advanced/parallel_for.h"
 
 namespace cdprep::build {
@@ -21,6 +21,26 @@ void set_box_around(BvhNode& node, std::size_t box, const BvhNode& below) {
         node.lower[axis][box] = least(below.lower[axis]);
         node.upper[axis][box] = greatest(below.upper[axis]);
     }
+}
+
+// The sides of unused boxes are -2: they count as 0.
+Lanes<double, kBvhWidth> half_areas(const BvhNode& node) {
+    Lanes<double, kBvhWidth> area;
+    for_lanes<kBvhWidth>([&](std::size_t box) {
+        const double x = double{node.upper[0][box]} - double{node.lower[0][box]};
+        const double y = double{node.upper[1][box]} - double{node.lower[1][box]};
+        const double z = double{node.upper[2][box]} - double{node.lower[2][box]};
+        area[box] = x < 0 ? 0 : x * y + y * z + z * x;
+    });
+    return area;
+}
+
+double half_area_around(const BvhNode& node) {
+    std::array<double, 3> side{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        side[axis] = double{greatest(node.upper[axis])} - double{least(node.lower[axis])};
+    }
+    return side[0] < 0 ? 0 : side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
 }
 
 void set_unused_box(BvhNode& node, std::size_t box) {

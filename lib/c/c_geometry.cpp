@@ -4,11 +4,14 @@
 #include <cassert>
 #include <limits>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "c/c_mesh.h"
 #include "c/c_model.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/sections.h"
+#include "core/triangle_facts.h"
 
 namespace cdprep::c {
 namespace {
@@ -110,11 +113,6 @@ std::uint32_t component_of(const cdprep_model& model, std::uint32_t vertex) noex
     return model.model.record().components.size() == 1 ? 0 : CDPREP_NONE;
 }
 
-bool is_degenerate(const Model& model, std::uint32_t tree_triangle) noexcept {
-    const std::span<const std::uint64_t> bits = model.mesh().degenerate_bits;
-    return !bits.empty() && (bits[tree_triangle / 64] >> (tree_triangle % 64) & 1) != 0;
-}
-
 /// Returns the place of a triangle in the tree order, or CDPREP_NONE.
 std::uint32_t place_of(const cdprep_model& model, std::uint32_t triangle) noexcept {
     if (model.can_tear()) return model.live->place_of(triangle).value_or(CDPREP_NONE);
@@ -141,7 +139,7 @@ cdprep_corners corners_of(const cdprep_model& model, std::uint32_t triangle) noe
                            : static_cast<std::uint32_t>(instance - m.source().instances.data());
     corners.group = name_of_run(m.source().group_runs, triangle);
     corners.material = name_of_run(m.source().material_runs, triangle);
-    corners.degenerate = is_degenerate(m, at) ? CDPREP_YES : CDPREP_NO;
+    corners.degenerate = is_marked_degenerate(m, at) ? CDPREP_YES : CDPREP_NO;
     return corners;
 }
 
@@ -170,23 +168,35 @@ std::uint32_t count_names(const Model& model, SectionId names) noexcept {
     return static_cast<std::uint32_t>(std::ranges::count(bytes, std::byte{0}));
 }
 
+void grow(cdprep_model_info& info, bool is_first, const Double3& point) noexcept {
+    std::array<double, 3> p{};
+    store(point, p.data());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        info.lower[axis] = is_first ? p[axis] : std::min(info.lower[axis], p[axis]);
+        info.upper[axis] = is_first ? p[axis] : std::max(info.upper[axis], p[axis]);
+    }
+}
+
 /// Stores a box around all triangles: the baked one, otherwise that of the positions if they are
-/// open.
+/// open. A model that can tear has positions that no triangle uses.
 void store_box(const Model& model, cdprep_model_info& info) noexcept {
     if (model.record().bounds != nullptr) {
         store(model.record().bounds->lower, info.lower);
         store(model.record().bounds->upper, info.upper);
         return;
     }
-    const std::uint32_t vertices = count_positions(model);
-    for (std::uint32_t i = 0; i < vertices; ++i) {
-        std::array<double, 3> p{};
-        store(position_of(model, i), p.data());
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            info.lower[axis] = i == 0 ? p[axis] : std::min(info.lower[axis], p[axis]);
-            info.upper[axis] = i == 0 ? p[axis] : std::max(info.upper[axis], p[axis]);
-        }
+    if (model.bvh().lanes.empty()) {
+        const std::uint32_t vertices = count_positions(model);
+        for (std::uint32_t i = 0; i < vertices; ++i) grow(info, i == 0, position_of(model, i));
+        return;
     }
+    bool is_first = true;
+    each_triangle(model, 0, model.triangle_count(), [&](std::uint32_t place) {
+        for (const std::uint32_t vertex : model.mesh().triangles[place].vertex) {
+            grow(info, std::exchange(is_first, false), position_of(model, vertex));
+        }
+        return true;
+    });
 }
 
 /// A text, and whether a text of its kind and number exists.
@@ -265,7 +275,7 @@ int cdprep_model_describe(const cdprep_model* model, cdprep_model_info* info, cd
     const Model& m = model->model;
     info->triangles = cdprep::c::count_triangles(*model);
     info->vertices = m.vertex_count();
-    info->components = static_cast<uint32_t>(m.record().components.size());
+    info->components = m.is_torn() ? 0 : static_cast<uint32_t>(m.record().components.size());
     info->instances = static_cast<uint32_t>(m.source().instances.size());
     info->groups = cdprep::c::count_names(m, SectionId::group_names);
     info->materials = cdprep::c::count_names(m, SectionId::material_names);
@@ -311,10 +321,16 @@ int cdprep_model_mesh(const cdprep_model* model, cdprep_mesh* mesh, cdprep_error
         for (uint32_t i = 0; i < m.vertex_count() && writer.has_room_for_vertex(); ++i) {
             writer.add_vertex(cdprep::c::position_of(m, i), cdprep::c::source_vertex_of(m, i));
         }
-        const std::uint32_t numbers = m.triangle_number_bound();
-        for (uint32_t i = 0; i < numbers && writer.has_room_for_triangle(); ++i) {
-            const std::uint32_t at = cdprep::c::place_of(*model, i);
-            if (at != CDPREP_NONE) writer.add_triangle(m.mesh().triangles[at].vertex);
+        if (model->can_tear()) {
+            std::vector<cdprep::LiveTriangle> listed(
+                std::min<std::size_t>(mesh->triangle_room, model->live->triangle_count()));
+            model->live->triangles(listed);
+            for (const cdprep::LiveTriangle& triangle : listed)
+                writer.add_triangle(triangle.vertex);
+        } else {
+            for (uint32_t i = 0; i < m.triangle_count() && writer.has_room_for_triangle(); ++i) {
+                writer.add_triangle(m.mesh().triangles[model->tree_triangle[i]].vertex);
+            }
         }
         mesh->vertex_count = m.vertex_count();
         mesh->triangle_count = cdprep::c::count_triangles(*model);

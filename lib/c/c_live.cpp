@@ -296,11 +296,28 @@ int cdprep_live_remove(cdprep_live* live, const uint32_t* numbers, size_t count,
     });
 }
 
+int cdprep_live_rebuild(cdprep_live* live, uint32_t most_triangles, uint32_t* taken,
+                        cdprep_error* error) {
+    Call call(error);
+    if (taken != nullptr) *taken = 0;
+    if (const int code = call.need(live, {"live"})) return code;
+    if (const int code = call.need(taken, {"taken"})) return code;
+    cdprep::c::InUse use;
+    if (const int code = use.begin(call, {"live"}, live->in_use)) return code;
+    *taken = live->live.rebuild(most_triangles);
+    // Triangles have other places now. Components are as they were, and so are their numbers.
+    if (*taken > 0 && !live->model.tree_triangle.empty()) {
+        cdprep::c::make_index(live->model, live->model.tree_triangle.data());
+    }
+    return CDPREP_OK;
+}
+
 int cdprep_live_describe(const cdprep_live* live, cdprep_live_info* info, cdprep_error* error) {
     Call call(error);
     if (info != nullptr) *info = {};
     if (const int code = call.need(live, {"live"})) return code;
     if (const int code = call.need(info, {"info"})) return code;
+    if (const int code = cdprep::c::check_free(call, {"live"}, live->in_use)) return code;
     const cdprep::format::FloatEnvironment environment;
     info->triangles = live->live.triangle_count();
     info->number_bound = live->model.model.triangle_number_bound();

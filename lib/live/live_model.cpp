@@ -2,14 +2,11 @@
 #include "cdprep/live_model.h"
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "build/bad_argument.h"
-#include "build/mesh_fault.h"
 #include "cdprep/format/float_environment.h"
 #include "core/guarded_for.h"
 #include "core/smallest.h"
@@ -50,12 +47,6 @@ Result<std::size_t> bytes_of(const LiveBase& base, const LiveLimits& limits) {
     return bytes_of(base, limits, LiveStart(base, limits).sections());
 }
 
-bool shares_memory(std::span<const std::byte> a, std::span<const std::byte> b) {
-    const std::less<> before;
-    return !a.empty() && !b.empty() && before(a.data(), b.data() + b.size()) &&
-           before(b.data(), a.data() + a.size());
-}
-
 }  // namespace
 
 LiveModel::LiveModel(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
@@ -63,28 +54,8 @@ LiveModel::LiveModel(LiveModel&&) noexcept = default;
 LiveModel& LiveModel::operator=(LiveModel&&) noexcept = default;
 LiveModel::~LiveModel() = default;
 
-Result<std::size_t> LiveModel::bytes(const ModelArrays& base, const LiveLimits& limits) {
-    return bytes_of(LiveBase(base), limits);
-}
-
-Result<std::size_t> LiveModel::bytes(const Model& base, const LiveLimits& limits) {
-    if (const auto fault = find_base_fault(base)) return *fault;
-    return bytes_of(LiveBase(base), limits);
-}
-
-Result<LiveModel> LiveModel::in(std::span<std::byte> memory, const ModelArrays& base,
-                                const LiveLimits& limits) {
-    return make(memory, LiveBase(base), limits);
-}
-
-Result<LiveModel> LiveModel::in(std::span<std::byte> memory, const Model& base,
-                                const LiveLimits& limits) {
-    if (const auto fault = find_base_fault(base)) return *fault;
-    return make(memory, LiveBase(base), limits);
-}
-
-Result<LiveModel> LiveModel::make(std::span<std::byte> memory, const LiveBase& base,
-                                  const LiveLimits& limits) {
+Result<LiveModel> LiveModel::State::make(std::span<std::byte> memory, const LiveBase& base,
+                                         const LiveLimits& limits) {
     if (const auto fault = find_limit_fault(base, limits)) return *fault;
     const LiveStart start(base, limits);
     const Result<std::size_t> size = bytes_of(base, limits, start.sections());
@@ -101,6 +72,26 @@ Result<LiveModel> LiveModel::make(std::span<std::byte> memory, const LiveBase& b
     Carver carver(image->data() + image->size());
     return LiveModel(std::make_unique<State>(*image, std::move(opened).value(),
                                              tables_of(carver, base, limits), base, limits, start));
+}
+
+Result<std::size_t> LiveModel::bytes(const ModelArrays& base, const LiveLimits& limits) {
+    return bytes_of(LiveBase(base), limits);
+}
+
+Result<std::size_t> LiveModel::bytes(const Model& base, const LiveLimits& limits) {
+    if (const auto fault = find_base_fault(base)) return *fault;
+    return bytes_of(LiveBase(base), limits);
+}
+
+Result<LiveModel> LiveModel::in(std::span<std::byte> memory, const ModelArrays& base,
+                                const LiveLimits& limits) {
+    return State::make(memory, LiveBase(base), limits);
+}
+
+Result<LiveModel> LiveModel::in(std::span<std::byte> memory, const Model& base,
+                                const LiveLimits& limits) {
+    if (const auto fault = find_base_fault(base)) return *fault;
+    return State::make(memory, LiveBase(base), limits);
 }
 
 const Model& LiveModel::model() const noexcept {
@@ -129,7 +120,7 @@ std::size_t LiveModel::triangles(std::span<LiveTriangle> room) const noexcept {
         smallest.add({state_->source_triangle[place], state_->triangles[place].vertex});
         return true;
     });
-    std::ranges::sort(smallest.kept(), std::less<>());
+    std::ranges::sort(smallest.kept(), {}, &LiveTriangle::number);
     return smallest.count();
 }
 
@@ -193,22 +184,6 @@ Result<Done> LiveModel::refit_some(std::span<const std::uint32_t> vertices,
     if (const auto fault = state_->find_fault(positions, vertices)) return *fault;
     state_->set_some(vertices, positions, guarded);
     return Done{};
-}
-
-template <class Position>
-std::optional<Error> LiveModel::State::find_fault(std::span<const Position> positions,
-                                                  std::span<const std::uint32_t> vertices) const {
-    if (std::is_same_v<Position, Double3> && !positions_f32.empty()) {
-        return bad_argument(
-            "The live model keeps positions as floats, and doubles were given: give floats, or "
-            "build it from doubles.");
-    }
-    if (shares_memory(std::as_bytes(positions), image)) {
-        return bad_argument(
-            "The positions point into the live model itself, which stores them in another order: "
-            "give a copy.");
-    }
-    return build::find_bad_position(positions, vertices);
 }
 
 Result<std::uint32_t> LiveModel::append(std::span<const Triangle> triangles) {

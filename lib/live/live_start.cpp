@@ -31,6 +31,20 @@ format::FileHeader facts_of(format::FileHeader base) {
     return base;
 }
 
+/// Corners of triangles are numbered in 32 bits, and one number means none.
+constexpr std::uint32_t kMostPlaces = 0xfffffffe / 3;
+
+/// Returns the first number that occurs twice, if any.
+std::optional<std::uint32_t> find_repeat(std::span<const std::uint32_t> numbers) {
+    if (numbers.empty()) return std::nullopt;
+    std::vector<bool> seen(std::size_t{std::ranges::max(numbers)} + 1);
+    for (const std::uint32_t number : numbers) {
+        if (seen[number]) return number;
+        seen[number] = true;
+    }
+    return std::nullopt;
+}
+
 /// Returns the positions of vertices by their number in the imported file. Numbers without a vertex
 /// get that of the first vertex.
 template <class Position>
@@ -95,13 +109,25 @@ std::optional<Error> find_base_fault(const Model& base) {
     }
     const auto source = base.source().vertex;
     const auto made = std::ranges::find(source, format::kMadeByRepair);
-    if (made == source.end()) return std::nullopt;
-    return bad_argument("A live model cannot be made of this model: vertex " +
-                        std::to_string(made - source.begin()) +
-                        " was made by a repair, so the imported file has no position for it.");
+    if (made != source.end()) {
+        return bad_argument("A live model cannot be made of this model: vertex " +
+                            std::to_string(made - source.begin()) +
+                            " was made by a repair, so the imported file has no position for it.");
+    }
+    const auto vertex = find_repeat(source);
+    const auto triangle = find_repeat(base.source().triangle);
+    if (!vertex && !triangle) return std::nullopt;
+    return bad_argument("A live model cannot be made of this model: two of its " +
+                        std::string(vertex ? "vertices" : "triangles") + " have the number " +
+                        std::to_string(vertex ? *vertex : *triangle) + ".");
 }
 
 std::optional<Error> find_limit_fault(const LiveBase& base, const LiveLimits& limits) {
+    if (base.triangles.size() > kMostPlaces) {
+        return bad_argument("A live model has at most " + std::to_string(kMostPlaces) +
+                            " triangles, and the base has " +
+                            std::to_string(base.triangles.size()) + ".");
+    }
     if (limits.triangles == 0 && limits.vertices == 0) return std::nullopt;
     if (limits.triangles == 0) {
         return bad_argument("A limit of vertices has no meaning without a limit of triangles.");
@@ -116,11 +142,10 @@ std::optional<Error> find_limit_fault(const LiveBase& base, const LiveLimits& li
                             " vertices is too low: the base has " +
                             std::to_string(base.number_count()) + ".");
     }
-    if (std::uint64_t{limits.triangles} * kFreeShare / (kFreeShare - 1) + kBvhWidth >
-        format::kMaxTriangles) {
+    if (std::uint64_t{limits.triangles} * kFreeShare / (kFreeShare - 1) + kBvhWidth > kMostPlaces) {
         return bad_argument("The limit of " + std::to_string(limits.triangles) +
-                            " triangles is too high: with free places, a model has at most " +
-                            std::to_string(format::kMaxTriangles) + ".");
+                            " triangles is too high: with free places, a live model has at most " +
+                            std::to_string(kMostPlaces) + ".");
     }
     if (limits.vertices > format::kMaxVertices) {
         return bad_argument("The limit of " + std::to_string(limits.vertices) +
@@ -185,17 +210,18 @@ void LiveStart::make_room(const LiveBase& base, const LiveLimits& limits) {
         for (format::Component& component : components_) {
             component.vertex = base.source_vertex[component.vertex];
         }
+        // An empty base has no component, but its free places count as triangles of one.
+        if (components_.empty()) components_.emplace_back();
+        components_[0].triangle_count +=
+            facts_.triangle_count - static_cast<std::uint32_t>(base.triangles.size());
+        list_.add(SectionId::components, components_);
     }
-    if (components_.empty()) components_.emplace_back();
-    components_[0].triangle_count +=
-        facts_.triangle_count - static_cast<std::uint32_t>(base.triangles.size());
     list_.add(SectionId::triangles, triangles_);
     list_.add(SectionId::source_triangle, source_triangle_);
     list_.add(SectionId::source_vertex, source_vertex_);
     list_.add(SectionId::bvh_nodes, nodes_);
     list_.add(SectionId::bvh_leaves, leaves_);
     list_.add(SectionId::degenerate_bits, marks_);
-    list_.add(SectionId::components, components_);
 }
 
 /// Distributes the triangles over all leaves.

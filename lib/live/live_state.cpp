@@ -2,19 +2,23 @@
 #include "live/live_state.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "build/bad_argument.h"
 #include "build/chunks.h"
 #include "build/degenerate.h"
 #include "build/make_leaves.h"
 #include "build/make_nodes.h"
+#include "build/mesh_fault.h"
 #include "cdprep/advanced/mesh_arrays.h"
 #include "exact/powers_of_two.h"
 #include "live/image_table.h"
@@ -25,6 +29,7 @@
 namespace cdprep {
 namespace {
 
+using build::bad_argument;
 using build::Frame;
 using build::frame_of;
 using format::BvhNode;
@@ -133,8 +138,7 @@ LiveModel::State::State(std::span<std::byte> bytes, Model opened, const LiveTabl
         const std::uint32_t number = base.source_vertex[i];
         const std::uint32_t vertex = tables.tear ? number : i;
         tables.vertex_of[number] = vertex;
-        with_positions(
-            [&](const auto& positions) { sums_.add(vertex, build::as_double(positions[vertex])); });
+        with_positions([&](const auto& positions) { sums_.add(vertex, positions[vertex]); });
     }
     if (tables.tear) {
         start_to_tear(base, limits, start);
@@ -144,6 +148,28 @@ LiveModel::State::State(std::span<std::byte> bytes, Model opened, const LiveTabl
         }
     }
     note_costs();
+}
+
+bool LiveModel::State::is_own(std::span<const std::byte> given) const {
+    const std::less<> before;
+    return !given.empty() && before(given.data(), image.data() + image.size()) &&
+           before(image.data(), given.data() + given.size());
+}
+
+template <class Position>
+std::optional<Error> LiveModel::State::find_fault(std::span<const Position> positions,
+                                                  std::span<const std::uint32_t> vertices) const {
+    if (std::is_same_v<Position, Double3> && !positions_f32.empty()) {
+        return bad_argument(
+            "The live model keeps positions as floats, and doubles were given: give floats, or "
+            "build it from doubles.");
+    }
+    if (is_own(std::as_bytes(positions))) {
+        return bad_argument(
+            "The positions point into the live model itself, which stores them in another order: "
+            "give a copy.");
+    }
+    return build::find_bad_position(positions, vertices);
 }
 
 template <class Given>
@@ -165,6 +191,10 @@ void LiveModel::State::set_some(std::span<const std::uint32_t> vertices,
     set_some(vertices, positions, positions_f64, parallel_for);
 }
 
+template std::optional<Error> LiveModel::State::find_fault(std::span<const Double3>,
+                                                           std::span<const std::uint32_t>) const;
+template std::optional<Error> LiveModel::State::find_fault(std::span<const Float3>,
+                                                           std::span<const std::uint32_t>) const;
 template void LiveModel::State::set_all(std::span<const Double3>, ParallelFor);
 template void LiveModel::State::set_all(std::span<const Float3>, ParallelFor);
 template void LiveModel::State::set_some(std::span<const std::uint32_t>, std::span<const Double3>,
@@ -185,16 +215,15 @@ void LiveModel::State::set_all(std::span<const Given> given, std::span<Kept> kep
         bool fits = true;
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
             kept[i] = as_kept<Kept>(given[source[i]]);
-            tables.vertex_of[source[i]] = i;
-            const Double3 p = build::as_double(kept[i]);
-            part.add(i, p);
-            fits &= is_in_frame(p) || !tables.users.is_used(i);
+            part.add(i, kept[i]);
+            fits &= is_in_frame(build::as_double(kept[i])) || !tables.users.is_used(i);
         }
         hash += part.hash;
         rounded += part.rounded;
         if (!fits) in_frame = false;
     });
     sums_ = {hash, rounded};
+    for (std::uint32_t i = 0; tables.tear && i < count; ++i) tables.vertex_of[i] = i;
     fit(true, in_frame, parallel_for);
 }
 
@@ -202,7 +231,6 @@ template <class Given, class Kept>
 void LiveModel::State::set_some(std::span<const std::uint32_t> vertices,
                                 std::span<const Given> given, std::span<Kept> kept,
                                 ParallelFor parallel_for) {
-    bool in_frame = true;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         std::uint32_t& vertex = tables.vertex_of[vertices[i]];
         if (vertex != kUnusedVertex) {
@@ -215,10 +243,15 @@ void LiveModel::State::set_some(std::span<const std::uint32_t> vertices,
         }
         kept[vertex] = as_kept<Kept>(given[i]);
         sums_.add(vertex, kept[vertex]);
-        in_frame &= is_in_frame(build::as_double(kept[vertex])) || !tables.users.is_used(vertex);
         tables.users.each_at(vertex,
                              [&](std::uint32_t place) { tables.changed.mark(place / kBvhWidth); });
     }
+    // A vertex may be listed twice: only its last position counts.
+    const bool in_frame = std::ranges::all_of(vertices, [&](std::uint32_t number) {
+        const std::uint32_t vertex = tables.vertex_of[number];
+        return vertex == kUnusedVertex || !tables.users.is_used(vertex) ||
+               is_in_frame(build::as_double(kept[vertex]));
+    });
     fit(false, in_frame, parallel_for);
 }
 

@@ -59,6 +59,7 @@ struct LiveTables {
                 ? counts.places
                 : std::min<std::size_t>(counts.places, kSubtreeLeaves * format::kBvhWidth);
         built_cost = {carver.take<float>(subtrees), subtrees};
+        growth = {carver.take<float>(subtrees), subtrees};
         items = {carver.take<SpreadItem>(most), most};
         item_triangles = {carver.take<format::Triangle>(most), most};
         if (counts.can_tear) tear.emplace(carver, counts.places);
@@ -70,6 +71,7 @@ struct LiveTables {
     CornerLists users;
     ChangedBoxes changed;
     std::span<float> built_cost;  ///< of each subtree when its triangles were distributed
+    std::span<float> growth;      ///< of each subtree since then, in the present rebuild
     // Triangles that are being distributed.
     std::span<SpreadItem> items;
     std::span<format::Triangle> item_triangles;
@@ -80,6 +82,10 @@ struct LiveModel::State {
     /// `image` is that of `opened`. `start` is what it was made of.
     State(std::span<std::byte> image, Model opened, const LiveTables& empty, const LiveBase& base,
           const LiveLimits& limits, const LiveStart& start);
+
+    /// Makes a live model, as LiveModel::in().
+    [[nodiscard]] static Result<LiveModel> make(std::span<std::byte> memory, const LiveBase& base,
+                                                const LiveLimits& limits);
 
     /// Returns why positions cannot be set. `vertices` are their numbers; empty: 0, 1, 2 and so on.
     template <class Given>
@@ -95,6 +101,8 @@ struct LiveModel::State {
     /// Makes the image that of a bake of the same arrays. Requires a model that cannot tear.
     void complete_image();
 
+    /// Returns whether a span of the caller lies in the memory of the model.
+    [[nodiscard]] bool is_own(std::span<const std::byte> given) const;
     /// Returns why triangles cannot be appended.
     [[nodiscard]] std::optional<Error> find_fault(std::span<const format::Triangle> added) const;
     void append(std::span<const format::Triangle> added);
@@ -185,6 +193,8 @@ private:
     void note_tear();
 
     [[nodiscard]] LeafRange subtree(std::uint32_t number) const;
+    /// Returns the number of triangles in leaves.
+    [[nodiscard]] std::uint32_t count_in(const LeafRange& range) const;
     /// Returns the cost of a subtree by the surface-area heuristic.
     [[nodiscard]] float cost_of(std::uint32_t number) const;
     void note_costs();

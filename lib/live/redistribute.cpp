@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cassert>
 
 #include "build/degenerate.h"
@@ -17,27 +19,6 @@ using format::kBvhWidth;
 /// until none has grown by the second one.
 constexpr float kBegin = 1.4F;
 constexpr float kEnd = 1.2F;
-
-/// Returns the sum of the half areas of a node's boxes; unused ones have none.
-float half_areas(const BvhNode& node) {
-    float sum = 0;
-    for (std::size_t box = 0; box < kBvhWidth; ++box) {
-        const float x = node.upper[0][box] - node.lower[0][box];
-        const float y = node.upper[1][box] - node.lower[1][box];
-        const float z = node.upper[2][box] - node.lower[2][box];
-        sum += x < 0 ? 0 : x * y + y * z + z * x;
-    }
-    return sum;
-}
-
-/// Returns the half area of the box around a node's boxes.
-float area_around(const BvhNode& node) {
-    std::array<float, 3> side{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        side[axis] = std::ranges::max(node.upper[axis]) - std::ranges::min(node.lower[axis]);
-    }
-    return side[0] < 0 ? 0 : side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
-}
 
 }  // namespace
 
@@ -92,26 +73,36 @@ void LiveModel::State::fit_leaves(const LeafRange& range) {
 // --- Rebuilds ---------------------------------------------------------------------------
 
 std::uint32_t LiveModel::State::rebuild(std::uint32_t most) {
-    std::uint32_t done = 0;
     const auto subtrees = static_cast<std::uint32_t>(tables.built_cost.size());
-    while (true) {
-        std::uint32_t worst = 0;
-        float ratio = 0;
-        for (std::uint32_t i = 0; i < subtrees; ++i) {
-            const float grown = cost_of(i) / tables.built_cost[i];
-            if (!(grown > ratio)) continue;
-            ratio = grown;
-            worst = i;
-        }
-        is_rebuilding_ = ratio > (is_rebuilding_ ? kEnd : kBegin);
-        if (!is_rebuilding_) return done;
+    for (std::uint32_t i = 0; i < subtrees; ++i) {
+        tables.growth[i] = cost_of(i) / tables.built_cost[i];
+    }
+    std::uint32_t done = 0;
+    while (subtrees > 0) {
+        const auto worst = static_cast<std::uint32_t>(std::ranges::max_element(tables.growth) -
+                                                      tables.growth.begin());
+        is_rebuilding_ = tables.growth[worst] > (is_rebuilding_ ? kEnd : kBegin);
         const LeafRange range = subtree(worst);
-        const std::uint32_t size = (range.last - range.first) * kBvhWidth;
-        if (size > most - done) return done;
+        const std::uint32_t size = count_in(range);
+        if (!is_rebuilding_ || size > most - done) break;
         redistribute(range, nullptr);
         tables.built_cost[worst] = cost_of(worst);
+        tables.growth[worst] = 1;
         done += size;
     }
+    return done;
+}
+
+std::uint32_t LiveModel::State::count_in(const LeafRange& range) const {
+    if (!tables.tear) {
+        const auto places = static_cast<std::uint32_t>(triangles.size());
+        return std::min(range.last * kBvhWidth, places) - range.first * kBvhWidth;
+    }
+    std::uint32_t count = 0;
+    for (std::uint32_t i = range.first; i < range.last; ++i) {
+        count += static_cast<std::uint32_t>(std::popcount(tables.tear->lanes[i]));
+    }
+    return count;
 }
 
 LeafRange LiveModel::State::subtree(std::uint32_t number) const {
@@ -122,17 +113,17 @@ LeafRange LiveModel::State::subtree(std::uint32_t number) const {
 float LiveModel::State::cost_of(std::uint32_t number) const {
     const format::BvhShape& shape = model.bvh().shape;
     LeafRange below = subtree(number);
-    float sum = 0;
-    float whole = 0;
+    double sum = 0;
+    double whole = 0;
     for (std::uint32_t level = 0; level < shape.levels && below.last - below.first > 1; ++level) {
         below = {below.first / kBvhWidth, (below.last - 1) / kBvhWidth + 1};
         for (std::uint32_t i = below.first; i < below.last; ++i) {
             const BvhNode& node = nodes[shape.first[level] + i];
-            sum += half_areas(node);
-            whole = area_around(node);
+            for (const double area : build::half_areas(node)) sum += area;
+            whole = build::half_area_around(node);
         }
     }
-    return whole > 0 ? sum / whole : 1;
+    return whole > 0 ? static_cast<float>(sum / whole) : 1;
 }
 
 void LiveModel::State::note_costs() {

@@ -87,7 +87,7 @@ void LiveModel::State::start_to_tear(const LiveBase& base, const LiveLimits& lim
     }
     // What the free places of the image added.
     const auto places = static_cast<std::uint32_t>(triangles.size());
-    components[0].triangle_count -= places - tear.count;
+    if (!components.empty()) components[0].triangle_count -= places - tear.count;
     model.set_lanes(tear.lanes, tear.next_id);
     fit_leaves({0, model.bvh().shape.leaf_count});
     update_header();
@@ -101,6 +101,10 @@ std::optional<Error> LiveModel::State::find_fault(std::span<const Triangle> adde
             "This live model cannot tear: make it with a limit of triangles (LiveLimits).");
     }
     const TearTables& tear = *tables.tear;
+    if (is_own(std::as_bytes(added))) {
+        return bad_argument(
+            "The triangles point into the live model itself, which changes them: give a copy.");
+    }
     if (added.size() > tear.limit - tear.count) {
         return bad_argument("The live model has " + std::to_string(tear.count) +
                             " triangles and room for " + std::to_string(tear.limit) + "; " +
@@ -127,6 +131,10 @@ std::optional<Error> LiveModel::State::find_fault(std::span<const std::uint32_t>
     if (!tables.tear) {
         return bad_argument(
             "This live model cannot tear: make it with a limit of triangles (LiveLimits).");
+    }
+    if (is_own(std::as_bytes(removed))) {
+        return bad_argument(
+            "The numbers point into the live model itself, which changes them: give a copy.");
     }
     const auto missing = std::ranges::find_if(
         removed, [&](std::uint32_t id) { return tables.tear->ids.find(id) == IdMap::kNone; });
@@ -256,10 +264,7 @@ LeafRange LiveModel::State::find_room_around(std::uint32_t leaf) const {
         size *= kBvhWidth;
         range.first = leaf / size * size;
         range.last = std::min(range.first + size, shape.leaf_count);
-        std::uint64_t count = 1;
-        for (std::uint32_t i = range.first; i < range.last; ++i) {
-            count += static_cast<std::uint64_t>(std::popcount(tables.tear->lanes[i]));
-        }
+        const std::uint64_t count = std::uint64_t{count_in(range)} + 1;
         const std::uint64_t places = std::uint64_t{range.last - range.first} * kBvhWidth;
         const std::uint64_t to_be_free = places * (level + 1) / (kFreeShare * shape.levels);
         if (count + to_be_free <= places) break;

@@ -17,6 +17,7 @@ Containment find_inside(const MovedModel& inner, const MovedModel& outer,
                                    overlap(box_around(inner), box_around(outer));
         return {may_be_inside ? Answer::unknown : Answer::no, 0, a_inside_b};
     }
+    if (inner.model->triangle_count() == 0) return {};
     Containment result;
     for (const format::Component& component : inner.model->record().components) {
         const Inclusion found = inclusion(outer, inner.position(component.vertex), scratch);

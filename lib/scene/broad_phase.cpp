@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "cdprep/format/float_environment.h"
+#include "core/carver.h"
 #include "core/guarded_for.h"
 #include "core/require.h"
 #include "core/share_out.h"
 #include "kernels/kernels.h"
-#include "core/carver.h"
 #include "scene/pair_pages.h"
 #include "scene/world_tree.h"
 

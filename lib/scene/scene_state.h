@@ -10,8 +10,8 @@
 
 #include "cdprep/broad_phase.h"
 #include "cdprep/scene.h"
-#include "scene/ask_pair.h"
 #include "core/carver.h"
+#include "scene/ask_pair.h"
 #include "scene/list_pages.h"
 #include "scene/object_box.h"
 #include "scene/scene_records.h"

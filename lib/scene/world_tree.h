@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "kernels/kernels.h"
 #include "core/carver.h"
+#include "kernels/kernels.h"
 
 namespace cdprep {
 

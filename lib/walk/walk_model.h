@@ -39,6 +39,7 @@ bool walk_nodes(const Model& model, Workspace::Storage& scratch, Judge&& judge, 
                 Whole&& whole) noexcept {
     const Tree tree(model);
     if (tree.triangles == 0) return true;
+    const bool has_gaps = !model.bvh().lanes.empty();
     std::size_t depth = 0;
     scratch.pending[depth++] = PendingPair{{tree.shape.levels, 0}, {0, 0}}.packed();
     while (depth > 0) {
@@ -48,9 +49,11 @@ bool walk_nodes(const Model& model, Workspace::Storage& scratch, Judge&& judge, 
             continue;
         }
         const TestedBoxes boxes = boxes_of(tree, place, true);
-        const BoxVerdict verdict = judge(tree.nodes[boxes.node]);
+        const format::BvhNode& node = tree.nodes[boxes.node];
+        const BoxVerdict verdict = judge(node);
         assert(verdict.near <= 0xff && verdict.inside <= 0xff);
-        for (unsigned bits = verdict.near & chosen(boxes); bits != 0; bits &= bits - 1) {
+        const unsigned used = has_gaps ? chosen(boxes) & used_boxes(node) : chosen(boxes);
+        for (unsigned bits = verdict.near & used; bits != 0; bits &= bits - 1) {
             const auto box = static_cast<std::uint32_t>(std::countr_zero(bits));
             const TreePlace below{boxes.first_below.height, boxes.first_below.index + box};
             if (((verdict.inside >> box) & 1) == 0) {

@@ -18,6 +18,7 @@ void walk_ordered(const Model& model, Workspace::Storage& scratch, double limit,
                   Leaf&& leaf) noexcept {
     const Tree tree(model);
     if (tree.triangles == 0) return;
+    const bool has_gaps = !model.bvh().lanes.empty();
     std::size_t depth = 0;
     scratch.bounded[depth++] = {0, tree.shape.levels, 0};
     while (depth > 0) {
@@ -31,9 +32,11 @@ void walk_ordered(const Model& model, Workspace::Storage& scratch, double limit,
         assert(depth + (boxes.last - boxes.first) <= scratch.bounded.size());
         const auto first = scratch.bounded.begin() + static_cast<std::ptrdiff_t>(depth);
         auto last = first;
+        const format::BvhNode& node = tree.nodes[boxes.node];
+        const unsigned used = has_gaps ? used_boxes(node) : 0xff;
         for (std::uint32_t box = boxes.first; box < boxes.last; ++box) {
-            const double value = bound(tree.nodes[boxes.node], box);
-            if (value > limit) continue;
+            const double value = bound(node, box);
+            if (value > limit || (used >> box & 1) == 0) continue;
             *last++ = {value, boxes.first_below.height, boxes.first_below.index + box};
         }
         std::sort(first, last, [](const BoundedPlace& a, const BoundedPlace& b) {

@@ -68,6 +68,16 @@ struct Tree {
           triangles(model.triangle_count()) {}
 };
 
+/// Returns the boxes of a node that have contents: a bit set. A model that can tear has unused
+/// boxes among used ones.
+inline unsigned used_boxes(const format::BvhNode& node) noexcept {
+    unsigned used = 0;
+    for (std::size_t box = 0; box < format::kBvhWidth; ++box) {
+        used |= static_cast<unsigned>(node.lower[0][box] <= node.upper[0][box]) << box;
+    }
+    return used;
+}
+
 /// One side of a step: the node whose boxes are tested, and which of them.
 struct TestedBoxes {
     std::uint32_t node;     ///< index

@@ -15,9 +15,7 @@
 
 namespace cdprep {
 
-struct LiveBase;
-
-/// The room of a live model that can tear. Without limits, a live model cannot.
+/// The room of a live model that can tear.
 struct LiveLimits {
     std::uint32_t triangles = 0;  ///< the most triangles at a time; 0: the model cannot tear
     /// Triangles may use the vertices with numbers less than this. 0: those of the base.
@@ -48,8 +46,12 @@ struct LiveTriangle {
 /// its tree order have no triangle: model().triangle_count() counts places, or is 0 without
 /// triangles. Its mesh() and source() views have an element for each place.
 ///
-/// Move-only; a move leaves the model's bytes in place. Const members, and queries about model(),
-/// may run on any number of threads at once. They must not run during a change.
+/// In a scene, call set_pose() for each object of the model after a change, even with the same
+/// pose. Caches stay valid: after a change they only cost time.
+///
+/// Move-only; a move leaves the model's bytes in place. A live model that was moved from may only
+/// be destroyed or assigned to. Const members, and queries about model(), may run on any number of
+/// threads at once. They must not run during a change.
 ///
 ///     const auto arrays = build::build_model(positions, triangles,
 ///                                            {.bounds = build::BvhBounds::aligned});
@@ -61,9 +63,9 @@ struct LiveTriangle {
 ///     }
 class LiveModel {
 public:
-    /// Returns the number of bytes that in() takes: those of the base's sections, and about 30 per
-    /// triangle. With limits, it counts places, of which there are nine for eight triangles, and
-    /// about 50 more bytes for each. Fails if in() rejects `base` or `limits`.
+    /// Returns the number of bytes that in() takes: those of the base's sections, and about 40 per
+    /// triangle. With limits, it is about 200 per triangle of the limit. Takes as long as in(), and
+    /// as much memory while it runs. Fails if in() rejects `base` or `limits`.
     [[nodiscard]] static Result<std::size_t> bytes(const build::ModelArrays& base,
                                                    const LiveLimits& limits = {});
     [[nodiscard]] static Result<std::size_t> bytes(const Model& base,
@@ -71,13 +73,17 @@ public:
 
     /// Makes a live model of arrays or of another model, such as a baked one. `memory` must start
     /// at a multiple of format::kSectionAlignment and stay in place while the live model lives.
-    /// `base` is not used afterwards. Allocates. Takes O(n) time; with limits, O(n log n) time.
+    /// `base` must not lie in it, and is not used afterwards. Allocates. Takes O(n) time; with
+    /// limits, O(n log n) time. Triangles spread over all places of a limit. So a limit of many
+    /// more triangles than will come makes queries take longer.
     ///
     /// Fails with `bad_argument` if `memory` is too small or misaligned. Also fails if a baked
-    /// `base` has vertices that a repair made, or can tear. Fails if it lacks, or was opened
-    /// without, one of these sections: triangles, source_triangle, source_vertex, bvh_nodes,
-    /// bvh_leaves and positions. Fails if limits are lower than the counts of the base, or higher
-    /// than a model may have.
+    /// `base` can tear, has vertices that a repair made, or has two vertices or triangles of one
+    /// number. Fails if it lacks, or was opened without, one of these sections: triangles,
+    /// source_triangle, source_vertex, bvh_nodes, bvh_leaves and positions. Without the section
+    /// components, the live model does not serve Ask::solid. Fails if limits are lower than the
+    /// counts of the base. Also fails if there are more than 1,431,655,764 places, of which a ninth
+    /// is free with limits.
     [[nodiscard]] static Result<LiveModel> in(std::span<std::byte> memory,
                                               const build::ModelArrays& base,
                                               const LiveLimits& limits = {});
@@ -124,10 +130,13 @@ public:
     /// In a model that can tear, a vertex that no triangle uses may get its first position.
     ///
     /// Fails as above, and if there are more or fewer positions than numbers. Also fails if a
-    /// number is not less than position_count() or, in a model that can tear, LiveLimits::vertices.
-    /// Takes O(m log n) time for m triangles at these vertices. Takes O(n) if a vertex leaves the
-    /// frame of the boxes: a cube of at least twice the model's size when the frame was chosen.
-    /// Also takes O(n) if the model has become much smaller than it.
+    /// number is too large: from position_count() on or, in a model that can tear, from
+    /// LiveLimits::vertices on.
+    ///
+    /// Takes O(m log n) time for m triangles at these vertices, and looks at a bit for each leaf.
+    /// Takes O(n) in three cases. A vertex leaves the frame of the boxes: a cube of at least twice
+    /// the model's size when it was chosen. Or the model has become much smaller than this cube. Or
+    /// the first or the last coordinate comes that is not a float.
     Result<Done> refit(std::span<const std::uint32_t> vertices,
                        std::span<const format::Double3> positions,
                        ParallelFor parallel_for = serial_for);
@@ -140,9 +149,9 @@ public:
     ///
     /// Fails with `bad_argument`, and then changes nothing, if the model cannot tear or would have
     /// more triangles than LiveLimits::triangles. Also fails if a vertex does not exist or has no
-    /// position, or if numbers would exceed 2^31 - 1. Takes O(m log^2 n) time for m triangles,
-    /// amortised. Takes O(n) more if a vertex lies outside the frame of the boxes. Allocates only
-    /// on failure.
+    /// position, if numbers would exceed 2^31 - 1, or if `triangles` are those of model(). Takes
+    /// O(m log^2 n) time for m triangles, amortised. Takes O(n) more if a vertex lies outside the
+    /// frame of the boxes. Allocates only on failure.
     Result<std::uint32_t> append(std::span<const format::Triangle> triangles);
 
     /// Removes triangles by their numbers. A number that is listed twice counts once. Fails with
@@ -163,10 +172,10 @@ public:
     std::size_t triangles(std::span<LiveTriangle> room) const noexcept;
 
     /// Distributes triangles anew where the boxes have grown, so that queries stay fast. A call
-    /// takes up to `most_triangles` triangles, in subtrees of 4,096 places or all, and returns how
-    /// many it took. Those subtrees come first whose surface_cost() has grown most since their
-    /// triangles were distributed. Begins when one has grown by 40 %, and goes on in later calls
-    /// until none has grown by 20 %.
+    /// takes up to `most_triangles` triangles and returns how many it took. It takes whole subtrees
+    /// of up to 4,096 triangles, so a smaller budget does nothing for a larger model. Those come
+    /// first whose surface_cost() has grown most since their triangles were distributed. Begins
+    /// when one has grown by 40 %, and goes on in later calls until none has grown by 20 %.
     ///
     /// Answers stay the same. Does not help if far triangles have come near each other: then
     /// surface_cost() stays high, and a new model helps. Takes O(nodes) time, and 100 ns or so for
@@ -188,8 +197,6 @@ public:
 private:
     struct State;
     explicit LiveModel(std::unique_ptr<State> state) noexcept;
-    static Result<LiveModel> make(std::span<std::byte> memory, const LiveBase& base,
-                                  const LiveLimits& limits);
     template <class Position>
     Result<Done> refit_all(std::span<const Position> positions, ParallelFor parallel_for);
     template <class Position>

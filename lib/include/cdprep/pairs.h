@@ -263,7 +263,7 @@ struct Distance {
 /// that of visit_overlaps(). Returns false if `visit` ended the search. Reads the same options as
 /// pairs_within(). Needs Ask::within of both models, and options.through its ask_of().
 ///
-///     std::vector<bool> is_near(pair.a.get().triangle_count());
+///     std::vector<bool> is_near(pair.a.get().triangle_number_bound());
 ///     const auto visit = [&](const cdprep::TrianglePair& found) {
 ///         is_near[found.a] = true;
 ///         return true;

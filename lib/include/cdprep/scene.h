@@ -27,8 +27,8 @@ struct ObjectId {
     auto operator<=>(const ObjectId&) const = default;
 };
 
-/// An object to add. The model must outlive it, and serve Plan::asks_of(layer). After
-/// LiveModel::refit(), call set_pose() for each object of the model, even with the same pose.
+/// An object to add. The model must outlive it, and serve Plan::asks_of(layer). After a change of a
+/// LiveModel, call set_pose() for each object of the model, even with the same pose.
 struct SceneObject {
     const Model* model = nullptr;
     std::uint32_t layer = 0;

@@ -7,8 +7,8 @@
 /* Models whose vertices move and whose triangles come and go: objects that deform and tear. */
 
 /* A live model. It is queried through cdprep_live_model(). While one call changes it, all other
- * calls that change it fail with CDPREP_WHY_BUSY. No query about its model may run then: this is
- * not checked. */
+ * calls of this header fail with CDPREP_WHY_BUSY. No query about its model may run then: this is
+ * not checked. In a scene, set the pose of each object of the model after a change. */
 typedef struct cdprep_live cdprep_live;
 
 typedef struct cdprep_live_options {
@@ -23,8 +23,8 @@ typedef struct cdprep_live_options {
 CDPREP_API void cdprep_live_options_init(cdprep_live_options* options, size_t size);
 
 /* Stores the number of bytes that cdprep_live_make() needs for these options. On failure *size is
- * 0. Without max_triangles, it is about 120 for each triangle. With it, it is about 180 for each
- * place, of which there are nine for eight triangles.
+ * 0. Without max_triangles, it is about 120 for each triangle. With max_triangles, it is about 200
+ * for each of them. Takes as long as cdprep_live_make(), and as much memory while it runs.
  * Errors: those of cdprep_live_make(). */
 CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size,
                                 cdprep_error* error);
@@ -34,13 +34,15 @@ CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size
  * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_live_size() bytes.
  * With null memory of size 0, the allocator makes one allocation of that size. In addition, the
  * model takes about 1 KiB of the heap. Takes O(n) time, and O(n log n) with max_triangles. No later
- * call but cdprep_live_end() allocates or frees memory, except to report an error.
+ * call but cdprep_live_end() allocates or frees memory, except to report an error. Do not ask for
+ * many more triangles than will come: they spread over all places, and queries take longer.
  *
  * Errors:
  * - CDPREP_WHY_NULL: no base.
  * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: the base does not serve CDPREP_ASK_OVERLAP.
- * - CDPREP_WHY_OUT_OF_RANGE: max_triangles or max_vertices is less than the base has, or more than
- *   a model may have. Or the base has vertices that a repair made. Or `memory` is not aligned.
+ * - CDPREP_WHY_OUT_OF_RANGE: max_triangles or max_vertices is less than the base has, or too many.
+ *   Or the base has vertices that a repair made, or two with one number. Or `memory` is not
+ *   aligned.
  * - CDPREP_WHY_NO_MEANING: max_vertices without max_triangles, or an allocator in addition to
  *   memory.
  * - CDPREP_WHY_TOO_SMALL: `size` is less than cdprep_live_size() stores.
@@ -55,8 +57,10 @@ CDPREP_API void cdprep_live_end(cdprep_live* live);
  * long as the live model: do not close it. It serves CDPREP_ASK_COLLIDE, _OVERLAP, _DISTANCE,
  * _WITHIN, _INSIDE, _RAY, _CLOSEST, _TOUCH, _CORNERS and _SOLID.
  *
- * After cdprep_live_append() or cdprep_live_remove(), it counts as open. Queries about solids then
- * store CDPREP_UNKNOWN, unless boxes or surfaces decide. */
+ * After cdprep_live_append() or cdprep_live_remove(), it counts as open and without components.
+ * Queries about solids then store CDPREP_UNKNOWN, unless boxes or surfaces decide. Numbers of
+ * triangles are then those of cdprep_live_append(): all are less than
+ * cdprep_live_info.number_bound, which is also the number of bits for cdprep_marks. */
 CDPREP_API const cdprep_model* cdprep_live_model(const cdprep_live* live);
 
 /* New positions of vertices. */
@@ -77,8 +81,9 @@ CDPREP_API void cdprep_live_move_init(cdprep_live_move* move, size_t size);
  * position counts. A pair cache of the model stays valid.
  *
  * With max_triangles, a vertex that no triangle uses may get its first position. Takes O(n) time;
- * with move.vertices, O(m log n) for m triangles at these vertices. Takes O(n) then only if the
- * model has grown or shrunk to several times its size.
+ * with move.vertices, O(m log n) for m triangles at these vertices. Takes O(n) then only in three
+ * cases: a vertex leaves a cube of about twice the model's size, the model has become much smaller
+ * than that cube, or the first or last coordinate comes that is not a float.
  *
  * On failure, nothing changes. Errors:
  * - CDPREP_WHY_NULL: no positions.
@@ -98,8 +103,8 @@ CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* move
  * On failure, nothing changes and *first is CDPREP_NONE. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.
  * - CDPREP_WHY_OUT_OF_RANGE: There would be more triangles than max_triangles. Or a vertex does not
- *   exist or has no position: `triangles[12]` is the thirteenth triangle. Or numbers would exceed
- *   2^31 - 1.
+ *   exist or has no position; the message names it and its triangle. Or numbers would exceed
+ *   2^31 - 1. Or `triangles` points into the model.
  * - CDPREP_WHY_BUSY: another call changes the live model. */
 CDPREP_API int cdprep_live_append(cdprep_live* live, const uint32_t* triangles, size_t count,
                                   uint32_t* first, cdprep_error* error);
@@ -113,6 +118,13 @@ CDPREP_API int cdprep_live_append(cdprep_live* live, const uint32_t* triangles, 
  * - CDPREP_WHY_BUSY: another call changes the live model. */
 CDPREP_API int cdprep_live_remove(cdprep_live* live, const uint32_t* numbers, size_t count,
                                   cdprep_error* error);
+
+/* Distributes triangles anew where the boxes have grown, so that queries stay fast: up to
+ * `most_triangles` of them, in groups of about 4,096. *taken is how many. Answers stay the same.
+ * See LiveModel::rebuild(). Takes O(nodes) time, and 100 ns or so for each triangle taken.
+ * Errors: CDPREP_WHY_BUSY: another call changes the live model. */
+CDPREP_API int cdprep_live_rebuild(cdprep_live* live, uint32_t most_triangles, uint32_t* taken,
+                                   cdprep_error* error);
 
 typedef struct cdprep_live_info {
     uint32_t triangles;    /* now */

@@ -149,7 +149,7 @@ CDPREP_API int cdprep_overlaps_visit(const cdprep_pair* pair, cdprep_workspace* 
 typedef struct cdprep_marks {
     uint64_t* bits_a; /* null with 0 words: no marks of A */
     uint64_t* bits_b;
-    size_t words_a; /* 0, or at least a word for every 64 triangles */
+    size_t words_a; /* 0, or at least a word for every 64 triangles; see cdprep/c/live.h */
     size_t words_b;
     size_t count; /* output: pairs that overlap */
 } cdprep_marks;

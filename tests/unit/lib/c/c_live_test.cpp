@@ -141,6 +141,70 @@ TEST(CLiveModel, EveryQuestionGetsTheAnswerOfABake) {
     }
 }
 
+// Triangles part, and a rebuild gives them other places: they keep their numbers and corners.
+TEST(CLiveModel, ARebuildKeepsNumbersAndCorners) {
+    const CWorkspace workspace;
+    TestMesh cloud = random_soup(5, 2000, 0.02);
+    const AlignedBytes file = baked(cloud);
+    const CModel base(file);
+    CLive live(options_for(base.get()));
+    std::uint32_t seed = 1;
+    for (const Triangle& t : cloud.triangles) {
+        seed = seed * 1664525U + 1013904223U;
+        for (const std::uint32_t v : t.vertex) cloud.positions[v].x += (seed >> 24) / 200.0;
+    }
+    live.move({}, cloud.positions, workspace.get());
+    std::uint32_t taken = 0;
+    ASSERT_EQ(cdprep_live_rebuild(live.get(), 4096, &taken, nullptr), CDPREP_OK);
+    EXPECT_EQ(taken, cloud.triangles.size());
+    for (std::uint32_t i = 0; i < cloud.triangles.size(); ++i) {
+        cdprep_corners corners{};
+        ASSERT_EQ(cdprep_model_corners(live.model(), &i, 1, &corners, nullptr), CDPREP_OK);
+        EXPECT_EQ(corners.vertex[2], cloud.triangles[i].vertex[2]);
+        EXPECT_EQ(corners.point[2][0], cloud.positions[cloud.triangles[i].vertex[2]].x);
+    }
+}
+
+// While a task of the caller runs, no other call may change or describe the live model.
+TEST(CLiveModel, AChangeRefusesAllOtherCalls) {
+    const AlignedBytes file = baked(icosphere(4));
+    const CModel base(file);
+    CLive live(options_for(base.get(), 6000));
+    struct Intruder {
+        cdprep_live* live;
+        int refused = 0;
+    } intruder{live.get()};
+    cdprep_workspace_options options;
+    cdprep_workspace_options_init(&options, sizeof options);
+    options.lanes = 2;
+    options.context = &intruder;
+    options.run = [](void* context, std::size_t count, cdprep_task task, const void* of_task) {
+        auto& self = *static_cast<Intruder*>(context);
+        cdprep_error error;
+        cdprep_live_info info;
+        const std::uint32_t none = 0;
+        std::uint32_t first = 0;
+        self.refused += cdprep_live_remove(self.live, &none, 1, &error) != CDPREP_OK &&
+                                error.why == CDPREP_WHY_BUSY
+                            ? 1
+                            : 0;
+        self.refused += cdprep_live_append(self.live, &none, 0, &first, &error) != CDPREP_OK &&
+                                error.why == CDPREP_WHY_BUSY
+                            ? 1
+                            : 0;
+        self.refused += cdprep_live_describe(self.live, &info, &error) != CDPREP_OK ? 1 : 0;
+        cdprep_live_end(self.live);
+        for (std::size_t i = 0; i < count; ++i) task(of_task, i);
+    };
+    cdprep_workspace* workspace = nullptr;
+    ASSERT_EQ(cdprep_workspace_make(&options, nullptr, 0, &workspace, nullptr), CDPREP_OK);
+    live.move({}, icosphere(4).positions, workspace);
+    EXPECT_GE(intruder.refused, 3);
+    EXPECT_EQ(intruder.refused % 3, 0);
+    cdprep_workspace_end(workspace);
+    EXPECT_EQ(live.info().triangles, icosphere(4).triangles.size());
+}
+
 // Torn in two: the numbers of what is left stay, those of what comes are new.
 TEST(CLiveModel, TrianglesComeAndGoByTheirNumbers) {
     const CWorkspace workspace;
@@ -350,7 +414,18 @@ TEST_F(CLiveHostile, NullAndMemoryAreChecked) {
     expect_null(cdprep_live_refit(live_.get(), &move, nullptr, &error), "workspace");
     expect_null(cdprep_live_describe(nullptr, &info, &error), "live");
     expect_null(cdprep_live_describe(live_.get(), nullptr, &error), "info");
+    std::uint32_t taken = 9;
+    expect_null(cdprep_live_rebuild(nullptr, 1, &taken, &error), "live");
+    EXPECT_EQ(taken, 0u);
+    expect_null(cdprep_live_rebuild(live_.get(), 1, nullptr, &error), "taken");
+    EXPECT_EQ(cdprep_live_rebuild(live_.get(), 1000, &taken, &error), CDPREP_OK);
     EXPECT_EQ(cdprep_live_model(nullptr), nullptr);
+    cdprep_model_close(const_cast<cdprep_model*>(live_.model()));  // is ended with the live model
+    EXPECT_EQ(live_.info().triangles, 80u);
+    options.allocator = &blocks.allocator;
+    blocks.is_empty = true;
+    EXPECT_EQ(cdprep_live_make(&options, nullptr, 0, &made, &error), CDPREP_OVER_BUDGET);
+    EXPECT_EQ(made, nullptr);
     cdprep_live_end(nullptr);
     cdprep_live_options_init(nullptr, sizeof options);
     cdprep_live_move_init(nullptr, sizeof move);

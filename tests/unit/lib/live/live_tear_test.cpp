@@ -81,8 +81,9 @@ void rename(std::vector<Item>& items, const std::vector<std::uint32_t>& numbers,
     for (Item& item : items) number(item) = numbers[number(item)];
 }
 
-void expect_same_pairs(const Torn& torn, const Model& other, const TestMesh& of_other,
-                       const Placement& placement, Workspace& workspace) {
+/// Returns the number of pairs.
+std::size_t expect_same_pairs(const Torn& torn, const Model& other, const TestMesh& of_other,
+                              const Placement& placement, Workspace& workspace) {
     const auto [mesh, numbers] = torn.mesh();
     std::vector<TrianglePair> expected = brute_force_pairs(mesh, of_other, placement);
     rename(expected, numbers, [](TrianglePair& pair) -> std::uint32_t& { return pair.a; });
@@ -91,7 +92,12 @@ void expect_same_pairs(const Torn& torn, const Model& other, const TestMesh& of_
     EXPECT_EQ(pairs, expected);
     std::vector<TrianglePair> turned =
         all_pairs(other, torn.model(), Placement::a_moves(placement.pose_b()), workspace);
-    EXPECT_EQ(turned.size(), expected.size());
+    for (TrianglePair& pair : turned) pair = {pair.b, pair.a};
+    std::ranges::sort(turned);
+    EXPECT_EQ(turned, expected);
+    std::vector<Crossing> crossed(expected.size() + 1);
+    EXPECT_EQ(crossings({torn.model(), other, placement}, workspace, crossed), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(crossed[i].pair, expected[i]);
     std::vector<std::uint64_t> marks((torn.model().triangle_number_bound() + 63) / 64);
     const Pair pair{torn.model(), other, placement};
     EXPECT_EQ(mark_overlaps(pair, workspace, marks, {}), expected.size());
@@ -100,6 +106,7 @@ void expect_same_pairs(const Torn& torn, const Model& other, const TestMesh& of_
             expected, [&](const TrianglePair& each) { return each.a == number; });
         EXPECT_EQ(((marks[number / 64] >> (number % 64)) & 1) != 0, is_expected);
     }
+    return expected.size();
 }
 
 void expect_same_distances(const Torn& torn, const Model& other, const Placement& placement,
@@ -164,6 +171,18 @@ void expect_same_points(const Torn& torn, Workspace& workspace, std::mt19937& ra
             EXPECT_EQ(near->triangle, numbers[nearest->triangle]);
         }
         const Sphere ball{at, std::fabs(normal(random))};
+        const Capsule rod{at, point(), 0.1};
+        const TriangleShape sail{{at, point(), point()}};
+        EXPECT_EQ(touches(torn.model(), rod, workspace), touches(fresh.model, rod, workspace));
+        EXPECT_EQ(touches(torn.model(), sail, workspace), touches(fresh.model, sail, workspace));
+        const auto to_rod = shape_distance(torn.model(), rod, workspace);
+        const auto expected_to_rod = shape_distance(fresh.model, rod, workspace);
+        ASSERT_EQ(to_rod.has_value(), expected_to_rod.has_value());
+        if (to_rod) {
+            EXPECT_EQ(to_rod->upper == 0, expected_to_rod->upper == 0);
+            EXPECT_LE(to_rod->lower, expected_to_rod->upper);
+            EXPECT_LE(expected_to_rod->lower, to_rod->upper);
+        }
         const Box whole{{-90, -90, -90}, {90, 90, 90}};
         std::vector<std::uint32_t> touched(torn.triangles.size()), all = touched, same = touched;
         touched.resize(touching_triangles(torn.model(), ball, workspace, touched));
@@ -213,16 +232,25 @@ TEST(LiveTear, AnswersAreThoseOfBruteForceAfterEachChange) {
         Torn torn = tear(icosphere(2), {.triangles = room, .vertices = 500});
         Workspace workspace;
         PairCache cache;
+        std::size_t found = 0;
         for (int step = 0; step < 40; ++step) {
             change(torn, random, room);
             if (step % 5 == 4) static_cast<void>(torn.object.rebuild(1'000'000));
             ASSERT_EQ(torn.object.triangle_count(), torn.triangles.size());
             const Placement placement = Placement::b_moves(random_pose(random, 0.5));
-            expect_same_pairs(torn, other.model, ring, placement, workspace);
+            found += expect_same_pairs(torn, other.model, ring, placement, workspace);
             if (step % 8 != 0) continue;
             expect_same_distances(torn, other.model, placement, workspace, cache);
             expect_same_points(torn, workspace, random);
         }
+        EXPECT_GT(found, 1000U);
+        // Against itself, moved: both sides have free places.
+        const Placement aside = Placement::b_moves(random_pose(random, 0.1));
+        const auto [mesh, numbers] = torn.mesh();
+        std::vector<TrianglePair> expected = brute_force_pairs(mesh, mesh, aside);
+        for (TrianglePair& pair : expected) pair = {numbers[pair.a], numbers[pair.b]};
+        EXPECT_GT(expected.size(), 100U);
+        EXPECT_EQ(all_pairs(torn.model(), torn.model(), aside, workspace), expected);
         std::vector<LiveTriangle> listed(torn.triangles.size());
         EXPECT_EQ(torn.object.triangles(listed), listed.size());
         EXPECT_TRUE(std::ranges::equal(listed, torn.triangles, {}, &LiveTriangle::number,
@@ -335,6 +363,11 @@ TEST(LiveTear, WhatCannotBeDoneIsRefusedByNumberAndChangesNothing) {
     const std::vector<std::uint32_t> gone = {5, 3}, never = {0xffffffff};
     EXPECT_EQ(sentence(object.remove(gone)), "Triangle 3 was removed before.");
     EXPECT_EQ(sentence(object.remove(never)), "Triangle 4294967295 was never appended.");
+    const Model& own = object.model();
+    EXPECT_EQ(sentence(object.append(own.mesh().triangles.first(1))).find("The triangles point in"),
+              0U);
+    EXPECT_EQ(sentence(object.remove(own.source().triangle.first(1))).find("The numbers point in"),
+              0U);
     EXPECT_EQ(sentence(object.image()).find("A live model that can tear has places"), 0U);
     EXPECT_TRUE(std::ranges::equal(before.span(), torn.memory.span()));
 
@@ -346,6 +379,52 @@ TEST(LiveTear, WhatCannotBeDoneIsRefusedByNumberAndChangesNothing) {
         EXPECT_EQ(each,
                   "This live model cannot tear: make it with a limit of triangles (LiveLimits).");
     }
+}
+
+// A gap was proved, then a triangle closes it and nothing moves: the cache is not believed.
+TEST(LiveTear, CachesAreNotFooledByATear) {
+    const OpenModel other = open_tiny(icosphere(2), {.double_precision = true});
+    Torn torn = tear(moved_by(icosphere(2), 1, {4, 0, 0}), {.triangles = 400, .vertices = 200});
+    torn.move({162, 163, 164}, {{0, 0, -3}, {0, 0.1, 3}, {0, -0.1, 3}});
+    Workspace workspace;
+    PairCache cache;
+    const Pair pair{torn.model(), other.model, Placement::b_moves({}), {}, &cache};
+    for (int round = 0; round < 5; ++round) {
+        for (int i = 0; i < 4; ++i) EXPECT_EQ(collide(pair, workspace).hit, Answer::no);
+        EXPECT_NEAR(distance(pair, workspace)->upper, 2, 0.1);
+        torn.append({{{162, 163, 164}}});
+        EXPECT_EQ(collide(pair, workspace).hit, Answer::yes);
+        EXPECT_EQ(distance(pair, workspace)->upper, 0);
+        static_cast<void>(torn.object.rebuild(1'000'000));
+        EXPECT_EQ(collide(pair, workspace).hit, Answer::yes);
+        torn.remove({torn.triangles.rbegin()->first});
+    }
+}
+
+// A base without triangles, and one that was opened without its components.
+TEST(LiveTear, ABaseMayBeEmptyOrLackComponents) {
+    const TestMesh ball = icosphere(2);
+    const OpenModel whole = open_tiny(ball, {.double_precision = true});
+    Torn torn = tear({}, {.triangles = 400, .vertices = 200});
+    Workspace workspace;
+    const Pair solids{torn.model(), whole.model, Placement::b_moves({}), {.body = Body::solid}};
+    EXPECT_EQ(collide(solids, workspace).hit, Answer::no);
+    std::vector<std::uint32_t> vertices(ball.positions.size());
+    std::iota(vertices.begin(), vertices.end(), 0U);
+    torn.move(vertices, ball.positions);
+    torn.append(ball.triangles);
+    EXPECT_EQ(collide(solids, workspace).hit, Answer::yes);
+
+    const AlignedBytes bytes =
+        bake_tiny(ball.positions, ball.triangles, {.double_precision = true});
+    const auto base = Model::open(bytes.span(), {.asks = Ask::overlap});
+    ASSERT_TRUE(base);
+    const LiveLimits limits = {.triangles = 400};
+    AlignedBytes memory(LiveModel::bytes(base.value(), limits).value());
+    const auto live = LiveModel::in(memory.span(), base.value(), limits);
+    ASSERT_TRUE(live) << live.error().message;
+    EXPECT_TRUE(live.value().model().serves(Ask::overlap));
+    EXPECT_EQ(live.value().model().serves(Ask::solid), base.value().serves(Ask::solid));
 }
 
 TEST(LiveTear, LimitsThatDoNotFitAreRefused) {

@@ -108,7 +108,7 @@ TEST_F(DocExamples, TrianglesWithin) {
     const auto pose = cdprep::Pose::from_quaternion(1, 0, 0, 0, {0, 0, 1.25});
     const auto placement = cdprep::Placement::b_moves(pose.value());
     cdprep::Workspace workspace;
-    std::vector<bool> is_near(a.triangle_count());
+    std::vector<bool> is_near(a.triangle_number_bound());
     const auto visit = [&](const cdprep::TrianglePair& pair) {
         is_near[pair.a] = true;
         return true;
