@@ -51,11 +51,11 @@ struct Input<cdprep_live_move> {
 namespace {
 
 constexpr std::array kFields = {
-    Field{"base", offsetof(cdprep_live_options, base), Holds::pointer},
+    Field{"model", offsetof(cdprep_live_options, model), Holds::pointer},
 };
 
 constexpr Name kOptions = {"options"};
-constexpr Name kMove = {"move"};
+constexpr Name kMoved = {"moved"};
 
 /// Checked options of a live model.
 struct Asked {
@@ -67,7 +67,7 @@ struct Asked {
     std::size_t size = 0;   ///< of the block
 
     [[nodiscard]] const Model& base() const noexcept {
-        return options.base->model;
+        return options.model->model;
     }
 };
 
@@ -79,7 +79,7 @@ int read(Call& call, const cdprep_live_options* given, Asked& asked) {
         return code;
     }
     if (const int code =
-            check_serves(call, kOptions.of("base"), *options.base, Ask::overlap | Ask::corners)) {
+            check_serves(call, kOptions.of("model"), *options.model, Ask::overlap | Ask::corners)) {
         return code;
     }
     if (options.max_triangles == 0 && options.max_vertices != 0) {
@@ -116,12 +116,12 @@ int check_move(Call& call, const cdprep_live_move& move) noexcept {
     const bool has_doubles = move.positions != nullptr;
     const bool has_floats = move.positions_f32 != nullptr;
     if (move.count > 0 && !has_doubles && !has_floats) {
-        return call.refuse(CDPREP_WHY_NULL, kMove.of("positions"),
-                           "is null, and so is move.positions_f32; one of them must be set.");
+        return call.refuse(CDPREP_WHY_NULL, kMoved.of("positions"),
+                           "is null, and so is moved.positions_f32; one of them must be set.");
     }
     if (has_doubles && has_floats) {
-        return call.refuse(CDPREP_WHY_NO_MEANING, kMove.of("positions_f32"),
-                           "is set, and so is move.positions; only one of them may be set.");
+        return call.refuse(CDPREP_WHY_NO_MEANING, kMoved.of("positions_f32"),
+                           "is set, and so is moved.positions; only one of them may be set.");
     }
     return CDPREP_OK;
 }
@@ -134,7 +134,7 @@ int check_positions(Call& call, const char* field, const Real* numbers,
     for (std::size_t i = 0; i < 3 * count; ++i) {
         const double number{numbers[i]};
         if (std::fabs(number) <= format::kMaxCoordinate) continue;
-        return check_numbers(call, kMove.of(field, i / 3), Holds::number, &number, 1);
+        return check_numbers(call, kMoved.of(field, i / 3), Holds::number, &number, 1);
     }
     return CDPREP_OK;
 }
@@ -147,7 +147,7 @@ int move_all(Call& call, LiveModel& live, const cdprep_live_move& move, const Po
                                   ? live.refit(to, threads)
                                   : live.refit({move.vertices, move.count}, to, threads);
     if (done) return CDPREP_OK;
-    return call.refuse_with(CDPREP_WHY_OUT_OF_RANGE, kMove, done.error().message);
+    return call.refuse_with(CDPREP_WHY_OUT_OF_RANGE, kMoved, done.error().message);
 }
 
 int refit(Call& call, LiveModel& live, const cdprep_live_move& move,
@@ -210,8 +210,8 @@ void cdprep_live_options_init(cdprep_live_options* options, size_t size) {
     cdprep::c::initialise(options, size);
 }
 
-void cdprep_live_move_init(cdprep_live_move* move, size_t size) {
-    cdprep::c::initialise(move, size);
+void cdprep_live_move_init(cdprep_live_move* moved, size_t size) {
+    cdprep::c::initialise(moved, size);
 }
 
 int cdprep_live_size(const cdprep_live_options* options, size_t* size, cdprep_error* error) {
@@ -249,14 +249,14 @@ const cdprep_model* cdprep_live_model(const cdprep_live* live) {
     return live == nullptr ? nullptr : &live->model;
 }
 
-int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* move, cdprep_workspace* workspace,
+int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* moved, cdprep_workspace* workspace,
                       cdprep_error* error) {
     return guarded(error, [&](Call& call) -> int {
         if (const int code = call.need(live, {"live"})) return code;
-        if (const int code = call.need(move, {"move"})) return code;
+        if (const int code = call.need(moved, {"moved"})) return code;
         if (const int code = call.need(workspace, {"workspace"})) return code;
         cdprep_live_move given;
-        if (const int code = read_input(call, {"move"}, move, given)) return code;
+        if (const int code = read_input(call, {"moved"}, moved, given)) return code;
         cdprep::c::InUse use, workspace_use;
         if (const int code = use.begin(call, {"live"}, live->in_use)) return code;
         if (const int code = workspace_use.begin(call, *workspace)) return code;

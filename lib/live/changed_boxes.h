@@ -13,8 +13,8 @@
 
 namespace cdprep {
 
-/// The boxes of a hierarchy that must be fitted anew: a bit for each leaf, and for each node the
-/// bit of the box around it. Marks lead from leaves to the root.
+/// The boxes of a hierarchy that must be fitted anew: a bit for each leaf and each node. Marks lead
+/// from leaves to the root.
 class ChangedBoxes {
 public:
     ChangedBoxes(Carver& carver, const format::BvhShape& shape) noexcept : shape_(shape) {

@@ -15,8 +15,8 @@ namespace {
 using format::BvhNode;
 using format::kBvhWidth;
 
-/// A rebuild begins when the boxes of a subtree have grown by this factor, and goes on with others
-/// until none has grown by the second one.
+/// A rebuild begins when the boxes of a subtree have grown by the first factor. It goes on until
+/// none has grown by the second one.
 constexpr float kBegin = 1.4F;
 constexpr float kEnd = 1.2F;
 

@@ -17,7 +17,7 @@
 // Triangles lie in an implicit tree, of whose places some are free. A new one takes a free place
 // in the leaf whose box grows least. If that leaf is full, the triangles of the smallest subtree
 // with enough free places are distributed anew. The higher the subtree, the more must be free, so
-// the next time is far off: a packed-memory array (Bender, Demaine and Farach-Colton 2005).
+// the next time is far off. This is a packed-memory array (Bender, Demaine and Farach-Colton 2005).
 
 namespace cdprep {
 namespace {

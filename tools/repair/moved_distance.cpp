@@ -39,8 +39,7 @@ public:
             {.bounds = build::BvhBounds::aligned, .quality = build::Quality::fast});
         if (!arrays) return;
         memory_.resize(LiveModel::bytes(arrays.value()).value() / sizeof(Block) + 1);
-        model_ = LiveModel::in(std::as_writable_bytes(std::span(memory_)), arrays.value())
-                     .value();
+        model_ = LiveModel::in(std::as_writable_bytes(std::span(memory_)), arrays.value()).value();
     }
 
     /// Returns the nearest point, whose `triangle` is a number for triangle(). Nothing if there are

@@ -42,9 +42,9 @@ struct LiveTriangle {
 /// collide, overlap, distance, within, ray, closest, inside and touch.
 ///
 /// A model made with LiveLimits can tear: append() and remove(). From the first of these calls on
-/// it is_torn(): it counts as open, so only boxes and surfaces decide about solids. Some places of
-/// its tree order have no triangle: model().triangle_count() counts places, or is 0 without
-/// triangles. Its mesh() and source() views have an element for each place.
+/// it is_torn(). It then counts as open, so only boxes and surfaces decide about solids. Some
+/// places of its tree order have no triangle: model().triangle_count() counts places, or is 0
+/// without triangles. Its mesh() and source() views have an element for each place.
 ///
 /// In a scene, call set_pose() for each object of the model after a change, even with the same
 /// pose. Caches stay valid: after a change they only cost time.
@@ -78,12 +78,12 @@ public:
     /// more triangles than will come makes queries take longer.
     ///
     /// Fails with `bad_argument` if `memory` is too small or misaligned. Also fails if a baked
-    /// `base` can tear, has vertices that a repair made, or has two vertices or triangles of one
-    /// number. Fails if it lacks, or was opened without, one of these sections: triangles,
-    /// source_triangle, source_vertex, bvh_nodes, bvh_leaves and positions. Without the section
-    /// components, the live model does not serve Ask::solid. Fails if limits are lower than the
-    /// counts of the base. Also fails if there are more than 1,431,655,764 places, of which a ninth
-    /// is free with limits.
+    /// `base` can tear or has vertices that a repair made. Fails if two of its vertices or
+    /// triangles have one number. Fails if it lacks, or was opened without, one of these sections:
+    /// triangles, source_triangle, source_vertex, bvh_nodes, bvh_leaves and positions. Without the
+    /// section components, the live model does not serve Ask::solid. Fails if limits are lower than
+    /// the counts of the base. Also fails if there are more than 1,431,655,764 places, of which a
+    /// ninth is free with limits.
     [[nodiscard]] static Result<LiveModel> in(std::span<std::byte> memory,
                                               const build::ModelArrays& base,
                                               const LiveLimits& limits = {});
@@ -98,8 +98,8 @@ public:
     /// into it stay valid.
     [[nodiscard]] const Model& model() const noexcept;
 
-    /// Returns one more than the largest number of a vertex with a position. At first, it is the
-    /// number of vertices of the mesh from which the base was made, without unused ones at its end.
+    /// Returns one more than the largest number of a vertex with a position. At first, it counts
+    /// the vertices of the mesh from which the base was made, without unused ones at its end.
     [[nodiscard]] std::size_t position_count() const noexcept;
 
     /// Moves all vertices. `positions` are numbered as in the mesh from which the base was made,
@@ -129,13 +129,12 @@ public:
     ///
     /// In a model that can tear, a vertex that no triangle uses may get its first position.
     ///
-    /// Fails as above, and if there are more or fewer positions than numbers. Also fails if a
-    /// number is too large: from position_count() on or, in a model that can tear, from
-    /// LiveLimits::vertices on.
+    /// Fails as above, and if there are more or fewer positions than numbers. Numbers must be
+    /// less than position_count() or, in a model that can tear, LiveLimits::vertices.
     ///
     /// Takes O(m log n) time for m triangles at these vertices, and looks at a bit for each leaf.
-    /// Takes O(n) in three cases. A vertex leaves the frame of the boxes: a cube of at least twice
-    /// the model's size when it was chosen. Or the model has become much smaller than this cube. Or
+    /// Takes O(n) in three cases. A vertex leaves the frame of the boxes, a cube of at least
+    /// twice the model's size when chosen. Or the model has become much smaller than this cube. Or
     /// the first or the last coordinate comes that is not a float.
     Result<Done> refit(std::span<const std::uint32_t> vertices,
                        std::span<const format::Double3> positions,
@@ -149,7 +148,7 @@ public:
     ///
     /// Fails with `bad_argument`, and then changes nothing, if the model cannot tear or would have
     /// more triangles than LiveLimits::triangles. Also fails if a vertex does not exist or has no
-    /// position, if numbers would exceed 2^31 - 1, or if `triangles` are those of model(). Takes
+    /// position. Fails if numbers would exceed 2^31 - 1, or `triangles` are those of model(). Takes
     /// O(m log^2 n) time for m triangles, amortised. Takes O(n) more if a vertex lies outside the
     /// frame of the boxes. Allocates only on failure.
     Result<std::uint32_t> append(std::span<const format::Triangle> triangles);
@@ -166,9 +165,8 @@ public:
     /// nothing if there is no triangle of this number, or the model cannot tear. O(1).
     [[nodiscard]] std::optional<std::uint32_t> place_of(std::uint32_t number) const noexcept;
 
-    /// Stores the triangles of a model that can tear, or as many of the first as `room` holds, by
-    /// rising number. Returns how many there are; 0 for a model that cannot tear. Takes O(n log n)
-    /// time.
+    /// Stores the triangles of a model that can tear by rising number, as many as `room` holds.
+    /// Returns how many there are; 0 for a model that cannot tear. Takes O(n log n) time.
     std::size_t triangles(std::span<LiveTriangle> room) const noexcept;
 
     /// Distributes triangles anew where the boxes have grown, so that queries stay fast. A call

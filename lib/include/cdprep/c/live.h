@@ -13,9 +13,9 @@ typedef struct cdprep_live cdprep_live;
 
 typedef struct cdprep_live_options {
     cdprep_head head;
-    const cdprep_model* base; /* the model to start from, baked or built; read only while making */
-    uint32_t max_triangles;   /* 0: triangles neither come nor go; else the most at a time */
-    uint32_t max_vertices;    /* 0: that of the base; triangles may use numbers less than this */
+    const cdprep_model* model; /* the base, baked or built; read only while making */
+    uint32_t max_triangles;    /* 0: triangles neither come nor go; else the most at a time */
+    uint32_t max_vertices;     /* 0: that of the base; triangles may use numbers less than this */
     const cdprep_allocator* allocator; /* null: the heap; copied */
 } cdprep_live_options;
 
@@ -58,9 +58,8 @@ CDPREP_API void cdprep_live_end(cdprep_live* live);
  * _WITHIN, _INSIDE, _RAY, _CLOSEST, _TOUCH, _CORNERS and _SOLID.
  *
  * After cdprep_live_append() or cdprep_live_remove(), it counts as open and without components.
- * Queries about solids then store CDPREP_UNKNOWN, unless boxes or surfaces decide. Numbers of
- * triangles are then those of cdprep_live_append(): all are less than
- * cdprep_live_info.number_bound, which is also the number of bits for cdprep_marks. */
+ * Queries about solids then store CDPREP_UNKNOWN, unless boxes or surfaces decide. All numbers of
+ * triangles are less than cdprep_live_info.number_bound. cdprep_marks needs as many bits. */
 CDPREP_API const cdprep_model* cdprep_live_model(const cdprep_live* live);
 
 /* New positions of vertices. */
@@ -72,28 +71,28 @@ typedef struct cdprep_live_move {
     size_t count;               /* 0: of vertices */
 } cdprep_live_move;
 
-CDPREP_API void cdprep_live_move_init(cdprep_live_move* move, size_t size);
+CDPREP_API void cdprep_live_move_init(cdprep_live_move* moved, size_t size);
 
 /* Moves vertices, which are numbered as in the mesh from which the base was made. Without
- * move.vertices, all are moved: there must be a position for each number, up to the last one with
- * a position. Query results are then those of a model built from the new positions. They do not
+ * moved.vertices, all are moved. Then each number needs a position, up to the last one that has
+ * one. Query results are then those of a model built from the new positions. They do not
  * depend on the number of lanes, which share the work. If a vertex is listed twice, the last
  * position counts. A pair cache of the model stays valid.
  *
  * With max_triangles, a vertex that no triangle uses may get its first position. Takes O(n) time;
- * with move.vertices, O(m log n) for m triangles at these vertices. Takes O(n) then only in three
- * cases: a vertex leaves a cube of about twice the model's size, the model has become much smaller
- * than that cube, or the first or last coordinate comes that is not a float.
+ * with moved.vertices, O(m log n) for m triangles at these vertices. Takes O(n) then only in three
+ * cases. A vertex leaves a cube of about twice the model's size. Or the model has become much
+ * smaller than that cube. Or the first or last coordinate comes that is not a float.
  *
  * On failure, nothing changes. Errors:
  * - CDPREP_WHY_NULL: no positions.
  * - CDPREP_WHY_NO_MEANING: both positions are set.
- * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite: `move.positions[7]` is the eighth.
+ * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite: `moved.positions[7]` is the eighth.
  * - CDPREP_WHY_OUT_OF_RANGE: There are too few positions for all vertices. Or a vertex does not
  *   exist. Or a position is beyond 2^1000. Or positions are doubles and the model keeps floats. Or
  *   they are those of the model itself.
  * - CDPREP_WHY_BUSY: another call changes the live model or uses the workspace. */
-CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* move,
+CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* moved,
                                  cdprep_workspace* workspace, cdprep_error* error);
 
 /* Adds `count` triangles: 3 vertices each, numbered as in cdprep_live_refit(). *first is the number
@@ -119,7 +118,7 @@ CDPREP_API int cdprep_live_append(cdprep_live* live, const uint32_t* triangles, 
 CDPREP_API int cdprep_live_remove(cdprep_live* live, const uint32_t* numbers, size_t count,
                                   cdprep_error* error);
 
-/* Distributes triangles anew where the boxes have grown, so that queries stay fast: up to
+/* Distributes triangles anew where the boxes have grown, so that queries stay fast. Takes up to
  * `most_triangles` of them, in groups of about 4,096. *taken is how many. Answers stay the same.
  * See LiveModel::rebuild(). Takes O(nodes) time, and 100 ns or so for each triangle taken.
  * Errors: CDPREP_WHY_BUSY: another call changes the live model. */

@@ -355,7 +355,7 @@ PLACE(cdprep_box_pairs, escaped, 28);
 PLACE(cdprep_box_pairs, kept, 32);
 PLACE(cdprep_box_pairs, reserved, 36);
 SIZE(cdprep_live_options, 32);
-PLACE(cdprep_live_options, base, 8);
+PLACE(cdprep_live_options, model, 8);
 PLACE(cdprep_live_options, max_triangles, 16);
 PLACE(cdprep_live_options, max_vertices, 20);
 PLACE(cdprep_live_options, allocator, 24);

@@ -30,7 +30,7 @@ cdprep_live_options options_for(const cdprep_model* base, std::uint32_t triangle
                                 std::uint32_t vertices = 0) {
     cdprep_live_options options;
     cdprep_live_options_init(&options, sizeof options);
-    options.base = base;
+    options.model = base;
     options.max_triangles = triangles;
     options.max_vertices = vertices;
     return options;
@@ -292,9 +292,9 @@ TEST_F(CLiveHostile, OptionsAreCheckedFieldByField) {
     static const cdprep_allocator none = {nullptr, nullptr, nullptr};
     const CModel few(file_, CDPREP_ASK_RAY);
     std::vector<Mistake<O>> all = struct_mistakes<O>("options");
-    all.push_back({"no base", [](O& o) { o.base = nullptr; }, CDPREP_WHY_NULL, "options.base"});
-    all.push_back({"sections not opened", [&](O& o) { o.base = few.get(); }, CDPREP_WHY_NOT_OPENED,
-                   "options.base"});
+    all.push_back({"no base", [](O& o) { o.model = nullptr; }, CDPREP_WHY_NULL, "options.model"});
+    all.push_back({"sections not opened", [&](O& o) { o.model = few.get(); }, CDPREP_WHY_NOT_OPENED,
+                   "options.model"});
     all.push_back(
         {"few triangles", [](O& o) { o.max_triangles = 79; }, CDPREP_WHY_OUT_OF_RANGE, "options"});
     all.push_back(
@@ -321,22 +321,22 @@ TEST_F(CLiveHostile, MovesAreCheckedFieldByField) {
     cdprep_live_move_init(&right, sizeof right);
     right.positions = positions.data();
     right.count = 42;
-    std::vector<Mistake<M>> all = struct_mistakes<M>("move");
+    std::vector<Mistake<M>> all = struct_mistakes<M>("moved");
     all.push_back(
-        {"no positions", [](M& m) { m.positions = nullptr; }, CDPREP_WHY_NULL, "move.positions"});
+        {"no positions", [](M& m) { m.positions = nullptr; }, CDPREP_WHY_NULL, "moved.positions"});
     all.push_back({"both", [](M& m) { m.positions_f32 = floats.data(); }, CDPREP_WHY_NO_MEANING,
-                   "move.positions_f32"});
+                   "moved.positions_f32"});
     all.push_back({"NaN", [](M& m) { m.positions = spoilt.data(); }, CDPREP_WHY_NOT_FINITE,
-                   "move.positions[2]"});
+                   "moved.positions[2]"});
     all.push_back({"far", [](M& m) { m.positions = far.data(); }, CDPREP_WHY_OUT_OF_RANGE,
-                   "move.positions[1]"});
-    all.push_back({"few", [](M& m) { m.count = 41; }, CDPREP_WHY_OUT_OF_RANGE, "move"});
+                   "moved.positions[1]"});
+    all.push_back({"few", [](M& m) { m.count = 41; }, CDPREP_WHY_OUT_OF_RANGE, "moved"});
     all.push_back({"no such vertex",
                    [](M& m) {
                        m.vertices = vertices.data();
                        m.count = 3;
                    },
-                   CDPREP_WHY_OUT_OF_RANGE, "move"});
+                   CDPREP_WHY_OUT_OF_RANGE, "moved"});
     expect_refused(right, all, [&](const M* given) { return refit(given); });
 }
 
@@ -410,7 +410,7 @@ TEST_F(CLiveHostile, NullAndMemoryAreChecked) {
     expect_null(cdprep_live_make(nullptr, nullptr, 0, &made, &error), "options");
     expect_null(cdprep_live_make(&options, nullptr, 0, nullptr, &error), "live");
     expect_null(cdprep_live_refit(nullptr, &move, workspace_.get(), &error), "live");
-    expect_null(cdprep_live_refit(live_.get(), nullptr, workspace_.get(), &error), "move");
+    expect_null(cdprep_live_refit(live_.get(), nullptr, workspace_.get(), &error), "moved");
     expect_null(cdprep_live_refit(live_.get(), &move, nullptr, &error), "workspace");
     expect_null(cdprep_live_describe(nullptr, &info, &error), "live");
     expect_null(cdprep_live_describe(live_.get(), nullptr, &error), "info");
