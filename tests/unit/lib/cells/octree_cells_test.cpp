@@ -27,7 +27,7 @@ TEST(OctreeCells, PointsBesidePlanesAreInTheCellOfTheDefinition) {
         const double step = std::ldexp(1 + unit(random), -static_cast<int>(random() % 20));
         const std::uint32_t last = kOctreeSteps - 1;
         for (const std::uint32_t plane :
-             {last, last - 1, static_cast<std::uint32_t>(random()) % last}) {
+             {0U, 1U, last, last - 1, static_cast<std::uint32_t>(random()) % last}) {
             const double at = octree_plane(origin, step, plane);
             for (const double x :
                  {std::nextafter(at, -HUGE_VAL), at, std::nextafter(at, HUGE_VAL)}) {

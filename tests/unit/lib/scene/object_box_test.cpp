@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "cdprep/pairs.h"
@@ -55,6 +56,20 @@ TEST(ObjectBox, BoxesOfModelsThatAreNearMeet) {
     EXPECT_GT(near, 600);
     EXPECT_GT(apart, 200);
     EXPECT_GT(apart_by_turned, 100);
+}
+
+TEST(ObjectBoxDeathTest, AReachThatIsNoLengthEndsTheProgram) {
+    const test::OpenModel ball = test::open_tiny(test::icosphere(1));
+    for (const double reach : {-1.0, -0x1p-1060, std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_DEATH((void)root_box(ball.model, {}, reach),
+                     "The reach of a box is a finite number");
+    }
+    const test::AlignedBytes bytes =
+        test::bake_tiny(test::icosphere(1).positions, test::icosphere(1).triangles);
+    const auto blind = Model::open(bytes.span(), {SectionId::triangles});
+    ASSERT_TRUE(blind);
+    EXPECT_DEATH((void)root_box(blind.value(), {}, 0), "The box of a model needs its BVH");
 }
 
 TEST(ObjectBox, OfNoTrianglesIsAbsent) {

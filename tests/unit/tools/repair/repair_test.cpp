@@ -86,6 +86,20 @@ TEST(Repair, OneTurnedTriangleIsTurnedBack) {
     EXPECT_TRUE(is_closed_manifold(mended.report.after));
 }
 
+// Five of twelve: more than a third, and less than the half that would decide.
+TEST(Repair, TheLargerPartDecidesTheWinding) {
+    TestMesh cube = unit_cube();
+    const std::vector<std::uint32_t> turned = {1, 2, 5, 8, 9};
+    for (const std::uint32_t t : turned) {
+        std::swap(cube.triangles[t].vertex[1], cube.triangles[t].vertex[2]);
+    }
+    const Repaired mended = repaired(soup_of(cube), "safe");
+    ASSERT_NE(step_of(mended.report, RepairStep::orient), nullptr);
+    EXPECT_EQ(step_of(mended.report, RepairStep::orient)->reversed, turned);
+    EXPECT_EQ(mended.report.counts.reversed, 5U);
+    EXPECT_EQ(mended.report.after.verdict.volume, 1.0);
+}
+
 TEST(Repair, BadNumbersAndRepeatedCornersAreListedAndDropped) {
     TriangleSoup soup = soup_of(unit_cube());
     soup.positions.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
@@ -193,15 +207,18 @@ TEST(Repair, TrianglesWithoutAnyVertexAreDropped) {
 }
 
 TEST(Repair, ADuplicateNamesTheTriangleThatStays) {
-    TestMesh sheet = test::grid_sheet(2, 2);
-    sheet.triangles.push_back(test::Triangle(sheet.triangles[3]));
-    const Repaired mended = repaired(soup_of(sheet), "safe");
-    const StepReport* step = step_of(mended.report, RepairStep::drop_duplicates);
-    ASSERT_NE(step, nullptr);
-    ASSERT_EQ(step->dropped.size(), 1U);
-    EXPECT_EQ(step->dropped[0].source, 8U);
-    EXPECT_EQ(step->dropped[0].because, 3U);
-    EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+    const TestMesh sheet = test::grid_sheet(2, 2);
+    for (std::uint32_t t = 0; t < sheet.triangles.size(); ++t) {
+        TestMesh twice = sheet;
+        twice.triangles.push_back(sheet.triangles[t]);
+        const Repaired mended = repaired(soup_of(twice), "safe");
+        const StepReport* step = step_of(mended.report, RepairStep::drop_duplicates);
+        ASSERT_NE(step, nullptr);
+        ASSERT_EQ(step->dropped.size(), 1U);
+        EXPECT_EQ(step->dropped[0].source, 8U);
+        EXPECT_EQ(step->dropped[0].because, t);
+        EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+    }
 }
 
 // Cubes that share an edge: four triangles around it. Both stay whole and closed.
