@@ -78,6 +78,20 @@ TEST(ReadPly, TextHasPropertiesInAnyOrderBetweenOtherElements) {
     EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{2, 1, 0}}, {{0, 1, 2}}}));
 }
 
+// The quick way to read x, y, z takes three numbers in a row.
+TEST(ReadPly, TextMayHaveAPropertyBetweenYAndZ) {
+    for (const bool is_after : {false, true}) {
+        const std::string other = "property float w\n";
+        const std::string z = "property float z\n";
+        const TriangleSoup s = kPlyReader.soup(
+            header("ascii", "element vertex 3\nproperty float x\nproperty float y\n" +
+                                (is_after ? z + other : other + z) + "element face 1\n" + kFaces) +
+            (is_after ? "1 2 3 9\n4 5 6 9\n7 8 9 9\n" : "1 2 9 3\n4 5 9 6\n7 8 9 9\n") +
+            "3 0 1 2\n");
+        EXPECT_EQ(s.positions, (std::vector<Double3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
+    }
+}
+
 /// A file with extra elements and properties, in either byte order.
 std::string binary(bool big) {
     std::string bytes =
