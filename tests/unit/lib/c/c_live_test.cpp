@@ -76,7 +76,7 @@ private:
     cdprep_live* live_ = nullptr;
 };
 
-AlignedBytes baked(const TestMesh& mesh) {
+AlignedBytes file_of(const TestMesh& mesh) {
     return bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true});
 }
 
@@ -106,7 +106,7 @@ TEST(CLiveModel, EveryQuestionGetsTheAnswerOfABake) {
     const CWorkspace workspace;
     for (const std::uint32_t room : {0U, 2000U}) {
         const TestMesh ball = icosphere(3);
-        const AlignedBytes file = baked(ball);
+        const AlignedBytes file = file_of(ball);
         const CModel base(file);
         CLive live(options_for(base.get(), room));
         EXPECT_EQ(live.info().triangles, ball.triangles.size());
@@ -116,7 +116,7 @@ TEST(CLiveModel, EveryQuestionGetsTheAnswerOfABake) {
         TestMesh shape = ball;
         for (Double3& p : shape.positions) p = {2 * p.x, p.y + 0.25 * p.z, p.z};
         live.move({}, shape.positions, workspace.get());
-        const AlignedBytes moved = baked(shape);
+        const AlignedBytes moved = file_of(shape);
         const CModel expected(moved);
         cdprep_model_info info{};
         ASSERT_EQ(cdprep_model_describe(live.model(), &info, nullptr), CDPREP_OK);
@@ -145,7 +145,7 @@ TEST(CLiveModel, EveryQuestionGetsTheAnswerOfABake) {
 TEST(CLiveModel, ARebuildKeepsNumbersAndCorners) {
     const CWorkspace workspace;
     TestMesh cloud = random_soup(5, 2000, 0.02);
-    const AlignedBytes file = baked(cloud);
+    const AlignedBytes file = file_of(cloud);
     const CModel base(file);
     CLive live(options_for(base.get()));
     std::uint32_t seed = 1;
@@ -167,7 +167,7 @@ TEST(CLiveModel, ARebuildKeepsNumbersAndCorners) {
 
 // While a task of the caller runs, no other call may change or describe the live model.
 TEST(CLiveModel, AChangeRefusesAllOtherCalls) {
-    const AlignedBytes file = baked(icosphere(4));
+    const AlignedBytes file = file_of(icosphere(4));
     const CModel base(file);
     CLive live(options_for(base.get(), 6000));
     struct Intruder {
@@ -209,7 +209,7 @@ TEST(CLiveModel, AChangeRefusesAllOtherCalls) {
 TEST(CLiveModel, TrianglesComeAndGoByTheirNumbers) {
     const CWorkspace workspace;
     const TestMesh sheet = grid_sheet(8, 8);
-    const AlignedBytes file = baked(sheet);
+    const AlignedBytes file = file_of(sheet);
     const CModel base(file);
     CLive live(options_for(base.get(), 200, 100));
     const auto count = static_cast<std::uint32_t>(sheet.triangles.size());
@@ -282,7 +282,7 @@ protected:
 
     CWorkspace workspace_;
     TestMesh ball_ = icosphere(1);
-    AlignedBytes file_ = baked(ball_);
+    AlignedBytes file_ = file_of(ball_);
     CModel base_{file_};
     CLive live_{options_for(base_.get(), 100, 60)};
 };

@@ -20,7 +20,7 @@ namespace {
 
 using format::Triangle;
 
-build::ModelArrays arrays_of(const TestMesh& mesh) {
+build::ModelArrays tearable_arrays(const TestMesh& mesh) {
     return build::build_model(mesh.positions, mesh.triangles, {.bounds = build::BvhBounds::aligned})
         .value();
 }
@@ -66,7 +66,7 @@ struct Torn {
 };
 
 Torn tear(const TestMesh& mesh, const LiveLimits& limits) {
-    const build::ModelArrays arrays = arrays_of(mesh);
+    const build::ModelArrays arrays = tearable_arrays(mesh);
     AlignedBytes memory(LiveModel::bytes(arrays, limits).value());
     auto made = LiveModel::in(memory.span(), arrays, limits);
     Torn torn{std::move(memory), std::move(made).value(), mesh.positions, {}};
@@ -371,8 +371,8 @@ TEST(LiveTear, WhatCannotBeDoneIsRefusedByNumberAndChangesNothing) {
     EXPECT_EQ(sentence(object.image()).find("A live model that can tear has places"), 0U);
     EXPECT_TRUE(std::ranges::equal(before.span(), torn.memory.span()));
 
-    AlignedBytes memory(LiveModel::bytes(arrays_of(ball)).value());
-    auto whole = LiveModel::in(memory.span(), arrays_of(ball));
+    AlignedBytes memory(LiveModel::bytes(tearable_arrays(ball)).value());
+    auto whole = LiveModel::in(memory.span(), tearable_arrays(ball));
     const std::vector<std::uint32_t> first = {0};
     for (const std::string& each :
          {sentence(whole.value().append(four)), sentence(whole.value().remove(first))}) {
@@ -428,7 +428,7 @@ TEST(LiveTear, ABaseMayBeEmptyOrLackComponents) {
 }
 
 TEST(LiveTear, LimitsThatDoNotFitAreRefused) {
-    const build::ModelArrays arrays = arrays_of(icosphere(1));
+    const build::ModelArrays arrays = tearable_arrays(icosphere(1));
     const auto refused = [&](const LiveLimits& limits) {
         return LiveModel::bytes(arrays, limits).error().message;
     };
