@@ -183,6 +183,12 @@ private:
     }
     void put(std::uint32_t place, const NumberedTriangle& added);
     void take_out(std::uint32_t place);
+    /// Adds to the counts of the subtrees around a place.
+    void count_at(std::uint32_t place, std::int32_t by);
+    /// Returns the number of places of a subtree that stay free, so that the next redistribution is
+    /// far off.
+    [[nodiscard]] std::uint64_t to_be_free(std::uint64_t places, std::uint32_t level) const;
+    [[nodiscard]] bool has_room(std::uint32_t level, std::uint32_t node) const;
     [[nodiscard]] std::uint32_t nearest_leaf(const format::Triangle& triangle) const;
     /// Returns the smallest subtree around a leaf that has enough free places for one more.
     [[nodiscard]] LeafRange find_room_around(std::uint32_t leaf) const;

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <cstring>
+#include <limits>
 #include <string>
 
 #include "build/bad_argument.h"
@@ -46,10 +46,15 @@ std::uint64_t hash_of(std::uint32_t id, const Triangle& triangle) {
     return hash ^ (hash >> 32);
 }
 
-/// Returns half the sum of the edges by which a box of a node grows with a triangle's box.
+/// Returns a quarter of the sum of the edges by which a box of a node grows with a triangle's box.
 float growth(const BvhNode& node, std::size_t box, const std::array<build::Interval, 3>& around) {
+    const bool is_empty = node.lower[0][box] > node.upper[0][box];
     float sum = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (is_empty) {
+            sum += around[axis].upper - around[axis].lower;
+            continue;
+        }
         sum += std::max(0.0F, node.lower[axis][box] - around[axis].lower) +
                std::max(0.0F, around[axis].upper - node.upper[axis][box]);
     }
@@ -82,6 +87,7 @@ void LiveModel::State::start_to_tear(const LiveBase& base, const LiveLimits& lim
             continue;
         }
         tables.users.add(place, triangles[place]);
+        count_at(place, 1);
         tear.ids.set(source_triangle[place], place);
         tear.hash += hash_of(source_triangle[place], triangles[place]);
     }
@@ -218,6 +224,7 @@ void LiveModel::State::put(std::uint32_t place, const NumberedTriangle& added) {
     if (!tables.tear) return;
     tables.tear->lanes[place / kBvhWidth] |= static_cast<std::uint8_t>(1U << (place % kBvhWidth));
     tables.tear->ids.set(added.number, place);
+    count_at(place, 1);
 }
 
 void LiveModel::State::take_out(std::uint32_t place) {
@@ -226,6 +233,28 @@ void LiveModel::State::take_out(std::uint32_t place) {
     tables.tear->lanes[place / kBvhWidth] &=
         static_cast<std::uint8_t>(~(1U << (place % kBvhWidth)));
     triangles[place] = kNoTriangle;
+    count_at(place, -1);
+}
+
+void LiveModel::State::count_at(std::uint32_t place, std::int32_t by) {
+    const format::BvhShape& shape = model.bvh().shape;
+    for (std::uint32_t level = kCountedLevel; level < shape.levels; ++level) {
+        tables.tear->taken[shape.first[level] + (place >> (3 * (level + 2)))] +=
+            static_cast<std::uint32_t>(by);
+    }
+}
+
+std::uint64_t LiveModel::State::to_be_free(std::uint64_t places, std::uint32_t level) const {
+    return places * (level + 1) / (kFreeShare * model.bvh().shape.levels);
+}
+
+bool LiveModel::State::has_room(std::uint32_t level, std::uint32_t node) const {
+    if (level < kCountedLevel) return true;
+    const std::uint32_t bits = 3 * (level + 2);  // of the places of a whole subtree
+    const std::uint64_t first = std::uint64_t{node} << bits;
+    const std::uint64_t places = std::min<std::uint64_t>(triangles.size() - first, 1ULL << bits);
+    const std::uint32_t taken = tables.tear->taken[model.bvh().shape.first[level] + node];
+    return taken + to_be_free(places, level) < places;
 }
 
 std::uint32_t LiveModel::State::nearest_leaf(const Triangle& triangle) const {
@@ -244,10 +273,12 @@ std::uint32_t LiveModel::State::nearest_leaf(const Triangle& triangle) const {
         const BvhNode& node = nodes[shape.first[level] + place];
         const std::uint32_t used = shape.used_boxes(level, place);
         std::uint32_t best = 0;
-        float least = growth(node, 0, around);
-        for (std::uint32_t box = 1; box < used; ++box) {
+        float least = std::numeric_limits<float>::infinity();
+        for (std::uint32_t box = 0; box < used; ++box) {
             const float grown = growth(node, box, around);
             if (grown >= least) continue;
+            // A large subtree without room would have to be distributed as a whole.
+            if (level > 0 && !has_room(level - 1, place * kBvhWidth + box)) continue;
             least = grown;
             best = box;
         }
@@ -266,8 +297,7 @@ LeafRange LiveModel::State::find_room_around(std::uint32_t leaf) const {
         range.last = std::min(range.first + size, shape.leaf_count);
         const std::uint64_t count = std::uint64_t{count_in(range)} + 1;
         const std::uint64_t places = std::uint64_t{range.last - range.first} * kBvhWidth;
-        const std::uint64_t to_be_free = places * (level + 1) / (kFreeShare * shape.levels);
-        if (count + to_be_free <= places) break;
+        if (count + to_be_free(places, level) <= places) break;
     }
     return range;
 }

@@ -183,6 +183,7 @@ public:
         std::ranges::copy(mesh.triangles, corners);
         rtcSetGeometryBuildQuality(geometry_, RTC_BUILD_QUALITY_REFIT);
         rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
+        rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);  // else it builds anew
         rtcCommitGeometry(geometry_);
         rtcAttachGeometry(scene_, geometry_);
         rtcCommitScene(scene_);
