@@ -23,7 +23,6 @@ using format::Double3;
 using format::Float3;
 using format::kBvhWidth;
 using format::SectionId;
-using format::Triangle;
 
 /// Returns the facts without swept spheres, which a live model omits.
 format::FileHeader facts_of(format::FileHeader base) {
@@ -252,7 +251,7 @@ void LiveStart::place_triangles(const LiveBase& base) {
             const std::size_t at =
                 count == 0 ? std::min(first, items.size() - 1) : first + std::min(lane, count - 1);
             const std::uint32_t from = items[at].from;
-            const std::size_t place = leaf * kBvhWidth + lane;
+            const std::size_t place = std::size_t{leaf} * kBvhWidth + lane;
             source_triangle_[place] = base.source_triangle[from];
             for (std::size_t k = 0; k < 3; ++k) {
                 triangles_[place].vertex[k] = base.source_vertex[base.triangles[from].vertex[k]];

@@ -55,9 +55,9 @@ struct LiveTables {
             (std::size_t{counts.places} + format::kBvhWidth - 1) / format::kBvhWidth;
         const std::size_t subtrees = (leaves + kSubtreeLeaves - 1) / kSubtreeLeaves;
         const std::size_t most =
-            counts.can_tear
-                ? counts.places
-                : std::min<std::size_t>(counts.places, kSubtreeLeaves * format::kBvhWidth);
+            counts.can_tear ? counts.places
+                            : std::min<std::size_t>(
+                                  counts.places, std::size_t{kSubtreeLeaves} * format::kBvhWidth);
         built_cost = {carver.take<float>(subtrees), subtrees};
         growth = {carver.take<float>(subtrees), subtrees};
         items = {carver.take<SpreadItem>(most), most};

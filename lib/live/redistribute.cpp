@@ -47,7 +47,8 @@ void LiveModel::State::redistribute(const LeafRange& range, const NumberedTriang
         const std::size_t last = first_in_leaf(count, leaf + 1, leaf_count, fill);
         assert(last - first <= kBvhWidth);
         for (std::size_t i = first; i < last; ++i) {
-            put(static_cast<std::uint32_t>((range.first + leaf) * kBvhWidth + (i - first)),
+            const std::size_t place = std::size_t{range.first + leaf} * kBvhWidth + (i - first);
+            put(static_cast<std::uint32_t>(place),
                 {tables.item_triangles[items[i].from], items[i].id});
         }
     }

@@ -121,7 +121,7 @@ std::optional<Error> LiveModel::State::find_fault(std::span<const Triangle> adde
                             ", and no number may exceed " + std::to_string(kIdLimit) +
                             ": build a new live model.");
     }
-    if (const auto fault = build::find_bad_triangle(tables.vertex_of.size(), added)) return fault;
+    if (auto fault = build::find_bad_triangle(tables.vertex_of.size(), added)) return fault;
     for (std::size_t i = 0; i < added.size(); ++i) {
         for (const std::uint32_t vertex : added[i].vertex) {
             if (tables.vertex_of[vertex] != kUnusedVertex) continue;
