@@ -113,6 +113,10 @@ int make(Call& call, const Asked& asked, const Given& given, cdprep_live** to) {
 }
 
 int check_move(Call& call, const cdprep_live_move& move) noexcept {
+    if (move.count > format::kMaxVertices) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, kMoved.of("count"),
+                           "is %zu; it must be at most %u.", move.count, format::kMaxVertices);
+    }
     const bool has_doubles = move.positions != nullptr;
     const bool has_floats = move.positions_f32 != nullptr;
     if (move.count > 0 && !has_doubles && !has_floats) {

@@ -62,5 +62,14 @@ struct TestMesh {
 [[nodiscard]] TestMesh reversed(TestMesh mesh);
 /// Returns the mesh with coordinates rounded to floats, so that single precision loses nothing.
 [[nodiscard]] TestMesh in_floats(TestMesh mesh);
+/// Returns the positions of a mesh, rounded to floats.
+[[nodiscard]] inline std::vector<format::Float3> floats_of(const TestMesh& mesh) {
+    std::vector<format::Float3> floats;
+    for (const Double3& p : mesh.positions) {
+        floats.push_back(
+            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    }
+    return floats;
+}
 
 }  // namespace cdprep::test

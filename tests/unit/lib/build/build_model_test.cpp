@@ -28,15 +28,6 @@ AlignedBytes image_of(const ModelArrays& arrays) {
     return memory;
 }
 
-std::vector<Float3> floats_of(const TestMesh& mesh) {
-    std::vector<Float3> floats;
-    for (const Double3& p : mesh.positions) {
-        floats.push_back(
-            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-    }
-    return floats;
-}
-
 // The deep check proves boxes, order, and marks of repeated corners in exact arithmetic.
 TEST(BuildModel, EveryMeshBecomesAModelInWhichNothingIsWrong) {
     for (const TestMesh& mesh :

@@ -168,7 +168,7 @@ TEST(CBuild, NoFloatingPointEnvironmentChangesAByte) {
     }
 }
 
-std::vector<float> floats_of(const TestMesh& mesh) {
+std::vector<float> numbers_of(const TestMesh& mesh) {
     std::vector<float> floats;
     for (const Double3& p : mesh.positions) {
         for (const double x : {p.x, p.y, p.z}) floats.push_back(static_cast<float>(x));
@@ -179,7 +179,7 @@ std::vector<float> floats_of(const TestMesh& mesh) {
 // Rounding to floats is what the caller would have done.
 TEST(CBuild, FloatsAndRoundedDoublesMakeOneModel) {
     const TestMesh mesh = turned(icosphere(3), 0.7);
-    const std::vector<float> floats = floats_of(mesh);
+    const std::vector<float> floats = numbers_of(mesh);
     const CWorkspace workspace;
     cdprep_build_options options = build_options_of(mesh);
     const CBuilt doubles(options, workspace.get());

@@ -141,7 +141,7 @@ TEST(CLiveModel, EveryQuestionGetsTheAnswerOfABake) {
     }
 }
 
-// Triangles part, and a rebuild gives them other places: they keep their numbers and corners.
+// Triangles move apart, and a rebuild gives them other places. Numbers and corners stay.
 TEST(CLiveModel, ARebuildKeepsNumbersAndCorners) {
     const CWorkspace workspace;
     TestMesh cloud = random_soup(5, 2000, 0.02);
@@ -330,6 +330,8 @@ TEST_F(CLiveHostile, MovesAreCheckedFieldByField) {
                    "moved.positions[2]"});
     all.push_back({"far", [](M& m) { m.positions = far.data(); }, CDPREP_WHY_OUT_OF_RANGE,
                    "moved.positions[1]"});
+    all.push_back(
+        {"many", [](M& m) { m.count = SIZE_MAX; }, CDPREP_WHY_OUT_OF_RANGE, "moved.count"});
     all.push_back({"few", [](M& m) { m.count = 41; }, CDPREP_WHY_OUT_OF_RANGE, "moved"});
     all.push_back({"no such vertex",
                    [](M& m) {

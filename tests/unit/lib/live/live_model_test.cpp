@@ -52,15 +52,6 @@ ModelArrays arrays_of(const TestMesh& mesh) {
         .value();
 }
 
-std::vector<Float3> floats_of(const TestMesh& mesh) {
-    std::vector<Float3> floats;
-    for (const Double3& p : mesh.positions) {
-        floats.push_back(
-            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-    }
-    return floats;
-}
-
 TestMesh sheared(TestMesh mesh, double by) {
     for (Double3& p : mesh.positions) p.x += by * p.z;
     return mesh;
@@ -514,7 +505,7 @@ TEST(LiveModel, ARebuildMakesBoxesSmallerAndChangesNoAnswer) {
     const OpenModel other = open_tiny(icosphere(3), {.double_precision = true});
     Running moving = run(arrays_of(cloud));
     EXPECT_EQ(moving.object.rebuild(1'000'000), 0U);
-    TestMesh shape = cloud;  // neighbours have parted
+    TestMesh shape = cloud;  // former neighbours are far apart
     std::mt19937 random(8);
     std::normal_distribution<double> normal(0, 0.2);
     for (const format::Triangle& t : cloud.triangles) {
