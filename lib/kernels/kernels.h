@@ -110,6 +110,12 @@ struct LeafPair {
     std::uint8_t used_b;
 };
 
+/// The numbers of the vertices of two leaves of one tree: [corner][lane].
+struct CornerNumbers {
+    const std::uint32_t* a;
+    const std::uint32_t* b;
+};
+
 /// The meaning of the stored coordinates of one model's leaves. A leaf's middle m is at
 /// (origin - frame_origin) * scale in pair units. Its corners are at m plus
 /// (corner - middle) * scale. Here middle is the leaf's origin or, for corners that are stored
@@ -318,10 +324,9 @@ struct Table {
                                  std::size_t count, LeafScratch& scratch) noexcept;
 
     /// As above, for leaves of one tree against each other and triangles without a common vertex.
-    /// For a leaf against itself, finds pairs with a < b. `corners` has the numbers of the
-    /// triangles' vertices, [leaf][corner][lane]; LeafPair has the numbers of leaves.
+    /// For a leaf against itself, finds pairs with a < b. `corners` has an element for each pair.
     std::size_t (*find_own_contacts)(const LeafPlacement& placement, const LeafPair* pairs,
-                                     std::size_t count, const std::uint32_t* corners,
+                                     std::size_t count, const CornerNumbers* corners,
                                      LeafScratch& scratch) noexcept;
 
     /// Prepares a node of B for cells_met(). The slack must cover the rounding of both functions.

@@ -353,7 +353,8 @@ inline std::size_t end_of_run(const LeafPair* pairs, std::size_t first,
 /// Leaves of two models: no pair of triangles is excluded.
 struct NothingLeftOut {
     template <class R>
-    static unsigned lanes(const LeafPair& /*pair*/, RowPair /*at*/) noexcept {
+    static unsigned lanes(const LeafPair* /*pairs*/, std::size_t /*index*/,
+                          RowPair /*at*/) noexcept {
         return 0;
     }
 };
@@ -361,14 +362,16 @@ struct NothingLeftOut {
 /// Leaves of one tree: excludes triangles with a common vertex and, for a leaf against itself,
 /// duplicate pairs.
 struct NeighboursLeftOut {
-    const std::uint32_t* corners;  ///< numbers of vertices: [leaf][corner][lane]
+    const CornerNumbers* corners;  ///< of each pair of leaves
 
     /// Returns the triangles of A excluded with one of B. Eight bits a row.
     template <class R>
-    [[nodiscard]] unsigned lanes(const LeafPair& pair, RowPair at) const noexcept {
+    [[nodiscard]] unsigned lanes(const LeafPair* pairs, std::size_t index,
+                                 RowPair at) const noexcept {
         assert(corners != nullptr);
-        const std::uint32_t* a = corners + std::size_t{pair.number_a} * 3 * kLanes;
-        const std::uint32_t* b = corners + std::size_t{pair.number_b} * 3 * kLanes;
+        const LeafPair& pair = pairs[index];
+        const std::uint32_t* a = corners[index].a;
+        const std::uint32_t* b = corners[index].b;
         typename R::Mask shared = R::none();
         for (std::size_t j = 0; j < 3; ++j) {
             const typename R::Index number = R::spread_number(b + kLanes * j, at);
@@ -406,7 +409,7 @@ std::size_t find_candidates(const LeafPlacement& placement, const LeafPair* pair
         while (rows != 0) {
             const RowPair at = take_rows<R>(rows);
             const unsigned near = row_candidates(a, b, factors, at);
-            const unsigned wanted = near & ~left_out.template lanes<R>(pairs[i], at);
+            const unsigned wanted = near & ~left_out.template lanes<R>(pairs, i, at);
             candidates = append_rows<R>(static_cast<unsigned>(i), at, wanted, pairs[i].used_a,
                                         scratch.candidate, candidates);
         }
@@ -451,7 +454,7 @@ std::size_t find_contacts_of(const LeafPlacement& placement, const LeafPair* pai
 /// The body of find_own_contacts().
 template <class F, class R, class W>
 std::size_t find_own_contacts_of(const LeafPlacement& placement, const LeafPair* pairs,
-                                 std::size_t count, const std::uint32_t* corners,
+                                 std::size_t count, const CornerNumbers* corners,
                                  LeafScratch& scratch) noexcept {
     return find_contacts_but<F, R, W>(placement, pairs, count, NeighboursLeftOut{corners}, scratch);
 }

@@ -33,10 +33,9 @@ struct LeafLanes {
 class UsedLanes {
 public:
     explicit UsedLanes(const Model& model) noexcept
-        : lanes_(model.bvh().lanes.data()),
-          last_((model.triangle_count() - 1) / format::kBvhWidth),
-          used_in_last_(static_cast<std::uint8_t>(
-              (2U << ((model.triangle_count() - 1) % format::kBvhWidth)) - 1)) {}
+        : UsedLanes(model.triangle_count(), model.bvh().lanes.data()) {}
+    explicit UsedLanes(const build::Bvh& tree) noexcept
+        : UsedLanes(static_cast<std::uint32_t>(tree.order.size()), nullptr) {}
 
     [[nodiscard]] std::uint8_t operator()(std::uint32_t leaf) const noexcept {
         if (lanes_ != nullptr) return lanes_[leaf];
@@ -44,6 +43,12 @@ public:
     }
 
 private:
+    UsedLanes(std::uint32_t triangles, const std::uint8_t* lanes) noexcept
+        : lanes_(lanes),
+          last_((triangles - 1) / format::kBvhWidth),
+          used_in_last_(
+              static_cast<std::uint8_t>((2U << ((triangles - 1) % format::kBvhWidth)) - 1)) {}
+
     const std::uint8_t* lanes_;  ///< or null: the model cannot tear
     std::uint32_t last_;
     std::uint8_t used_in_last_;
@@ -71,6 +76,19 @@ public:
           placement_(place_leaves(a, b, placed)) {
         scratch_.leaf_scratch.begin();
     }
+    /// For pairs of leaves of one tree. Answers are in its order.
+    LeafBatch(const build::Bvh& tree, const PlacedBoxes& placed,
+              Workspace::Storage& scratch) noexcept
+        : scratch_(scratch),
+          leaves_a_(tree.leaves.data()),
+          leaves_b_(tree.leaves.data()),
+          used_a_(tree),
+          used_b_(tree),
+          source_a_(nullptr),
+          source_b_(nullptr),
+          placement_(place_leaves(tree, placed)) {
+        scratch_.leaf_scratch.begin();
+    }
 
     [[nodiscard]] bool full() const noexcept {
         return count_ == kernels::kLeafBatch;
@@ -96,6 +114,15 @@ public:
         kernels::LeafPair& pair = scratch_.leaf_pairs[count_ - 1];
         pair.used_a &= lanes_a;
         pair.used_b &= lanes_b;
+    }
+    /// As above, for flush_own(). `numbers` must stay until then. A walk of one tree meets few
+    /// leaves in a row, so only B's is prefetched.
+    void add(std::uint32_t leaf_a, std::uint32_t leaf_b,
+             const kernels::CornerNumbers& numbers) noexcept {
+        assert(!full());
+        prefetch(&leaves_b_[leaf_b]);
+        scratch_.corner_numbers[count_] = numbers;
+        set_pair(count_++, leaf_a, leaf_b);
     }
     /// Returns a view of some triangles of a leaf.
     [[nodiscard]] LeafView view_a(const LeafLanes& in_a) const noexcept {
@@ -133,25 +160,24 @@ public:
                                   bool certain) { return found(at_a, at_b, certain); });
     }
 
+    /// As flush(), for leaves of one tree that were all added with the numbers of their vertices.
+    /// Leaves out pairs with a common vertex. Of a leaf and itself, it gives each pair once.
+    template <class Found>
+    bool flush_own(Found&& found) noexcept {
+        const std::size_t contacts = kernels::active().find_own_contacts(
+            placement_, scratch_.leaf_pairs.data(), count_, scratch_.corner_numbers.data(),
+            scratch_.leaf_scratch);
+        return hand_over(contacts, [&](std::size_t /*pair*/, std::uint32_t at_a, std::uint32_t at_b,
+                                       bool certain) { return found(at_a, at_b, certain); });
+    }
+
     /// As flush(), by found(pair, triangle_a, triangle_b, certain) with the number of the pair of
     /// leaves. Triangles of one pair of leaves are consecutive.
     template <class Found>
     bool flush_numbered(Found&& found) noexcept {
         const std::size_t contacts = kernels::active().find_contacts(
             placement_, scratch_.leaf_pairs.data(), count_, scratch_.leaf_scratch);
-        ++scratch_.leaf_batch;
-        if (scratch_.counts != nullptr) count_batch(*scratch_.counts, count_);
-        count_ = 0;
-        for (std::size_t i = 0; i < contacts; ++i) {
-            const kernels::TriangleContactLanes& contact = scratch_.leaf_scratch.found[i];
-            assert(contact.pair < kernels::kLeafBatch);
-            assert(contact.a < format::kBvhWidth && contact.b < format::kBvhWidth);
-            const kernels::LeafPair& pair = scratch_.leaf_pairs[contact.pair];
-            const std::uint32_t at_a = pair.number_a * format::kBvhWidth + contact.a;
-            const std::uint32_t at_b = pair.number_b * format::kBvhWidth + contact.b;
-            if (!found(std::size_t{contact.pair}, at_a, at_b, contact.certain)) return false;
-        }
-        return true;
+        return hand_over(contacts, found);
     }
 
     /// Empties the batch. Calls found(triangle_a, triangle_b, gap), tree order, for every pair of
@@ -190,6 +216,23 @@ public:
     }
 
 private:
+    /// Empties the batch, of which a kernel found so many contacts.
+    template <class Found>
+    bool hand_over(std::size_t contacts, Found&& found) noexcept {
+        ++scratch_.leaf_batch;
+        if (scratch_.counts != nullptr) count_batch(*scratch_.counts, count_);
+        count_ = 0;
+        for (std::size_t i = 0; i < contacts; ++i) {
+            const kernels::TriangleContactLanes& contact = scratch_.leaf_scratch.found[i];
+            assert(contact.pair < kernels::kLeafBatch);
+            assert(contact.a < format::kBvhWidth && contact.b < format::kBvhWidth);
+            const kernels::LeafPair& pair = scratch_.leaf_pairs[contact.pair];
+            const std::uint32_t at_a = pair.number_a * format::kBvhWidth + contact.a;
+            const std::uint32_t at_b = pair.number_b * format::kBvhWidth + contact.b;
+            if (!found(std::size_t{contact.pair}, at_a, at_b, contact.certain)) return false;
+        }
+        return true;
+    }
     static kernels::LeafPair pair_of(const LeafView& in_a, const LeafView& in_b) noexcept {
         return {in_a.leaf, in_b.leaf, in_a.number, in_b.number, in_a.used, in_b.used};
     }

@@ -74,6 +74,18 @@ struct GatheredLeaves {
     std::array<std::uint64_t, kernels::kLeafPlaces> wanted{};  ///< stays until this batch's test
 };
 
+/// Numbers of the vertices of leaves, by leaf modulo kLeafPlaces.
+struct GatheredNumbers {
+    static constexpr std::uint32_t kNoLeaf = 0xffffffffU;
+
+    /// [corner][lane]
+    std::array<std::array<std::uint32_t, std::size_t{3} * format::kBvhWidth>, kernels::kLeafPlaces>
+        numbers;
+    std::array<std::uint32_t, kernels::kLeafPlaces> holds;  ///< leaf, or kNoLeaf
+    std::uint64_t taken;                                    ///< places that this batch uses
+};
+static_assert(kernels::kLeafPlaces <= 64);
+
 /// Each step takes at least one side a level down.
 inline constexpr std::size_t kMaxOpenSteps = std::size_t{2} * (format::kMaxBvhLevels + 1);
 
@@ -147,6 +159,8 @@ struct Workspace::Storage {
     std::array<std::uint64_t, kMaxFrontier> frontier_later;
     std::array<BoundedPlace, kMaxBoundedPlaces> bounded;
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
+    std::array<kernels::CornerNumbers, kernels::kLeafBatch> corner_numbers;  ///< of leaf_pairs
+    std::array<GatheredNumbers, 2> gathered_numbers;
     SortScratch sort_scratch;
     std::array<NearPieces, kMaxNearPieces> near_pieces;
     std::array<PlacedHull, 2> placed_hulls;  ///< of A and B

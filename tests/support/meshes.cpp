@@ -2,6 +2,7 @@
 #include "support/meshes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -266,6 +267,17 @@ TestMesh turned(TestMesh mesh, double angle) {
     for (Double3& p : mesh.positions) {
         p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
         p = {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
+    }
+    return mesh;
+}
+
+TestMesh with_shared_vertices(TestMesh mesh) {
+    std::map<std::array<double, 3>, std::uint32_t> first;
+    for (Triangle& triangle : mesh.triangles) {
+        for (std::uint32_t& vertex : triangle.vertex) {
+            const Double3& p = mesh.positions[vertex];
+            vertex = first.emplace(std::array{p.x, p.y, p.z}, vertex).first->second;
+        }
     }
     return mesh;
 }

@@ -58,6 +58,8 @@ struct TestMesh {
 /// Returns the mesh rotated by an angle about the z axis and then about the x axis. No edge of a
 /// box stays parallel to an axis.
 [[nodiscard]] TestMesh turned(TestMesh mesh, double angle);
+/// Returns the mesh with one vertex for all corners at one place.
+[[nodiscard]] TestMesh with_shared_vertices(TestMesh mesh);
 /// Returns the mesh with the winding of every triangle reversed.
 [[nodiscard]] TestMesh reversed(TestMesh mesh);
 /// Returns the mesh with coordinates rounded to floats, so that single precision loses nothing.

@@ -555,6 +555,10 @@ TEST(Kernels, OwnContactsAreContactsOfTrianglesWithoutACommonVertex) {
             const auto used = static_cast<std::uint8_t>(random());
             pair = {leaves[a].data(), leaves[b].data(), a, b, used, used};
         }
+        std::array<CornerNumbers, kLeafBatch> numbers{};
+        for (std::size_t i = 0; i < kLeafBatch; ++i) {
+            numbers[i] = {&corners[pairs[i].number_a * 24], &corners[pairs[i].number_b * 24]};
+        }
         const auto is_left_out = [&](const TriangleContactLanes& c) {
             const LeafPair& pair = pairs[c.pair];
             if (pair.number_a == pair.number_b && c.a >= c.b) return true;
@@ -577,7 +581,7 @@ TEST(Kernels, OwnContactsAreContactsOfTrianglesWithoutACommonVertex) {
                          [&](const auto& contact) { return !is_left_out(contact); });
             neighbours += all - expected.size();
             const std::size_t count = table.find_own_contacts(placement, pairs.data(), kLeafBatch,
-                                                              corners.data(), *scratch);
+                                                              numbers.data(), *scratch);
             ASSERT_EQ(count, expected.size()) << round;
             for (std::size_t i = 0; i < count; ++i) {
                 const TriangleContactLanes& contact = scratch->found[i];
