@@ -33,10 +33,10 @@ class ContactTest {
 public:
     ContactTest(const Model& a, const Model& b, const Placement& placement,
                 const PairOptions& options, QueryCounts* counts) noexcept
-        : a_(moved_a(a, placement)),
-          b_(moved_b(b, placement)),
-          options_(options),
-          counts_(counts) {}
+        : ContactTest(moved_a(a, placement), moved_b(b, placement), options, counts) {}
+    ContactTest(const MovedModel& a, const MovedModel& b, const PairOptions& options,
+                QueryCounts* counts) noexcept
+        : a_(a), b_(b), options_(options), counts_(counts) {}
 
     bool operator()(std::uint32_t at_a, std::uint32_t at_b, bool certain) const noexcept {
         if (skips(at_a, at_b)) return false;

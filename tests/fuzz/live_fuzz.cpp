@@ -93,6 +93,9 @@ public:
         std::vector<TrianglePair> expected = brute_force_pairs(mesh, fixed().mesh, placement);
         for (TrianglePair& pair : expected) pair.a = numbers[pair.a];
         std::sort(expected.begin(), expected.end());
+        std::vector<TrianglePair> own = own_pairs(mesh);
+        for (TrianglePair& each : own) each = {numbers[each.a], numbers[each.b]};
+        MUST(all_own_pairs(live_->model(), fixed().workspace) == own);
         const Pair pair{live_->model(), fixed().model.model, placement, {}, &cache_};
         MUST(all_pairs(pair.a, pair.b, placement, fixed().workspace) == expected);
         MUST((collide(pair, fixed().workspace).hit == Answer::yes) == !expected.empty());

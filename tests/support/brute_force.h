@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "support/meshes.h"
 
 #include "cdprep/pairs.h"
+#include "cdprep/self.h"
 #include "core/moved_model.h"
 #include "exact/triangle_contact.h"
 
@@ -76,6 +78,36 @@ std::vector<TrianglePair> boxed_pairs(const TestMesh& a, const TestMesh& b,
             if (overlap(box_a, boxes_b[j]) && touch(at_a, all_b[j])) pairs.push_back({i, j});
         }
     }
+    return pairs;
+}
+
+inline bool share_a_vertex(const TestMesh& mesh, std::uint32_t a, std::uint32_t b) {
+    const auto& v = mesh.triangles[a].vertex;
+    const auto& w = mesh.triangles[b].vertex;
+    return std::find_first_of(v.begin(), v.end(), w.begin(), w.end()) != v.end();
+}
+
+/// Returns every pair a < b of triangles of one mesh that share no vertex and for which `touch(a,
+/// b)` is true. Calls it only if their boxes meet.
+template <class Touch>
+std::vector<TrianglePair> own_pairs(const TestMesh& mesh, Touch&& touch) {
+    std::vector<TrianglePair> pairs;
+    for (const TrianglePair& pair :
+         boxed_pairs(mesh, mesh, Placement::b_moves({}), std::forward<Touch>(touch))) {
+        if (pair.a < pair.b && !share_a_vertex(mesh, pair.a, pair.b)) pairs.push_back(pair);
+    }
+    return pairs;
+}
+/// The same for the six-segment test.
+inline std::vector<TrianglePair> own_pairs(const TestMesh& mesh) {
+    return own_pairs(mesh, triangles_touch_by_segments);
+}
+
+/// Returns all pairs of one model that the library finds.
+inline std::vector<TrianglePair> all_own_pairs(const Model& model, Workspace& workspace,
+                                               const SelfOptions& options = {}) {
+    std::vector<TrianglePair> pairs(self_overlaps(model, workspace, {}, options));
+    pairs.resize(self_overlaps(model, workspace, pairs, options));
     return pairs;
 }
 

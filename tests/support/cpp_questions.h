@@ -177,6 +177,18 @@ inline const std::vector<Question>& questions() {
                  return visit_crossings(scene.pair(), scene.workspace, take);
              });
          }},
+        {"self_overlaps", Ask::overlap | Ask::corners,
+         [](const Scene& scene) {
+             return told_list<TrianglePair>([&](std::span<TrianglePair> room) {
+                 return self_overlaps(scene.a, scene.workspace, room);
+             });
+         }},
+        {"visit_self_overlaps", Ask::overlap | Ask::corners,
+         [](const Scene& scene) {
+             return told_count<TrianglePair>([&](PairVisitor take) {
+                 return visit_self_overlaps(scene.a, scene.workspace, take);
+             });
+         }},
         {"distance", Ask::distance, distance_by<kSurface, bvh>},
         {"distance solid", Ask::distance | Ask::solid, distance_by<kSolid, bvh>},
         {"distance through pieces", Ask::distance | Ask::pieces, distance_by<kSurface, pieces>},

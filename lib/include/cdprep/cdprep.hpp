@@ -18,5 +18,6 @@
 #include "cdprep/precondition.h"
 #include "cdprep/result.h"
 #include "cdprep/scene.h"
+#include "cdprep/self.h"
 #include "cdprep/visitor.h"
 #include "cdprep/workspace.h"

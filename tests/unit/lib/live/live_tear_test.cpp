@@ -109,6 +109,15 @@ std::size_t expect_same_pairs(const Torn& torn, const Model& other, const TestMe
     return expected.size();
 }
 
+/// Returns the number of pairs of the model itself.
+std::size_t expect_same_own_pairs(const Torn& torn, Workspace& workspace) {
+    const auto [mesh, numbers] = torn.mesh();
+    std::vector<TrianglePair> expected = own_pairs(mesh);
+    for (TrianglePair& pair : expected) pair = {numbers[pair.a], numbers[pair.b]};
+    EXPECT_EQ(all_own_pairs(torn.model(), workspace), expected);
+    return expected.size();
+}
+
 void expect_same_distances(const Torn& torn, const Model& other, const Placement& placement,
                            Workspace& workspace, PairCache& cache) {
     const auto [mesh, numbers] = torn.mesh();
@@ -232,18 +241,20 @@ TEST(LiveTear, AnswersAreThoseOfBruteForceAfterEachChange) {
         Torn torn = tear(icosphere(2), {.triangles = room, .vertices = 500});
         Workspace workspace;
         PairCache cache;
-        std::size_t found = 0;
+        std::size_t found = 0, own = 0;
         for (int step = 0; step < 40; ++step) {
             change(torn, random, room);
             if (step % 5 == 4) static_cast<void>(torn.object.rebuild(1'000'000));
             ASSERT_EQ(torn.object.triangle_count(), torn.triangles.size());
             const Placement placement = Placement::b_moves(random_pose(random, 0.5));
             found += expect_same_pairs(torn, other.model, ring, placement, workspace);
+            own += expect_same_own_pairs(torn, workspace);
             if (step % 8 != 0) continue;
             expect_same_distances(torn, other.model, placement, workspace, cache);
             expect_same_points(torn, workspace, random);
         }
         EXPECT_GT(found, 1000U);
+        EXPECT_GT(own, 1000U);
         // Against itself, moved: both sides have free places.
         const Placement aside = Placement::b_moves(random_pose(random, 0.1));
         const auto [mesh, numbers] = torn.mesh();
@@ -301,6 +312,7 @@ TEST(LiveTear, AModelMayBecomeEmptyAndFillAgain) {
     const Pair pair{torn.model(), other.model, Placement::b_moves({})};
     EXPECT_EQ(torn.model().triangle_count(), 0U);
     EXPECT_EQ(overlaps(pair, workspace, {}), 0U);
+    EXPECT_EQ(self_overlaps(torn.model(), workspace, {}), 0U);
     EXPECT_FALSE(distance(pair, workspace));
     EXPECT_FALSE(closest_point(torn.model(), {0, 0, 0}, workspace));
     std::vector<Double3> far;

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 
 #include "exact/triangle_contact.h"
+#include "support/brute_force.h"
 #include "support/meshes.h"
 
 namespace cdprep {
@@ -16,24 +16,6 @@ namespace {
 Corners corners_of(const test::TestMesh& mesh, std::uint32_t triangle) {
     const auto& v = mesh.triangles[triangle].vertex;
     return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
-}
-
-bool share_a_vertex(const test::TestMesh& mesh, std::uint32_t a, std::uint32_t b) {
-    const auto& v = mesh.triangles[a].vertex;
-    const auto& w = mesh.triangles[b].vertex;
-    return std::find_first_of(v.begin(), v.end(), w.begin(), w.end()) != v.end();
-}
-
-/// Corners at one place become one vertex.
-test::TestMesh welded(test::TestMesh mesh) {
-    std::map<std::array<double, 3>, std::uint32_t> first;
-    for (format::Triangle& triangle : mesh.triangles) {
-        for (std::uint32_t& vertex : triangle.vertex) {
-            const Double3& p = mesh.positions[vertex];
-            vertex = first.emplace(std::array{p.x, p.y, p.z}, vertex).first->second;
-        }
-    }
-    return mesh;
 }
 
 struct VisitedPair {
@@ -108,9 +90,10 @@ TEST(SelfWalk, FindsEveryContactOfTrianglesWithoutACommonVertexOnce) {
     for (const int count : {1, 7, 8, 9, 64, 65, 300}) {
         for (std::uint32_t seed = 1; seed < 5; ++seed) {
             for (const double scale : {1.0, 0x1p-40, 0x1p40}) {
-                expect_all_contacts(test::moved_by(welded(test::coarse_grid_soup(seed, count, 4)),
-                                                   scale, {0, 0, 0}),
-                                    tally);
+                expect_all_contacts(
+                    test::moved_by(with_shared_vertices(test::coarse_grid_soup(seed, count, 4)),
+                                   scale, {0, 0, 0}),
+                    tally);
                 expect_all_contacts(
                     test::moved_by(test::random_soup(seed, count, 1.2), scale, {0, 0, 0}), tally);
             }
@@ -126,9 +109,9 @@ TEST(SelfWalk, MissesNothingFarFromTheOrigin) {
     for (const double away : {1e3, 1e9, 1e14}) {
         expect_all_contacts(test::moved_by(test::random_soup(3, 200, 1.2), 1, {away, -away, 7}),
                             tally);
-        expect_all_contacts(
-            test::moved_by(welded(test::coarse_grid_soup(4, 200, 3)), 0.1, {away, away, -away}),
-            tally);
+        expect_all_contacts(test::moved_by(with_shared_vertices(test::coarse_grid_soup(4, 200, 3)),
+                                           0.1, {away, away, -away}),
+                            tally);
     }
     EXPECT_GT(tally.touching, tally.all / 20);
 }

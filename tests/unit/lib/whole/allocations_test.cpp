@@ -14,6 +14,7 @@
 #include "cdprep/pairs.h"
 #include "cdprep/parallel.h"
 #include "cdprep/points.h"
+#include "cdprep/self.h"
 #include "support/every_structure.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
@@ -167,6 +168,8 @@ TEST(Allocations, NoQuestionAllocates) {
                                workspace, visit);
         }
         mark_overlaps({a, b, placement}, workspace, bits_a, bits_b);
+        static_cast<void>(self_overlaps(a, workspace, std::span(pairs).first(10)));
+        visit_self_overlaps(b, workspace, visit);
         static_cast<void>(distance({a, b, placement}, workspace));
         static_cast<void>(
             distance({a, b, placement, {}, &cache}, workspace, {.relative_error = 0.1}));

@@ -29,6 +29,7 @@
 #include "cdprep/pairs.h"
 #include "cdprep/parallel.h"
 #include "cdprep/points.h"
+#include "cdprep/self.h"
 #include "support/answer_bytes.h"
 #include "support/every_structure.h"
 #include "support/float_modes.h"
@@ -115,6 +116,8 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
     for (const ScaledPair& s : scenes()) {
         const Model &a = s.a.model, &b = s.b.model;
         Workspace workspace(cells());
+        const OpenModel crossed = open_tiny(moved_by(klein_bottle(24, 11), s.scale, {0, 0, 0}),
+                                            {.double_precision = true});
         std::vector<Workspace> workspaces(3);
         std::vector<TrianglePair> pairs(20'000);
         std::vector<std::uint64_t> bits_a(a.triangle_count() / 64 + 1);
@@ -183,6 +186,17 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
                 out.see();
             };
             out.bytes.add(pairs, split_overlaps({a, b, s.placement}, workspaces, run, pairs));
+        });
+        each("self_overlaps", [&](Asked& out) {
+            out.bytes.add(pairs, self_overlaps(crossed.model, workspace, pairs));
+        });
+        each("visit_self_overlaps", [&](Asked& out) {
+            const auto visit = [&](const TrianglePair& pair) {
+                out.see();
+                out.bytes.add(pair);
+                return true;
+            };
+            out.bytes.add(visit_self_overlaps(crossed.model, workspace, visit));
         });
         each("distance_many", [&](Asked& out) {
             const Pair job = {a, b, s.placement};

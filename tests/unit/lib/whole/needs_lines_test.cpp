@@ -132,7 +132,7 @@ std::string function_of(const std::string& row, const Functions& functions, char
 TEST(NeedsLines, OfCppAreWhatTheQuestionsNeed) {
     Functions functions;
     for (const char* header : {"pairs.h", "points.h", "contacts.h", "hulls.h", "parallel.h",
-                               "cells/level_of_detail.h", "cells/overlap_through.h"}) {
+                               "self.h", "cells/level_of_detail.h", "cells/overlap_through.h"}) {
         read_cpp(header, functions);
     }
     Names asked;

@@ -9,6 +9,7 @@
 
 #include "cdprep/pairs.h"
 #include "cdprep/points.h"
+#include "cdprep/self.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
@@ -148,7 +149,7 @@ std::uint64_t ask(std::size_t kind, const Model& a, const Model& b, const Placem
             return collide({a, b, placement, {}, &scratch.cache}, workspace).hit == Answer::yes ? 1
                                                                                                 : 0;
         case 3:
-            return overlaps({a, b, placement}, workspace, {});
+            return overlaps({a, b, placement}, workspace, {}) + self_overlaps(b, workspace, {});
         case 4: {
             const std::size_t count = overlaps({a, b, placement}, workspace, scratch.pairs);
             return folded(scratch.pairs, count);
