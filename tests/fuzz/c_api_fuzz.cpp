@@ -46,7 +46,7 @@ public:
 
     void call() {
         error_.code = 99;
-        switch (draw_.below(15)) {
+        switch (draw_.below(16)) {
             case 0:
                 return collide();
             case 1:
@@ -75,6 +75,8 @@ public:
                 return visit();
             case 13:
                 return build();
+            case 14:
+                return itself();
             default:
                 return open();
         }
@@ -163,6 +165,24 @@ private:
         for (std::size_t i = 0; i < std::min(crossings.count, crossings.room); ++i) {
             MUST(is_finite(crossings_[i].ends[0]) && is_finite(crossings_[i].ends[1]));
         }
+    }
+    void itself() {
+        Longer<cdprep_self_query> given{};
+        cdprep_self_query_init(&given.value, sizeof given.value);
+        given.value.model = models_.any(draw_);
+        if (draw_.one_in(4)) given.value.overlap = draw_.below(3);
+        if (draw_.one_in(4)) given.value.degenerate = draw_.below(3);
+        given.spoil(draw_);
+        cdprep_overlap_list list = {draw_.one_in(8) ? nullptr : overlaps_.data(),
+                                    draw_.below(kRoom + 1), 99};
+        if (!is_answered(cdprep_self_overlaps(&given.value, workspace(), &list, &error_)))
+            MUST(list.count == 0);
+        const auto see = [](void* /*context*/, const cdprep_overlap* found) {
+            MUST(found->a < found->b);
+            return 1;
+        };
+        (void)is_answered(cdprep_self_overlaps_visit(
+            &given.value, workspace(), draw_.one_in(20) ? nullptr : +see, this, &error_));
     }
     void distance() {
         cdprep_nearest nearest{};

@@ -115,6 +115,13 @@ CAnswer overlaps(const CScene& scene) {
     });
 }
 
+inline cdprep_self_query self_of(const CScene& scene) {
+    cdprep_self_query query;
+    cdprep_self_query_init(&query, sizeof query);
+    query.model = scene.a;
+    return query;
+}
+
 template <std::uint32_t kBody, std::uint32_t kThrough>
 CAnswer distance(const CScene& scene) {
     cdprep_pair pair = pair_of(scene);
@@ -273,6 +280,24 @@ inline const std::vector<CQuestion>& c_questions() {
              cdprep_error error;
              const int code = cdprep_crossings(&pair, scene.workspace, &list, &error);
              return told(code, error, list.count == 0, list.count);
+         }},
+        {"self overlaps", CDPREP_ASK_OVERLAP | CDPREP_ASK_CORNERS,
+         [](const CScene& scene) {
+             const cdprep_self_query query = self_of(scene);
+             return told_list<cdprep_overlap, cdprep_overlap_list>(
+                 [&](auto* list, cdprep_error* error) {
+                     return cdprep_self_overlaps(&query, scene.workspace, list, error);
+                 });
+         }},
+        {"self overlaps visit", CDPREP_ASK_OVERLAP | CDPREP_ASK_CORNERS,
+         [](const CScene& scene) {
+             const cdprep_self_query query = self_of(scene);
+             return told_sum([&](std::uint64_t* sum, cdprep_error* error) {
+                 const auto add = [](void* to, const cdprep_overlap* overlap) {
+                     return add_to(to, 1000 + 100 * overlap->a + overlap->b);
+                 };
+                 return cdprep_self_overlaps_visit(&query, scene.workspace, add, sum, error);
+             });
          }},
         {"distance", CDPREP_ASK_DISTANCE, distance<CDPREP_SURFACE, CDPREP_THROUGH_BVH>},
         {"distance solid", CDPREP_ASK_DISTANCE | CDPREP_ASK_SOLID,

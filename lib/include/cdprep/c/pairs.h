@@ -4,7 +4,7 @@
 
 #include "cdprep/c/model.h"
 
-/* Queries about two models.
+/* Queries about two models, and about one model against itself.
  *
  * All answers are exact, and the same on every machine. They are those of exact arithmetic on the
  * vertices as the poses move them (cdprep_pose_move()). A model without triangles touches
@@ -242,6 +242,38 @@ CDPREP_API int cdprep_pairs_within(const cdprep_pair* pair, double tolerance,
 CDPREP_API int cdprep_pairs_within_visit(const cdprep_pair* pair, double tolerance,
                                          cdprep_workspace* workspace, cdprep_overlap_visitor visit,
                                          void* context, cdprep_error* error);
+
+/* --- One model against itself ---------------------------------------------------------------- */
+
+/* A model, and what counts. */
+typedef struct cdprep_self_query {
+    cdprep_head head;
+    const cdprep_model* model;
+    uint32_t overlap;    /* CDPREP_CLOSED */
+    uint32_t degenerate; /* CDPREP_KEEP_DEGENERATE */
+} cdprep_self_query;
+
+CDPREP_API void cdprep_self_query_init(cdprep_self_query* query, size_t size);
+
+/* Lists all pairs of triangles of one model that overlap and share no vertex, sorted by a, then b.
+ * Both are triangles of the model, a < b. If there are more pairs than `room`, the list keeps the
+ * smallest pairs. Exact, for the model's own positions.
+ * Triangles share a vertex if they use one vertex number of the model. A bake merges vertices with
+ * equal positions. Vertices of a live model that come to one position later stay two, and triangles
+ * at them touch. A model built or baked for CDPREP_ASK_OVERLAP alone may lack these numbers.
+ * Takes O(n + pairs) time for typical meshes, O(n^2) in the worst case.
+ * Needs: CDPREP_ASK_OVERLAP, CDPREP_ASK_CORNERS */
+CDPREP_API int cdprep_self_overlaps(const cdprep_self_query* query, cdprep_workspace* workspace,
+                                    cdprep_overlap_list* list, cdprep_error* error);
+
+/* Calls `visit` with each of these pairs once, as it is found, in no particular order. Returns
+ * CDPREP_OK even if the visitor ended the search.
+ * Needs: CDPREP_ASK_OVERLAP, CDPREP_ASK_CORNERS */
+CDPREP_API int cdprep_self_overlaps_visit(const cdprep_self_query* query,
+                                          cdprep_workspace* workspace, cdprep_overlap_visitor visit,
+                                          void* context, cdprep_error* error);
+
+/* --- Batches --------------------------------------------------------------------------------- */
 
 /* Each function runs `count` queries on the lanes of the workspace. The answers are those of single
  * calls, in the same order. All pairs are checked first. If one is invalid, no query runs, and

@@ -125,6 +125,10 @@ PLACE(cdprep_overlap, b, 4);
 SIZE(cdprep_overlap_list, 24);
 PLACE(cdprep_overlap_list, room, 8);
 PLACE(cdprep_overlap_list, count, 16);
+SIZE(cdprep_self_query, 24);
+PLACE(cdprep_self_query, model, 8);
+PLACE(cdprep_self_query, overlap, 16);
+PLACE(cdprep_self_query, degenerate, 20);
 SIZE(cdprep_marks, 40);
 PLACE(cdprep_marks, bits_b, 8);
 PLACE(cdprep_marks, words_a, 16);
@@ -401,6 +405,7 @@ TEST(CAbi, TagsAreWhatTheyWere) {
     EXPECT_EQ(tag_of(cdprep_box_update_init), 0xcd500010U);
     EXPECT_EQ(tag_of(cdprep_live_options_init), 0xcd500011U);
     EXPECT_EQ(tag_of(cdprep_live_move_init), 0xcd500012U);
+    EXPECT_EQ(tag_of(cdprep_self_query_init), 0xcd500013U);
 }
 
 }  // namespace

@@ -514,6 +514,33 @@ TEST_F(CHostile, ShapesAreCheckedFieldByField) {
     });
 }
 
+TEST_F(CHostile, SelfQueriesAreCheckedFieldByField) {
+    using Q = cdprep_self_query;
+    const Q right = detail::self_of({model_.get(), nullptr, 0, nullptr});
+    std::vector<Mistake<Q>> all = struct_mistakes<Q>("query");
+    all.push_back({"model", [](Q& q) { q.model = nullptr; }, CDPREP_WHY_NULL, "query.model"});
+    all.push_back(
+        {"overlap", [](Q& q) { q.overlap = 2; }, CDPREP_WHY_OUT_OF_RANGE, "query.overlap"});
+    all.push_back({"degenerate", [](Q& q) { q.degenerate = 77; }, CDPREP_WHY_OUT_OF_RANGE,
+                   "query.degenerate"});
+    expect_refused(right, all, [&](const Q* query) {
+        cdprep_overlap_list list = {nullptr, 0, 77};
+        cdprep_error error;
+        const int code = cdprep_self_overlaps(query, workspace_.get(), &list, &error);
+        return outcome(code, error, list.count == 0);
+    });
+    cdprep_overlap_list no_items = {nullptr, 5, 77};
+    cdprep_error error;
+    EXPECT_EQ(cdprep_self_overlaps(&right, workspace_.get(), &no_items, &error),
+              CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "list.items");
+    EXPECT_EQ(cdprep_self_overlaps(&right, nullptr, &no_items, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "workspace");
+    EXPECT_EQ(cdprep_self_overlaps_visit(&right, workspace_.get(), nullptr, nullptr, &error),
+              CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "visit");
+}
+
 TEST_F(CHostile, HullPairsAreCheckedFieldByField) {
     using P = cdprep_hull_pair;
     P right;
@@ -1170,6 +1197,7 @@ TEST_F(CHostile, NoQuestionAllocates) {
     cdprep_pair given = pair();
     cdprep_cache cache{};
     given.cache = &cache;
+    const cdprep_self_query itself = detail::self_of({model_.get(), nullptr, 0, nullptr});
     std::vector<cdprep_overlap> overlaps(200);
     std::vector<cdprep_contact> contacts(20);
     std::vector<cdprep_crossing> crossings(200);
@@ -1189,6 +1217,7 @@ TEST_F(CHostile, NoQuestionAllocates) {
         EXPECT_EQ(cdprep_within(&given, 0.5, scratch, &yes, nullptr), CDPREP_OK);
         EXPECT_EQ(cdprep_overlaps(&given, scratch, &list, nullptr), CDPREP_OK);
         EXPECT_EQ(cdprep_overlaps_split(&given, scratch, &list, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_self_overlaps(&itself, scratch, &list, nullptr), CDPREP_OK);
         EXPECT_EQ(cdprep_pairs_within(&given, 0.5, scratch, &list, nullptr), CDPREP_OK);
         EXPECT_EQ(cdprep_contacts(&given, nullptr, scratch, &found, nullptr), CDPREP_OK);
         EXPECT_EQ(cdprep_crossings(&given, scratch, &crossed, nullptr), CDPREP_OK);

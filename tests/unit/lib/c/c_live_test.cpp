@@ -11,6 +11,7 @@
 
 #include "cdprep/cdprep.h"
 #include "support/aligned_bytes.h"
+#include "support/brute_force.h"
 #include "support/c_lanes.h"
 #include "support/c_mistakes.h"
 #include "support/c_models.h"
@@ -163,6 +164,66 @@ TEST(CLiveModel, ARebuildKeepsNumbersAndCorners) {
         EXPECT_EQ(corners.vertex[2], cloud.triangles[i].vertex[2]);
         EXPECT_EQ(corners.point[2][0], cloud.positions[cloud.triangles[i].vertex[2]].x);
     }
+}
+
+/// Returns what cdprep_self_overlaps() lists; a visitor must see as much.
+std::vector<TrianglePair> own_overlaps(const cdprep_model* model, cdprep_workspace* workspace,
+                                       std::uint32_t overlap = CDPREP_CLOSED) {
+    cdprep_self_query query;
+    cdprep_self_query_init(&query, sizeof query);
+    query.model = model;
+    query.overlap = overlap;
+    cdprep_overlap_list list = {nullptr, 0, 77};
+    cdprep_error error;
+    EXPECT_EQ(cdprep_self_overlaps(&query, workspace, &list, &error), CDPREP_OK) << error.message;
+    std::vector<cdprep_overlap> items(list.count);
+    list = {items.data(), items.size(), 77};
+    EXPECT_EQ(cdprep_self_overlaps(&query, workspace, &list, &error), CDPREP_OK) << error.message;
+    EXPECT_EQ(list.count, items.size());
+    struct Seen {
+        std::size_t count;
+        std::size_t most;
+    };
+    const auto see = [](void* context, const cdprep_overlap* found) {
+        auto& seen = *static_cast<Seen*>(context);
+        EXPECT_LT(found->a, found->b);
+        return ++seen.count < seen.most ? 1 : 0;
+    };
+    for (const std::size_t most : {SIZE_MAX, std::size_t{3}}) {
+        Seen seen = {0, most};
+        EXPECT_EQ(cdprep_self_overlaps_visit(&query, workspace, see, &seen, &error), CDPREP_OK);
+        EXPECT_EQ(seen.count, std::min(most, items.size()));
+    }
+    std::vector<TrianglePair> pairs;
+    for (const cdprep_overlap& item : items) pairs.push_back({item.a, item.b});
+    return pairs;
+}
+
+// A sheet that is folded onto itself; then some of its triangles go. Brute force is the oracle.
+TEST(CLiveModel, OverlapsWithItselfFollowItsShape) {
+    const CWorkspace workspace;
+    TestMesh sheet = grid_sheet(8, 8);
+    const AlignedBytes file = file_of(sheet);
+    const CModel base(file);
+    CLive live(options_for(base.get(), 200));
+    EXPECT_TRUE(own_overlaps(live.model(), workspace.get()).empty());
+    for (Double3& p : sheet.positions) {
+        p = {std::fabs(p.x - 3.5), p.y, 0.25 * (p.x - 3.5) * (p.y - 4)};
+    }
+    live.move({}, sheet.positions, workspace.get());
+    std::vector<TrianglePair> expected = own_pairs(sheet);
+    EXPECT_GT(expected.size(), 50U);
+    EXPECT_EQ(own_overlaps(live.model(), workspace.get()), expected);
+    EXPECT_LT(own_overlaps(live.model(), workspace.get(), CDPREP_PROPER).size(), expected.size());
+    const std::vector<std::uint32_t> gone = {expected[0].a, expected[9].b};
+    ASSERT_EQ(cdprep_live_remove(live.get(), gone.data(), gone.size(), nullptr), CDPREP_OK);
+    std::erase_if(expected, [&](const TrianglePair& pair) {
+        const auto is_gone = [&](std::uint32_t number) {
+            return number == gone[0] || number == gone[1];
+        };
+        return is_gone(pair.a) || is_gone(pair.b);
+    });
+    EXPECT_EQ(own_overlaps(live.model(), workspace.get()), expected);
 }
 
 // While a task of the caller runs, no other call may change or describe the live model.

@@ -79,6 +79,22 @@ static const char* ask_overlaps(const cdprep_model* cube, cdprep_workspace* scra
     return NULL;
 }
 
+/* No two triangles of a cube without a common vertex touch. */
+static const char* ask_itself(const cdprep_model* cube, cdprep_workspace* scratch) {
+    cdprep_error error;
+    cdprep_overlap_list list = {NULL, 0, 99};
+    cdprep_self_query query;
+    visits all = visit_most(SIZE_MAX);
+    cdprep_self_query_init(&query, sizeof query);
+    query.model = cube;
+    query.degenerate = CDPREP_SKIP_DEGENERATE;
+    MUST(cdprep_self_overlaps(&query, scratch, &list, &error) == CDPREP_OK);
+    MUST(list.count == 0);
+    MUST(cdprep_self_overlaps_visit(&query, scratch, take_overlap, &all, &error) == CDPREP_OK);
+    MUST(all.count == 0);
+    return NULL;
+}
+
 static const char* ask_crossings(const cdprep_model* cube, cdprep_workspace* scratch) {
     const cdprep_pair near = moved_by(cube, cube, 0.5);
     cdprep_overlap items[MOST];
@@ -163,6 +179,7 @@ static const char* ask_within(const cdprep_model* cube, cdprep_workspace* scratc
 const char* ask_pairs(const cdprep_model* cube, cdprep_workspace* workspace) {
     const char* wrong = ask_collisions(cube, workspace);
     if (wrong == NULL) wrong = ask_overlaps(cube, workspace);
+    if (wrong == NULL) wrong = ask_itself(cube, workspace);
     if (wrong == NULL) wrong = ask_crossings(cube, workspace);
     if (wrong == NULL) wrong = ask_distances(cube, workspace);
     if (wrong == NULL) wrong = ask_within(cube, workspace);
