@@ -24,6 +24,7 @@
 #include "bench_input.h"
 #include "cdprep/live_model.h"
 #include "cdprep/pairs.h"
+#include "live_object.h"
 
 #ifdef CDPREP_HAVE_EMBREE
 #include <embree3/rtcore.h>
@@ -32,9 +33,7 @@
 #include "fcl_models.h"
 #endif
 #ifdef CDPREP_HAVE_BULLET
-#include <BulletCollision/CollisionDispatch/btCollisionObject.h>
-#include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
-#include <BulletCollision/Gimpact/btGImpactShape.h>
+#include "gimpact_mesh.h"
 #endif
 
 namespace cdprep {
@@ -81,33 +80,12 @@ public:
     }
 };
 
-/// A live model in memory of its own.
-struct Live {
-    struct alignas(format::kSectionAlignment) Block {
-        std::array<std::byte, format::kSectionAlignment> bytes;
-    };
-    std::vector<Block> memory;
-    LiveModel model;
-};
-
-Live make_live(const Deforming& mesh, const LiveLimits& limits) {
-    const auto arrays =
-        build::build_model(mesh.rest, mesh.triangles, {.bounds = build::BvhBounds::aligned});
-    if (!arrays) stop(arrays.error().message);
-    const auto bytes = LiveModel::bytes(arrays.value(), limits);
-    if (!bytes) stop(bytes.error().message);
-    std::vector<Live::Block> memory(bytes.value() / sizeof(Live::Block) + 1);
-    auto made = LiveModel::in(std::as_writable_bytes(std::span(memory)), arrays.value(), limits);
-    if (!made) stop(made.error().message);
-    return {std::move(memory), std::move(made).value()};
-}
-
 class OurRefit : public Way {
 public:
     /// Moves a share of the vertices; 1: all.
     OurRefit(const char* name, const Deforming& mesh, const Model& fixed, double share,
              const LiveLimits& limits = {})
-        : name_(name), live_(make_live(mesh, limits)), fixed_(fixed) {
+        : name_(name), live_(make_live(mesh.rest, mesh.triangles, limits)), fixed_(fixed) {
         const auto count = static_cast<std::size_t>(share * static_cast<double>(mesh.by_x.size()));
         if (share < 1)
             vertices_.assign(mesh.by_x.begin(),
@@ -134,7 +112,7 @@ protected:
 
 private:
     const char* name_;
-    Live live_;
+    LiveObject live_;
     const Model& fixed_;
     std::vector<std::uint32_t> vertices_;
     std::vector<Float3> positions_;
@@ -214,41 +192,16 @@ private:
 #ifdef CDPREP_HAVE_BULLET
 class GImpactRefit final : public Way {
 public:
-    explicit GImpactRefit(const Deforming& mesh) : points_(3 * mesh.rest.size()) {
-        for (const format::Triangle& t : mesh.triangles) {
-            for (const std::uint32_t v : t.vertex) corners_.push_back(static_cast<int>(v));
-        }
-        set(mesh.rest);
-        arrays_ = std::make_unique<btTriangleIndexVertexArray>(
-            static_cast<int>(mesh.triangles.size()), corners_.data(),
-            static_cast<int>(3 * sizeof(int)), static_cast<int>(mesh.rest.size()), points_.data(),
-            static_cast<int>(3 * sizeof(btScalar)));
-        shape_ = std::make_unique<btGImpactMeshShape>(arrays_.get());
-        shape_->setMargin(0);
-        shape_->updateBound();
-    }
+    explicit GImpactRefit(const Deforming& mesh) : mesh_(mesh.rest, mesh.triangles) {}
     [[nodiscard]] const char* name() const override {
         return "bullet_gimpact";
     }
     void fit(const Deforming& mesh, int /*frame*/) override {
-        set(mesh.now);
-        shape_->postUpdate();
-        shape_->updateBound();
+        mesh_.refit(mesh.now);
     }
 
 private:
-    void set(const std::vector<Float3>& positions) {
-        for (std::size_t i = 0; i < positions.size(); ++i) {
-            points_[3 * i] = positions[i].x;
-            points_[3 * i + 1] = positions[i].y;
-            points_[3 * i + 2] = positions[i].z;
-        }
-    }
-
-    std::vector<btScalar> points_;
-    std::vector<int> corners_;
-    std::unique_ptr<btTriangleIndexVertexArray> arrays_;
-    std::unique_ptr<btGImpactMeshShape> shape_;
+    GImpactMesh mesh_;
 };
 #endif
 
@@ -262,11 +215,7 @@ public:
         return name_;
     }
     void fit(const Deforming& mesh, int /*frame*/) override {
-        points_.clear();
-        for (const Float3& p : mesh.now) points_.emplace_back(p.x, p.y, p.z);
-        moving_.beginReplaceModel();
-        moving_.replaceSubModel(points_);
-        moving_.endReplaceModel(true, true);
+        fcl_refit(moving_, mesh.now, points_);
     }
     std::size_t overlap() override {
         fcl::CollisionResultd result;

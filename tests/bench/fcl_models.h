@@ -3,6 +3,7 @@
 
 #include <fcl/fcl.h>
 
+#include <span>
 #include <vector>
 
 #include "cdprep/model.h"
@@ -10,14 +11,18 @@
 
 namespace cdprep {
 
-/// A model's triangles as FCL keeps them, in the tree order.
-template <class Volume>
-fcl::BVHModel<Volume> fcl_model(const Model& model) {
+inline std::vector<fcl::Vector3d> fcl_points(std::span<const format::Float3> positions) {
     std::vector<fcl::Vector3d> points;
-    for (const format::Float3& p : model.mesh().positions_f32) points.emplace_back(p.x, p.y, p.z);
-    for (const format::Double3& p : model.mesh().positions_f64) points.emplace_back(p.x, p.y, p.z);
+    for (const format::Float3& p : positions) points.emplace_back(p.x, p.y, p.z);
+    return points;
+}
+
+/// Triangles as FCL keeps them.
+template <class Volume>
+fcl::BVHModel<Volume> fcl_model(const std::vector<fcl::Vector3d>& points,
+                                std::span<const format::Triangle> corners) {
     std::vector<fcl::Triangle> triangles;
-    for (const format::Triangle& t : model.mesh().triangles) {
+    for (const format::Triangle& t : corners) {
         triangles.emplace_back(t.vertex[0], t.vertex[1], t.vertex[2]);
     }
     fcl::BVHModel<Volume> made;
@@ -25,6 +30,25 @@ fcl::BVHModel<Volume> fcl_model(const Model& model) {
     made.addSubModel(points, triangles);
     made.endModel();
     return made;
+}
+
+/// The same for a model's triangles, in the tree order.
+template <class Volume>
+fcl::BVHModel<Volume> fcl_model(const Model& model) {
+    std::vector<fcl::Vector3d> points = fcl_points(model.mesh().positions_f32);
+    for (const format::Double3& p : model.mesh().positions_f64) points.emplace_back(p.x, p.y, p.z);
+    return fcl_model<Volume>(points, model.mesh().triangles);
+}
+
+/// Moves all points; `scratch` is room for them.
+template <class Volume>
+void fcl_refit(fcl::BVHModel<Volume>& model, std::span<const format::Float3> positions,
+               std::vector<fcl::Vector3d>& scratch) {
+    scratch.clear();
+    for (const format::Float3& p : positions) scratch.emplace_back(p.x, p.y, p.z);
+    model.beginReplaceModel();
+    model.replaceSubModel(scratch);
+    model.endReplaceModel(true, true);
 }
 
 inline fcl::Transform3d fcl_transform(const Pose& pose) {

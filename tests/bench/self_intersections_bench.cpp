@@ -9,10 +9,6 @@
 // Prints a CSV table; `times` is CGAL's median by ours, the spreads are those of the middle
 // half of the rounds. Ends with 1 when the pairs are not the same. Of a mesh that CGAL
 // cannot hold, more than two triangles at an edge or two against each other, ours alone.
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -25,6 +21,7 @@
 #include <vector>
 
 #include "bench_input.h"
+#include "cgal_surface.h"
 #include "cli/program_threads.h"
 #include "crossings/self_intersections.h"
 #include "import/import_file.h"
@@ -33,43 +30,7 @@
 namespace cdprep {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Pair = std::array<std::uint32_t, 2>;
-
-/// The mesh as CGAL has it, without triangles that repeat a corner.
-struct Surface {
-    SurfaceMesh mesh;
-    std::vector<std::uint32_t> number;  ///< of each face, in ours
-};
-
-std::optional<Surface> surface_of(const mesh::Mesh& mesh) {
-    Surface surface;
-    for (const Double3& p : mesh.positions) surface.mesh.add_vertex({p.x, p.y, p.z});
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        const auto& v = mesh.triangles[i].vertex;
-        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-        using Vertex = SurfaceMesh::Vertex_index;
-        const auto face = surface.mesh.add_face(Vertex(v[0]), Vertex(v[1]), Vertex(v[2]));
-        if (face == SurfaceMesh::null_face()) return std::nullopt;
-        surface.number.push_back(i);
-    }
-    return surface;
-}
-
-/// Without what CGAL says of triangles of zero area.
-std::vector<Pair> cgals_pairs(const Surface& surface) {
-    std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> found;
-    CGAL::Polygon_mesh_processing::self_intersections(surface.mesh, std::back_inserter(found));
-    std::vector<Pair> pairs;
-    for (const auto& [f, g] : found) {
-        if (f == g) continue;
-        const auto [a, b] = std::minmax({surface.number[f], surface.number[g]});
-        pairs.push_back({a, b});
-    }
-    std::sort(pairs.begin(), pairs.end());
-    return pairs;
-}
+using Pair = CgalSurface::Pair;
 
 std::vector<Pair> our_pairs(const mesh::Mesh& mesh, ParallelFor parallel_for) {
     std::vector<Pair> pairs;
@@ -95,7 +56,7 @@ bool compare(const std::filesystem::path& path, int rounds, std::size_t threads)
     auto soup = import::import_file(path);
     if (!soup) stop(soup.error().message);
     const mesh::Mesh mesh = mesh::weld(soup.value()).mesh;
-    const std::optional<Surface> surface = surface_of(mesh);
+    const auto surface = CgalSurface::of(mesh.positions, mesh.triangles);
     const cli::Threads team(threads);
     std::vector<double> cgal, one, several;
     std::vector<Pair> pairs;
@@ -103,7 +64,7 @@ bool compare(const std::filesystem::path& path, int rounds, std::size_t threads)
     for (int round = 0; round < rounds; ++round) {
         pairs = timed(one, [&] { return our_pairs(mesh, serial_for); });
         same &= timed(several, [&] { return our_pairs(mesh, team.parallel_for()); }) == pairs;
-        if (surface) same &= timed(cgal, [&] { return cgals_pairs(*surface); }) == pairs;
+        if (surface) same &= timed(cgal, [&] { return surface->self_intersections(); }) == pairs;
     }
     std::printf("%s,%zu,%zu,%s,", path.filename().c_str(), mesh.triangles.size(), pairs.size(),
                 same ? "yes" : "NO");
