@@ -87,8 +87,8 @@ inline bool share_a_vertex(const TestMesh& mesh, std::uint32_t a, std::uint32_t 
     return std::find_first_of(v.begin(), v.end(), w.begin(), w.end()) != v.end();
 }
 
-/// Returns every pair a < b of triangles of one mesh that share no vertex and for which `touch(a,
-/// b)` is true. Calls it only if their boxes meet.
+/// Returns the pairs a < b of triangles of a mesh that share no vertex and `touch(a, b)`. Calls
+/// `touch` only if their boxes meet.
 template <class Touch>
 std::vector<TrianglePair> own_pairs(const TestMesh& mesh, Touch&& touch) {
     std::vector<TrianglePair> pairs;

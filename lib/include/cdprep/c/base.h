@@ -167,7 +167,7 @@ typedef struct cdprep_workspace_options {
 CDPREP_API void cdprep_workspace_options_init(cdprep_workspace_options* options, size_t size);
 
 /* Stores the number of bytes that cdprep_workspace_make() needs for these options. Each lane takes
- * about 810 KiB, and 360 KiB more with `cells`. `options` may be null. */
+ * about 820 KiB, and 360 KiB more with `cells`. `options` may be null. */
 CDPREP_API int cdprep_workspace_size(const cdprep_workspace_options* options, size_t* size,
                                      cdprep_error* error);
 
