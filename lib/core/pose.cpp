@@ -4,22 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <string>
 
 #include "cdprep/format/float_environment.h"
 #include "core/moved_point.h"
+#include "core/number_text.h"
 
 namespace cdprep {
 namespace {
-
-/// Returns the fewest digits that read back as the same number: 1e-12, not 9.9999999999999998e-13.
-std::string shown(double value) {
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    return {digits.data(), end};
-}
 
 /// Returns the size of the entry of R^T R - I that is farthest from zero.
 double worst_rotation_error(const std::array<double, 9>& r) {
@@ -53,12 +46,12 @@ Result<Pose> Pose::checked(const std::array<double, 12>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!std::isfinite(rows[i])) {
             return bad_pose("Number " + std::to_string(i + 1) + " of the pose is " +
-                            shown(rows[i]) + "; all twelve must be finite.");
+                            number_text(rows[i]) + "; all twelve must be finite.");
         }
         if (std::fabs(rows[i]) > format::kMaxCoordinate) {
             return bad_pose("Number " + std::to_string(i + 1) + " of the pose is " +
-                            shown(rows[i]) + "; at most " + shown(format::kMaxCoordinate) +
-                            " is allowed.");
+                            number_text(rows[i]) + "; at most " +
+                            number_text(format::kMaxCoordinate) + " is allowed.");
         }
     }
     Pose pose;
@@ -67,7 +60,8 @@ Result<Pose> Pose::checked(const std::array<double, 12>& rows) {
     const double error = worst_rotation_error(pose.rotation_);
     if (!(error <= kRotationTolerance)) {
         return bad_pose("The pose scales or shears: R^T R differs from the identity by " +
-                        shown(error) + "; at most " + shown(kRotationTolerance) + " is allowed.");
+                        number_text(error) + "; at most " + number_text(kRotationTolerance) +
+                        " is allowed.");
     }
     if (determinant(pose.rotation_) < 0) {
         return bad_pose("The pose mirrors: the determinant of R is -1, but only 1 is a rotation.");
@@ -80,8 +74,9 @@ Result<Pose> Pose::from_quaternion(double w, double x, double y, double z,
     const format::FloatEnvironment environment;
     const double largest = std::max({std::fabs(w), std::fabs(x), std::fabs(y), std::fabs(z)});
     if (!std::isfinite(w) || !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
-        return bad_pose("The quaternion of the pose holds " + shown(w) + ", " + shown(x) + ", " +
-                        shown(y) + ", " + shown(z) + "; all four must be finite.");
+        return bad_pose("The quaternion of the pose holds " + number_text(w) + ", " +
+                        number_text(x) + ", " + number_text(y) + ", " + number_text(z) +
+                        "; all four must be finite.");
     }
     if (largest == 0) {
         return bad_pose("The quaternion of the pose is zero; it must have a direction.");
@@ -181,15 +176,16 @@ std::string defect_of(const std::array<double, 9>& m, double tolerance) {
         const double error = gram_error(m, i, i);
         if (std::fabs(error) <= tolerance) continue;
         return "The matrix scales: the squared length of column " + std::to_string(i + 1) + " is " +
-               shown(error + 1) + ", but may differ from 1 by " + shown(tolerance) + " at most.";
+               number_text(error + 1) + ", but may differ from 1 by " + number_text(tolerance) +
+               " at most.";
     }
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3;
         const double error = gram_error(m, std::min(i, j), std::max(i, j));
         if (std::fabs(error) <= tolerance) continue;
         return "The matrix shears: the product of columns " + std::to_string(std::min(i, j) + 1) +
-               " and " + std::to_string(std::max(i, j) + 1) + " is " + shown(error) +
-               ", but may differ from 0 by " + shown(tolerance) + " at most.";
+               " and " + std::to_string(std::max(i, j) + 1) + " is " + number_text(error) +
+               ", but may differ from 0 by " + number_text(tolerance) + " at most.";
     }
     if (determinant(m) > 0) return {};
     return "The matrix mirrors: its determinant is negative, and no rotation is near it.";
@@ -225,14 +221,14 @@ Result<Pose> nearest_pose(const std::array<double, 16>& matrix, double tolerance
                           MatrixLayout layout) {
     const format::FloatEnvironment environment;
     if (!(tolerance >= 0 && tolerance <= kGreatestPoseTolerance)) {
-        return bad_pose("The tolerance of a pose is " + shown(tolerance) + "; it must be 0 to " +
-                        shown(kGreatestPoseTolerance) + ".");
+        return bad_pose("The tolerance of a pose is " + number_text(tolerance) +
+                        "; it must be 0 to " + number_text(kGreatestPoseTolerance) + ".");
     }
     for (std::size_t i = 0; i < matrix.size(); ++i) {
         if (std::fabs(matrix[i]) <= format::kMaxCoordinate) continue;
         return bad_pose("Number " + std::to_string(i + 1) + " of the matrix is " +
-                        shown(matrix[i]) + "; at most " + shown(format::kMaxCoordinate) +
-                        " is allowed.");
+                        number_text(matrix[i]) + "; at most " +
+                        number_text(format::kMaxCoordinate) + " is allowed.");
     }
     const auto at = [&](std::size_t row, std::size_t column) {
         return matrix[layout == MatrixLayout::rows ? 4 * row + column : 4 * column + row];
@@ -240,7 +236,8 @@ Result<Pose> nearest_pose(const std::array<double, 16>& matrix, double tolerance
     for (std::size_t column = 0; column < 4; ++column) {
         if (std::fabs(at(3, column) - (column == 3 ? 1.0 : 0.0)) <= tolerance) continue;
         return bad_pose("The matrix projects: its last row must be 0 0 0 1, but number " +
-                        std::to_string(column + 1) + " of it is " + shown(at(3, column)) + ".");
+                        std::to_string(column + 1) + " of it is " + number_text(at(3, column)) +
+                        ".");
     }
     const std::array<double, 9> m = {at(0, 0), at(0, 1), at(0, 2), at(1, 0), at(1, 1),
                                      at(1, 2), at(2, 0), at(2, 1), at(2, 2)};

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <string>
 
 #include "cdprep/format/float_environment.h"
 #include "core/layer_names.h"
+#include "core/number_text.h"
 
 namespace cdprep {
 namespace {
@@ -23,12 +23,6 @@ bool has_any(Ask asks, Ask some) noexcept {
 
 constexpr Ask kReadsBody = Ask::collide | Ask::distance | Ask::contacts;
 constexpr Ask kReadsOverlap = Ask::collide | Ask::overlap;
-
-std::string text_of(double number) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
-    return {text.data(), end};
-}
 
 /// The name of an effect, or its bit if it has none.
 std::string name_of(Ask one) {
@@ -86,7 +80,7 @@ private:
         if (options_.limits.threads == 0) add("limits.threads is 0; at least 1 is needed.");
         for (const double x : {options_.origin.x, options_.origin.y, options_.origin.z}) {
             if (std::abs(x) <= format::kMaxCoordinate) continue;
-            add("origin holds " + text_of(x) + "; it must be finite, and at most 2^1000.");
+            add("origin holds " + number_text(x) + "; it must be finite, and at most 2^1000.");
         }
     }
 
@@ -147,7 +141,7 @@ private:
     void check_number(const std::string& place, const char* name, double value, bool is_read,
                       const char* effect) {
         if (!std::isfinite(value) || value < 0) {
-            add(place + name + " is " + text_of(value) + "; it must be finite and at least 0.");
+            add(place + name + " is " + number_text(value) + "; it must be finite and at least 0.");
         } else if (value != 0 && !is_read) {
             add(place + name + " has no meaning without " + effect + ".");
         }
@@ -218,17 +212,18 @@ std::string effects_text(const LayerPair& pair) {
     }
     if (has_overlap) add("overlap" + proper);
     if (has(pair.effects, Ask::within)) {
-        add("within " + text_of(pair.tolerance) + (has_distance ? " (mostly from distance)" : ""));
+        add("within " + number_text(pair.tolerance) +
+            (has_distance ? " (mostly from distance)" : ""));
     }
-    if (has_distance) add("distance" + solid + " up to " + text_of(pair.max_distance));
+    if (has_distance) add("distance" + solid + " up to " + number_text(pair.max_distance));
     if (has(pair.effects, Ask::contacts)) {
-        add("contacts" + solid + " within " + text_of(pair.contacts.tolerance) + ", at most " +
+        add("contacts" + solid + " within " + number_text(pair.contacts.tolerance) + ", at most " +
             std::to_string(pair.contacts.most) +
             (pair.contacts.work == 0 ? "" : ", work " + std::to_string(pair.contacts.work)) +
             (pair.contacts.manifold == Manifold::four ? ", with manifolds" : "") +
             (pair.contacts.cluster_angle == 0
                  ? ""
-                 : ", clusters of " + text_of(pair.contacts.cluster_angle) + " radians"));
+                 : ", clusters of " + number_text(pair.contacts.cluster_angle) + " radians"));
     }
     if (pair.lists_stays) add("events for what goes on");
     return effects;
