@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "cdprep/pose.h"
+
+namespace cdprep {
+
+/// The rigid motion of one model during a step, from time 0 to time 1. One point of the model, the
+/// centre, moves along a straight line at constant speed. The model turns about the centre, about a
+/// fixed axis at constant speed.
+///
+/// The centre of mass is a good centre for a free body, the joint for a part that turns about it. A
+/// centre far outside the model makes time_of_impact() slow.
+class Motion {
+public:
+    /// No motion at all: the identity at all times.
+    Motion() noexcept : Motion(Pose()) {}
+    /// A model that stays where it is.
+    explicit Motion(const Pose& world_from_model) noexcept;
+
+    /// Makes the motion between two poses of the model. `centre` is a point of the model, in its
+    /// own coordinates. The model turns the shorter way, by pi at most. Two turns by exactly pi
+    /// are equally short. Then it takes one of them, always the same.
+    ///
+    /// Fails with bad_argument if a number of `centre` is not finite, or the centre comes beyond
+    /// format::kMaxCoordinate. Allocates only then.
+    [[nodiscard]] static Result<Motion> between(const Pose& start, const Pose& end,
+                                                const Double3& centre = {});
+
+    /// Makes the motion from velocities, as a solver has them. `shift` is the way of the centre
+    /// during the step, in model units. `turn` is a vector along the axis of the turn, in world
+    /// coordinates. Its length is the angle in radians, kMostTurn at most. So a model may turn
+    /// around more than once.
+    ///
+    /// Fails as between(), and if `shift` or `turn` is not finite or too long.
+    [[nodiscard]] static Result<Motion> by_velocity(const Pose& start, const Double3& shift,
+                                                    const Double3& turn,
+                                                    const Double3& centre = {});
+
+    /// Returns the pose at a time. At 0 and 1 it is the given start and end, bit for bit. Times
+    /// beyond are those of the ends; NaN counts as 0. Uses the sine and cosine of the C library.
+    /// So the last bits may differ between platforms.
+    [[nodiscard]] Pose at(double time) const noexcept;
+
+    static constexpr double kMostTurn = 1000;  ///< radians
+
+    /// The parts of a motion: x(t) = R(axis, t angle) start_rotation (p - centre) + c(t), with
+    /// c(t) = start_of_centre + t shift.
+    struct Parts {
+        Pose start;
+        Pose end;
+        Double3 centre;           ///< in the model's coordinates
+        Double3 start_of_centre;  ///< world
+        Double3 shift;            ///< world
+        Double3 axis;             ///< world, a unit vector
+        double angle;             ///< radians, not negative
+        std::array<double, 9> start_rotation;  ///< that of `start`, made orthonormal
+        /// The largest deviation of an entry of the rotations at 0 and 1 from this formula.
+        double end_error;
+    };
+    [[nodiscard]] const Parts& parts() const noexcept {
+        return parts_;
+    }
+
+private:
+    explicit Motion(const Parts& parts) noexcept : parts_(parts) {}
+
+    Parts parts_;
+};
+
+}  // namespace cdprep
