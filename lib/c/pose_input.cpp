@@ -11,11 +11,6 @@
 namespace cdprep::c {
 namespace {
 
-bool is_identity(const cdprep_pose& pose) noexcept {
-    // Twelve doubles without padding: one call is faster than twelve comparisons.
-    return std::memcmp(&pose, &kIdentity, sizeof pose) == 0;  // NOLINT(bugprone-*)
-}
-
 bool is_too_far(const Pose& pose) noexcept {
     const Double3& t = pose.translation();
     return !(std::fabs(t.x) <= format::kMaxCoordinate && std::fabs(t.y) <= format::kMaxCoordinate &&
@@ -23,6 +18,11 @@ bool is_too_far(const Pose& pose) noexcept {
 }
 
 }  // namespace
+
+bool is_identity(const cdprep_pose& pose) noexcept {
+    // Twelve doubles without padding: one call is faster than twelve comparisons.
+    return std::memcmp(&pose, &kIdentity, sizeof pose) == 0;  // NOLINT(bugprone-*)
+}
 
 cdprep_pose stored(const Pose& pose) noexcept {
     cdprep_pose to{};

@@ -9,6 +9,8 @@ namespace cdprep::c {
 
 inline constexpr cdprep_pose kIdentity = {{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}};
 
+[[nodiscard]] bool is_identity(const cdprep_pose& pose) noexcept;
+
 [[nodiscard]] cdprep_pose stored(const Pose& pose) noexcept;
 
 /// Reads a pose whose numbers were checked. Refuses one that is not rigid.

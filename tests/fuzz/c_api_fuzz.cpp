@@ -46,7 +46,7 @@ public:
 
     void call() {
         error_.code = 99;
-        switch (draw_.below(16)) {
+        switch (draw_.below(17)) {
             case 0:
                 return collide();
             case 1:
@@ -77,6 +77,8 @@ public:
                 return build();
             case 14:
                 return itself();
+            case 15:
+                return impact();
             default:
                 return open();
         }
@@ -191,6 +193,38 @@ private:
         const int code = cdprep_distance(given, options(), workspace(), &nearest, &error_);
         if (!is_answered(code)) MUST(nearest.found == CDPREP_NO);
         MUST(is_finite(nearest));
+    }
+    void draw_motion(cdprep_motion& motion) {
+        draw_pose(draw_, motion.start);
+        if (draw_.one_in(2)) draw_pose(draw_, motion.end);
+        if (draw_.one_in(4)) motion.told_by = draw_.below(2);
+        if (draw_.one_in(3)) motion.centre[draw_.below(3)] = draw_.number();
+        if (draw_.one_in(3)) motion.shift[draw_.below(3)] = draw_.number();
+        if (draw_.one_in(3)) motion.turn[draw_.below(3)] = draw_.number();
+        if (draw_.one_in(20)) motion.told_by = draw_.word();
+    }
+    void impact() {
+        Longer<cdprep_moving_pair> given{};
+        cdprep_moving_pair_init(&given.value, sizeof given.value);
+        cdprep_moving_pair& p = given.value;
+        p.a = models_.any(draw_);
+        p.b = models_.any(draw_);
+        draw_motion(p.motion_a);
+        draw_motion(p.motion_b);
+        if (draw_.one_in(4)) p.body = draw_.below(2);
+        if (draw_.one_in(2)) p.tolerance = draw_.number();
+        if (draw_.one_in(4)) p.most_steps = draw_.below(300);
+        given.spoil(draw_);
+        cdprep_impact found{};
+        if (!is_answered(cdprep_time_of_impact(&p, workspace(), &found, &error_))) {
+            MUST(found.kind == CDPREP_IMPACT_UNKNOWN);
+            return;
+        }
+        MUST(found.kind <= CDPREP_IMPACT_UNFINISHED && found.steps <= p.most_steps);
+        MUST(found.lower >= 0 && found.lower <= 1 && found.upper >= found.lower);
+        MUST(is_finite(found.nearest));
+        cdprep_pose pose;
+        MUST(cdprep_motion_pose(&p.motion_b, found.lower, &pose, &error_) == CDPREP_OK);
     }
     void mark() {
         std::array<std::uint64_t, 2> bits_a{}, bits_b{};

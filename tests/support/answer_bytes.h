@@ -14,6 +14,7 @@
 #include "cdprep/format/find_damage.h"
 #include "cdprep/pairs.h"
 #include "cdprep/points.h"
+#include "cdprep/time_of_impact.h"
 
 namespace cdprep::test {
 
@@ -54,6 +55,13 @@ public:
         add(d.witness_b);
         add(d.triangle_a);
         add(d.triangle_b);
+    }
+    void add(const Impact& impact) {
+        add(impact.kind);
+        add(impact.lower);
+        add(impact.upper);
+        add(impact.steps);
+        add(impact.nearest);
     }
     void add(const ShapeDistance& d) {
         add(d.lower);

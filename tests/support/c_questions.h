@@ -134,6 +134,23 @@ CAnswer distance(const CScene& scene) {
     return told(code, error, found.found == CDPREP_NO, found);
 }
 
+/// B comes from 4 farther, and stops where it would be.
+template <std::uint32_t kBody>
+CAnswer time_of_impact(const CScene& scene) {
+    cdprep_moving_pair pair;
+    cdprep_moving_pair_init(&pair, sizeof pair);
+    pair.a = scene.a;
+    pair.b = scene.b;
+    pair.body = kBody;
+    pair.motion_b.start.rows[9] = scene.x + 4;
+    pair.motion_b.end.rows[9] = scene.x;
+    cdprep_impact found{};
+    found.kind = 77;
+    cdprep_error error;
+    const int code = cdprep_time_of_impact(&pair, scene.workspace, &found, &error);
+    return told(code, error, found.kind == CDPREP_IMPACT_UNKNOWN, found);
+}
+
 template <std::uint32_t kThrough>
 CAnswer inside(const CScene& scene) {
     const double points[6] = {0.5, 0.5, 0.5, 0.5, 0.25, 2};
@@ -304,6 +321,9 @@ inline const std::vector<CQuestion>& c_questions() {
          distance<CDPREP_SOLID, CDPREP_THROUGH_BVH>},
         {"distance through pieces", CDPREP_ASK_DISTANCE | CDPREP_ASK_PIECES,
          distance<CDPREP_SURFACE, CDPREP_THROUGH_PIECES>},
+        {"time of impact", CDPREP_ASK_DISTANCE, time_of_impact<CDPREP_SURFACE>},
+        {"time of impact solid", CDPREP_ASK_DISTANCE | CDPREP_ASK_SOLID,
+         time_of_impact<CDPREP_SOLID>},
         {"within", CDPREP_ASK_WITHIN,
          [](const CScene& scene) {
              const cdprep_pair pair = pair_of(scene);

@@ -99,6 +99,15 @@ AnswerBytes distance_by(const Scene& scene) {
     return told(distance(scene.pair({.body = kBody, .through = kThrough}), scene.workspace));
 }
 
+/// B comes from 4 farther, and stops where it would be.
+template <Body kBody>
+AnswerBytes time_of_impact_of(const Scene& scene) {
+    const Pose end = scene.pair().placement.pose_b();
+    const auto start = Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, scene.x + 4, 0, 0});
+    const Motion motion = Motion::between(*start, end).value();
+    return told(time_of_impact({scene.a, scene.b, {}, motion, kBody}, scene.workspace));
+}
+
 template <Structure kThrough>
 AnswerBytes inside_by(const Scene& scene) {
     return told(points_inside(scene.a, {0.5, 0.5, 0.5}, scene.workspace, kThrough));
@@ -192,6 +201,8 @@ inline const std::vector<Question>& questions() {
         {"distance", Ask::distance, distance_by<kSurface, bvh>},
         {"distance solid", Ask::distance | Ask::solid, distance_by<kSolid, bvh>},
         {"distance through pieces", Ask::distance | Ask::pieces, distance_by<kSurface, pieces>},
+        {"time_of_impact", Ask::distance, time_of_impact_of<kSurface>},
+        {"time_of_impact solid", Ask::distance | Ask::solid, time_of_impact_of<kSolid>},
         {"within", Ask::within,
          [](const Scene& scene) { return told(within(scene.pair(), 0.5, scene.workspace)); }},
         {"pairs_within", Ask::within,

@@ -18,6 +18,7 @@
 #include "cdprep/c/contacts.h"
 #include "cdprep/c/live.h"
 #include "cdprep/c/model.h"
+#include "cdprep/c/motion.h"
 #include "cdprep/c/pairs.h"
 #include "cdprep/c/points.h"
 #include "cdprep/c/scene.h"

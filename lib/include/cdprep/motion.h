@@ -51,11 +51,11 @@ public:
     struct Parts {
         Pose start;
         Pose end;
-        Double3 centre;           ///< in the model's coordinates
-        Double3 start_of_centre;  ///< world
-        Double3 shift;            ///< world
-        Double3 axis;             ///< world, a unit vector
-        double angle;             ///< radians, not negative
+        Double3 centre;                        ///< in the model's coordinates
+        Double3 start_of_centre;               ///< world
+        Double3 shift;                         ///< world
+        Double3 axis;                          ///< world, a unit vector
+        double angle;                          ///< radians, not negative
         std::array<double, 9> start_rotation;  ///< that of `start`, made orthonormal
         /// The largest deviation of an entry of the rotations at 0 and 1 from this formula.
         double end_error;

@@ -368,6 +368,26 @@ PLACE(cdprep_live_move, vertices, 8);
 PLACE(cdprep_live_move, positions, 16);
 PLACE(cdprep_live_move, positions_f32, 24);
 PLACE(cdprep_live_move, count, 32);
+SIZE(cdprep_motion, 272);
+PLACE(cdprep_motion, end, 96);
+PLACE(cdprep_motion, centre, 192);
+PLACE(cdprep_motion, shift, 216);
+PLACE(cdprep_motion, turn, 240);
+PLACE(cdprep_motion, told_by, 264);
+PLACE(cdprep_motion, reserved, 268);
+SIZE(cdprep_moving_pair, 584);
+PLACE(cdprep_moving_pair, a, 8);
+PLACE(cdprep_moving_pair, b, 16);
+PLACE(cdprep_moving_pair, body, 24);
+PLACE(cdprep_moving_pair, most_steps, 28);
+PLACE(cdprep_moving_pair, tolerance, 32);
+PLACE(cdprep_moving_pair, motion_a, 40);
+PLACE(cdprep_moving_pair, motion_b, 312);
+SIZE(cdprep_impact, 104);
+PLACE(cdprep_impact, steps, 4);
+PLACE(cdprep_impact, lower, 8);
+PLACE(cdprep_impact, upper, 16);
+PLACE(cdprep_impact, nearest, 24);
 SIZE(cdprep_live_info, 56);
 PLACE(cdprep_live_info, number_bound, 4);
 PLACE(cdprep_live_info, vertices, 8);
@@ -406,6 +426,7 @@ TEST(CAbi, TagsAreWhatTheyWere) {
     EXPECT_EQ(tag_of(cdprep_live_options_init), 0xcd500011U);
     EXPECT_EQ(tag_of(cdprep_live_move_init), 0xcd500012U);
     EXPECT_EQ(tag_of(cdprep_self_query_init), 0xcd500013U);
+    EXPECT_EQ(tag_of(cdprep_moving_pair_init), 0xcd500014U);
 }
 
 }  // namespace

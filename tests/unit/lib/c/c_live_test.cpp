@@ -95,7 +95,8 @@ void expect_same_answers(const cdprep_model* live, const cdprep_model* expected,
         // Another order of the triangles may give another of several nearest ones, and lists
         // vertices in another order.
         const std::string name = question.name;
-        const bool is_free = name.find("distance") != std::string::npos || name == "model mesh";
+        const bool is_free = name.find("distance") != std::string::npos ||
+                             name.find("impact") != std::string::npos || name == "model mesh";
         EXPECT_TRUE(is_free || answer.bytes == same.bytes) << question.name;
         ++answered;
     }

@@ -131,8 +131,9 @@ std::string function_of(const std::string& row, const Functions& functions, char
 
 TEST(NeedsLines, OfCppAreWhatTheQuestionsNeed) {
     Functions functions;
-    for (const char* header : {"pairs.h", "points.h", "contacts.h", "hulls.h", "parallel.h",
-                               "self.h", "cells/level_of_detail.h", "cells/overlap_through.h"}) {
+    for (const char* header :
+         {"pairs.h", "points.h", "contacts.h", "hulls.h", "parallel.h", "self.h",
+          "time_of_impact.h", "cells/level_of_detail.h", "cells/overlap_through.h"}) {
         read_cpp(header, functions);
     }
     Names asked;
@@ -158,7 +159,8 @@ TEST(NeedsLines, OfCppAreWhatTheQuestionsNeed) {
 
 TEST(NeedsLines, OfCAreWhatTheQuestionsNeed) {
     Functions functions;
-    for (const char* header : {"c/model.h", "c/pairs.h", "c/contacts.h", "c/points.h"}) {
+    for (const char* header :
+         {"c/model.h", "c/pairs.h", "c/contacts.h", "c/motion.h", "c/points.h"}) {
         read_c(header, functions);
     }
     Names asked;

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Times of impact through the C API: their answers, and what a caller can get wrong.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "cdprep/cdprep.h"
+#include "support/c_mistakes.h"
+#include "support/c_models.h"
+#include "support/meshes.h"
+#include "support/tiny_baker.h"
+
+namespace cdprep::test {
+namespace {
+
+class CMotion : public testing::Test {
+protected:
+    CMotion() : file_(bake_tiny(unit_cube().positions, unit_cube().triangles)), model_(file_) {}
+
+    /// The second cube comes from x = 3 and goes to x = -1.
+    [[nodiscard]] cdprep_moving_pair pair() const {
+        cdprep_moving_pair pair;
+        cdprep_moving_pair_init(&pair, sizeof pair);
+        pair.a = pair.b = model_.get();
+        pair.motion_b.start.rows[9] = 3;
+        pair.motion_b.end.rows[9] = -1;
+        return pair;
+    }
+    Outcome ask(const cdprep_moving_pair* given) {
+        cdprep_error error;
+        const int code = cdprep_time_of_impact(given, workspace_.get(), &impact_, &error);
+        return outcome(code, error, impact_.kind == CDPREP_IMPACT_UNKNOWN);
+    }
+
+    AlignedBytes file_;
+    CModel model_;
+    CWorkspace workspace_;
+    cdprep_impact impact_{};
+};
+
+TEST_F(CMotion, FindsTheTimeOfImpact) {
+    const cdprep_moving_pair given = pair();
+    ASSERT_EQ(ask(&given).code, CDPREP_OK);
+    EXPECT_EQ(impact_.kind, static_cast<std::uint32_t>(CDPREP_IMPACT_TOUCHING));
+    EXPECT_GT(impact_.steps, 0U);
+    EXPECT_LE(impact_.lower, 0.5);
+    EXPECT_GE(impact_.upper, 0.5);
+    EXPECT_LE(impact_.upper - impact_.lower, 1e-11);
+    EXPECT_EQ(impact_.nearest.found, static_cast<std::uint32_t>(CDPREP_YES));
+    EXPECT_NEAR(impact_.nearest.on_a[0], 1, 1e-9);
+    EXPECT_NEAR(impact_.nearest.on_b[0], 1, 1e-9);
+}
+
+TEST_F(CMotion, TakesVelocitiesAndLimits) {
+    cdprep_moving_pair given = pair();
+    given.motion_b.end = given.motion_a.end;
+    given.motion_b.told_by = CDPREP_MOTION_VELOCITY;
+    given.motion_b.shift[0] = -4;
+    ASSERT_EQ(ask(&given).code, CDPREP_OK);
+    EXPECT_EQ(impact_.kind, static_cast<std::uint32_t>(CDPREP_IMPACT_TOUCHING));
+    EXPECT_NEAR(impact_.upper, 0.5, 1e-11);
+    given.most_steps = 0;
+    ASSERT_EQ(ask(&given).code, CDPREP_OK);
+    EXPECT_EQ(impact_.kind, static_cast<std::uint32_t>(CDPREP_IMPACT_UNFINISHED));
+    given.most_steps = 256;
+    given.motion_b.shift[0] = 4;
+    ASSERT_EQ(ask(&given).code, CDPREP_OK);
+    EXPECT_EQ(impact_.kind, static_cast<std::uint32_t>(CDPREP_IMPACT_NONE));
+    EXPECT_EQ(impact_.lower, 1);
+    EXPECT_EQ(impact_.upper, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(impact_.nearest.found, static_cast<std::uint32_t>(CDPREP_NO));
+}
+
+TEST_F(CMotion, HasAPoseAtEachTime) {
+    cdprep_motion motion = pair().motion_b;
+    cdprep_pose pose;
+    cdprep_error error;
+    ASSERT_EQ(cdprep_motion_pose(&motion, 0.25, &pose, &error), CDPREP_OK) << error.message;
+    EXPECT_EQ(pose.rows[9], 2);
+    ASSERT_EQ(cdprep_motion_pose(&motion, 1, &pose, &error), CDPREP_OK);
+    EXPECT_EQ(pose.rows[9], -1);
+    for (const double time : {-0.5, 1.5, kNan, kInfinity}) {
+        EXPECT_EQ(cdprep_motion_pose(&motion, time, &pose, &error), CDPREP_BAD_ARGUMENT);
+        EXPECT_STREQ(error.argument, "time");
+        EXPECT_EQ(pose.rows[0], 0);
+    }
+    motion.reserved = 1;
+    EXPECT_EQ(cdprep_motion_pose(&motion, 0, &pose, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "motion.reserved");
+    EXPECT_EQ(cdprep_motion_pose(nullptr, 0, &pose, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(cdprep_motion_pose(&motion, 0, nullptr, &error), CDPREP_BAD_ARGUMENT);
+}
+
+TEST_F(CMotion, RefusesEveryMistake) {
+    using P = cdprep_moving_pair;
+    std::vector<Mistake<P>> all = struct_mistakes<P>("pair");
+    const auto add = [&](const char* argument, int why, auto make) {
+        all.push_back({argument, make, why, argument});
+    };
+    add("pair.a", CDPREP_WHY_NULL, [](P& p) { p.a = nullptr; });
+    add("pair.b", CDPREP_WHY_NULL, [](P& p) { p.b = nullptr; });
+    add("pair.body", CDPREP_WHY_OUT_OF_RANGE, [](P& p) { p.body = 2; });
+    add("pair.motion_a.told_by", CDPREP_WHY_OUT_OF_RANGE, [](P& p) { p.motion_a.told_by = 2; });
+    add("pair.motion_b.told_by", CDPREP_WHY_OUT_OF_RANGE,
+        [](P& p) { p.motion_b.told_by = UINT32_MAX; });
+    add("pair.motion_a.reserved", CDPREP_WHY_NEWER_FIELD, [](P& p) { p.motion_a.reserved = 1; });
+    add("pair.tolerance", CDPREP_WHY_OUT_OF_RANGE, [](P& p) { p.tolerance = -1; });
+    for (const auto& [number, why] : bad_numbers()) {
+        const double bad = number;
+        add("pair.tolerance", why, [bad](P& p) { p.tolerance = bad; });
+        add("pair.motion_a.start[3]", why, [bad](P& p) { p.motion_a.start.rows[3] = bad; });
+        add("pair.motion_b.end[11]", why, [bad](P& p) { p.motion_b.end.rows[11] = bad; });
+        add("pair.motion_b.centre[2]", why, [bad](P& p) { p.motion_b.centre[2] = bad; });
+        add("pair.motion_a.shift[0]", why, [bad](P& p) { p.motion_a.shift[0] = bad; });
+        add("pair.motion_a.turn[1]", why, [bad](P& p) { p.motion_a.turn[1] = bad; });
+    }
+    add("pair.motion_a.start", CDPREP_WHY_NOT_RIGID, [](P& p) { p.motion_a.start.rows[0] = 2; });
+    add("pair.motion_b.end", CDPREP_WHY_NOT_RIGID, [](P& p) { p.motion_b.end.rows[4] = -1; });
+    add("pair.motion_a.shift", CDPREP_WHY_NO_MEANING, [](P& p) { p.motion_a.shift[2] = 1; });
+    add("pair.motion_a.turn", CDPREP_WHY_NO_MEANING, [](P& p) { p.motion_a.turn[2] = 1; });
+    add("pair.motion_b.end", CDPREP_WHY_NO_MEANING,
+        [](P& p) { p.motion_b.told_by = CDPREP_MOTION_VELOCITY; });
+    add("pair.motion_a", CDPREP_WHY_OUT_OF_RANGE, [](P& p) {
+        p.motion_a.told_by = CDPREP_MOTION_VELOCITY;
+        p.motion_a.turn[2] = 1001;
+    });
+    add("pair.motion_b", CDPREP_WHY_OUT_OF_RANGE, [](P& p) {
+        p.motion_b.start.rows[9] = 0x1p1000;
+        p.motion_b.centre[0] = 0x1p999;
+    });
+    expect_refused(pair(), all, [&](const P* given) { return ask(given); });
+}
+
+}  // namespace
+}  // namespace cdprep::test
