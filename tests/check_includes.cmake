@@ -17,7 +17,7 @@ set(lib_rooms
     "hull: core exact kernels"
     "pieces: core exact hull walk"
     "query: core exact pieces walk"
-    "motion: core exact pieces query walk"
+    "motion: build core exact pieces query walk"
     "scene: core kernels walk"
     "cells: core exact kernels walk"
     "cells/build: build cells core exact"

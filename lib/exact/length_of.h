@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "cdprep/format/geometry.h"
+
 namespace cdprep {
 
 /// Returns the length of a finite vector, rounded a few times. It overflows only where the length
@@ -16,6 +18,9 @@ inline double length_of(double x, double y, double z) noexcept {
     if (most == 0) return 0;
     return most *
            std::sqrt((x / most) * (x / most) + (y / most) * (y / most) + (z / most) * (z / most));
+}
+inline double length_of(const format::Double3& v) noexcept {
+    return length_of(v.x, v.y, v.z);
 }
 
 }  // namespace cdprep

@@ -17,10 +17,6 @@ namespace {
 /// Bounds are computed with a few roundings.
 constexpr double kRaised = 1 + 0x1p-40;
 
-double length(const Double3& v) noexcept {
-    return length_of(v.x, v.y, v.z);
-}
-
 /// A box of the root, in the model's coordinates.
 struct RootBox {
     Double3 middle;
@@ -94,7 +90,7 @@ MovingBody::MovingBody(const Model& model, const Motion& motion) noexcept
     double size = 0;
     for_root_boxes(model, [&](const RootBox& box) {
         radius_ = std::max(radius_, reach_from_axis(box, parts.centre, axis));
-        size = std::max(size, length(box.half));
+        size = std::max(size, length_of(box.half));
     });
     // The vertices lie in these boxes up to the roundings of their middles.
     radius_ = radius_ * kRaised + 8 * kUnit * largest_coordinate(model);
@@ -117,14 +113,14 @@ Extent MovingBody::extent(const Corners& corners, const Double3& direction,
         extent.highest = std::max(extent.highest, place);
         extent.slowest = std::min(extent.slowest, velocity);
         extent.fastest = std::max(extent.fastest, velocity);
-        extent.bend = std::max(extent.bend, length(arm));
+        extent.bend = std::max(extent.bend, length_of(arm));
     }
     extent.bend *= parts.angle * parts.angle * kRaised;
     return extent;
 }
 
 double greatest_speed(const MovingBody& a, const MovingBody& b) noexcept {
-    return (length(b.shift() - a.shift()) + a.turning_speed() + b.turning_speed()) * kRaised;
+    return (length_of(b.shift() - a.shift()) + a.turning_speed() + b.turning_speed()) * kRaised;
 }
 
 }  // namespace cdprep

@@ -111,7 +111,7 @@ double ImpactSearch::free_time_of(const TriangleDistance& found, const Corners& 
                                   const Corners& b) const noexcept {
     const double plain = (found.lower - margin_) / speed_;
     const Double3 way = found.on_b - found.on_a;
-    const double length = length_of(way.x, way.y, way.z);
+    const double length = length_of(way);
     if (!(length > 0)) return plain;
     const Double3 n = {way.x / length, way.y / length, way.z / length};
     const Extent in_a = body_a_.extent(a, n, time_);

@@ -61,18 +61,29 @@ float float_above(double x) noexcept {
 
 }  // namespace
 
-double double_slack(const Model& a, const Model& b, const Placement& placement) noexcept {
-    const double reaches = reach(a.header()) + reach(b.header()) +
-                           largest(placement.pose_a().translation()) +
+namespace {
+
+double double_slack(const format::FileHeader& a, const format::FileHeader& b,
+                    const Placement& placement) noexcept {
+    const double reaches = reach(a) + reach(b) + largest(placement.pose_a().translation()) +
                            largest(placement.pose_b().translation());
     double slack = kDoubleSlack * reaches;
-    if (placement.a_is_moved()) slack += kTurnSlack * reach(a.header());
+    if (placement.a_is_moved()) slack += kTurnSlack * reach(a);
     return slack;
 }
 
+}  // namespace
+
+double double_slack(const Model& a, const Model& b, const Placement& placement) noexcept {
+    return double_slack(a.header(), b.header(), placement);
+}
+
 PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placement) noexcept {
-    const format::FileHeader& head_a = a.header();
-    const format::FileHeader& head_b = b.header();
+    return place_boxes(a.header(), b.header(), placement);
+}
+
+PlacedBoxes place_boxes(const format::FileHeader& head_a, const format::FileHeader& head_b,
+                        const Placement& placement) noexcept {
     const Pose a_from_b = placement.a_is_moved()
                               ? relative_pose(placement.pose_a(), placement.pose_b())
                               : placement.pose_b();
@@ -86,7 +97,7 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
                            scaled((turned.y + t.y) - head_a.frame_origin.y, exponent),
                            scaled((turned.z + t.z) - head_a.frame_origin.z, exponent)};
 
-    const double vertex_slack = scaled(double_slack(a, b, placement), exponent);
+    const double vertex_slack = scaled(double_slack(head_a, head_b, placement), exponent);
     const double slack = vertex_slack + kFloatSlack * (scale_a + scale_b + largest(shift));
 
     PlacedBoxes placed{};

@@ -36,6 +36,9 @@ struct PlacedBoxes {
 
 [[nodiscard]] PlacedBoxes place_boxes(const Model& a, const Model& b,
                                       const Placement& placement) noexcept;
+/// The same for the frames of two headers.
+[[nodiscard]] PlacedBoxes place_boxes(const format::FileHeader& a, const format::FileHeader& b,
+                                      const Placement& placement) noexcept;
 
 /// In pair units; beyond this, squares of lengths would leave the range of float.
 inline constexpr double kMostReach = 0x1p60;

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "cdprep/motion.h"
+#include "cdprep/pairs.h"
+
+namespace cdprep {
+
+/// The space through which a deforming model passes during a step: boxes around the way of each of
+/// its triangles. Each vertex moves along a straight line, at constant speed. So a triangle that
+/// jumps over a thin object in one step is not lost.
+///
+///     auto sweep = Sweep::in(memory, object.model());
+///     for (...) {
+///         sweep->begin();
+///         object.refit(positions);
+///         sweep->end();
+///         if (may_touch(*sweep, blade, motion_of_blade, workspace)) { take smaller steps }
+///     }
+///
+/// Lives in the caller's memory and allocates nothing. Copies share that memory. Queries about it
+/// may run on any number of threads at once, but not during begin(), end() or a change of the
+/// model.
+class Sweep {
+public:
+    /// Returns the number of bytes that in() takes: about 40 per vertex and 3 per triangle.
+    [[nodiscard]] static std::size_t bytes(const Model& model) noexcept;
+
+    /// Makes the sweep of a model that deforms in place, such as that of a LiveModel. The model
+    /// must outlive it. `memory` must start at a multiple of format::kSectionAlignment. Returns
+    /// nothing if it is too small or misaligned. Needs Ask::within and Ask::corners of the model.
+    /// At first, nothing moves.
+    [[nodiscard]] static std::optional<Sweep> in(std::span<std::byte> memory,
+                                                 const Model& model) noexcept;
+
+    /// Begins a step: the positions of the model are those at time 0. Takes O(vertices) time.
+    void begin() noexcept;
+
+    /// Ends the step: the positions of the model are those at time 1. If the model tears within a
+    /// step, the way of a new triangle begins at any earlier positions of its vertices. Takes O(n)
+    /// time.
+    void end() noexcept;
+
+    [[nodiscard]] const Model& model() const noexcept {
+        return *model_;
+    }
+
+    struct Storage;  ///< private to the library
+    [[nodiscard]] const Storage& storage() const noexcept {
+        return *storage_;
+    }
+
+private:
+    Sweep(const Model& model, Storage& storage) noexcept : model_(&model), storage_(&storage) {}
+
+    const Model* model_;
+    Storage* storage_;
+};
+
+/// Returns whether the deforming model may touch B during the step of the sweep. The coordinates of
+/// the deforming model are those of the world in which `motion` moves B.
+///
+/// `false` is proven: no triangle of one touches a triangle of the other at any time of the step.
+/// `true` says that the convex hull of a triangle's way, seen from B, comes near a triangle of B.
+/// It does not say whether they touch, nor when. A hull ignores that its triangle is in one place
+/// at a time, so a step of less motion gives fewer false alarms. Nor does it say that one model is
+/// inside the other: collide() with Body::solid does.
+///
+/// Needs Ask::within of B. Takes as long as within() with a tolerance of half of B's
+/// motion, and about 1 us for each pair of triangles near each other. Never allocates.
+[[nodiscard]] bool may_touch(const Sweep& sweep, const Model& b, const Motion& motion,
+                             Workspace& workspace) noexcept;
+
+/// Finds every pair of triangles that may touch during the step, as may_touch(). Returns the number
+/// of pairs and stores the first of them in `room`, as overlaps() does. Triangle `a` is of the
+/// deforming model.
+///
+/// Needs Ask::within of B.
+[[nodiscard]] std::size_t pairs_that_may_touch(const Sweep& sweep, const Model& b,
+                                               const Motion& motion, Workspace& workspace,
+                                               std::span<TrianglePair> room) noexcept;
+
+}  // namespace cdprep
