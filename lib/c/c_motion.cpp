@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "c/c_pairs.h"
+#include "c/motion_input.h"
 #include "c/pair_answers.h"
 #include "cdprep/c/motion.h"
 #include "cdprep/time_of_impact.h"
@@ -34,90 +35,12 @@ constexpr std::array kFields = {
     Field{"tolerance", offsetof(cdprep_moving_pair, tolerance), Holds::length},
 };
 
-bool is_zero(const double (&numbers)[3]) noexcept {
-    return numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0;
-}
-
-Double3 point(const double (&numbers)[3]) noexcept {
-    return {numbers[0], numbers[1], numbers[2]};
-}
-
-/// The names of a motion and its fields in an error.
-struct MotionNames {
-    Name whole;
-    const char* motion;  ///< null: `whole` is the motion
-    const char* start;
-    const char* end;
-    const char* centre;
-    const char* shift;
-    const char* turn;
-    const char* told_by;
-    const char* reserved;
-};
-
-constexpr MotionNames kAlone = {{"motion"}, nullptr, "start",   "end",     "centre",
-                                "shift",    "turn",  "told_by", "reserved"};
 constexpr MotionNames kOfA = {{"pair"},        "motion_a",         "motion_a.start",
                               "motion_a.end",  "motion_a.centre",  "motion_a.shift",
                               "motion_a.turn", "motion_a.told_by", "motion_a.reserved"};
 constexpr MotionNames kOfB = {{"pair"},        "motion_b",         "motion_b.start",
                               "motion_b.end",  "motion_b.centre",  "motion_b.shift",
                               "motion_b.turn", "motion_b.told_by", "motion_b.reserved"};
-
-int check_all_numbers(Call& call, const MotionNames& names, const cdprep_motion& given) noexcept {
-    const auto check = [&](const char* field, const double* numbers, std::size_t count) {
-        return check_numbers(call, names.whole.of(field), Holds::number, numbers, count);
-    };
-    if (const int code = check(names.start, given.start.rows, 12)) return code;
-    if (const int code = check(names.end, given.end.rows, 12)) return code;
-    if (const int code = check(names.centre, given.centre, 3)) return code;
-    if (const int code = check(names.shift, given.shift, 3)) return code;
-    return check(names.turn, given.turn, 3);
-}
-
-int refuse_unused(Call& call, const Name& name) noexcept {
-    return call.refuse(CDPREP_WHY_NO_MEANING, name,
-                       "is set, but told_by does not use it; leave it at its default.");
-}
-
-/// Refuses fields that this kind of motion does not use.
-int check_use(Call& call, const MotionNames& names, const cdprep_motion& given) noexcept {
-    const Name& whole = names.whole;
-    if (given.told_by > CDPREP_MOTION_VELOCITY) {
-        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, whole.of(names.told_by),
-                           "is %u; the greatest value is %d.", given.told_by,
-                           static_cast<int>(CDPREP_MOTION_VELOCITY));
-    }
-    if (given.reserved != 0) {
-        return call.refuse(CDPREP_WHY_NEWER_FIELD, whole.of(names.reserved),
-                           "is %u; this version of the library needs 0.", given.reserved);
-    }
-    if (given.told_by == CDPREP_MOTION_VELOCITY) {
-        return is_identity(given.end) ? CDPREP_OK : refuse_unused(call, whole.of(names.end));
-    }
-    if (!is_zero(given.shift)) return refuse_unused(call, whole.of(names.shift));
-    if (!is_zero(given.turn)) return refuse_unused(call, whole.of(names.turn));
-    return CDPREP_OK;
-}
-
-int read_motion(Call& call, const MotionNames& names, const cdprep_motion& given, Motion& motion) {
-    if (const int code = check_all_numbers(call, names, given)) return code;
-    if (const int code = check_use(call, names, given)) return code;
-    Pose start, end;
-    if (const int code = read_rigid(call, names.whole.of(names.start), given.start, start))
-        return code;
-    if (const int code = read_rigid(call, names.whole.of(names.end), given.end, end)) return code;
-    const Result<Motion> made = given.told_by == CDPREP_MOTION_POSES
-                                    ? Motion::between(start, end, point(given.centre))
-                                    : Motion::by_velocity(start, point(given.shift),
-                                                          point(given.turn), point(given.centre));
-    if (!made) {
-        return call.refuse_with(CDPREP_WHY_OUT_OF_RANGE, names.whole.of(names.motion),
-                                made.error().message);
-    }
-    motion = made.value();
-    return CDPREP_OK;
-}
 
 /// A moving pair whose every field was checked.
 struct AskedMotion {
@@ -174,7 +97,7 @@ int cdprep_motion_pose(const cdprep_motion* motion, double time, cdprep_pose* po
                                time);
         }
         cdprep::Motion read;
-        if (const int code = read_motion(call, cdprep::c::kAlone, *motion, read)) return code;
+        if (const int code = read_motion(call, cdprep::c::kMotionAlone, *motion, read)) return code;
         *pose = cdprep::c::stored(read.at(time));
         return CDPREP_OK;
     });

@@ -4,7 +4,7 @@
 
 #include "cdprep/c/pairs.h"
 
-/* The time at which two moving models first touch. */
+/* The time at which two moving models first touch, and what a deforming model passes through. */
 
 /* What tells a motion. */
 enum {
@@ -15,7 +15,8 @@ enum {
 /* The rigid motion of a model during a step, from time 0 to time 1. One point of the model, the
  * centre, moves along a straight line at constant speed. The model turns about it, about a fixed
  * axis at constant speed. The centre of mass is a good centre for a free body, the joint for a part
- * that turns about it. A centre far outside the model makes the query slow. */
+ * that turns about it. A centre far outside the model makes the query slow.
+ * cdprep_moving_pair_init() makes motions without motion, to be filled in. */
 typedef struct cdprep_motion {
     cdprep_pose start;
     cdprep_pose end;  /* used only by CDPREP_MOTION_POSES; otherwise the identity */
@@ -79,5 +80,60 @@ typedef struct cdprep_impact {
  * Needs: CDPREP_ASK_DISTANCE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_time_of_impact(const cdprep_moving_pair* pair, cdprep_workspace* workspace,
                                      cdprep_impact* impact, cdprep_error* error);
+
+/* The space through which a deforming model passes during a step: boxes around the way of each of
+ * its triangles. Each vertex moves along a straight line, at constant speed. So a triangle that
+ * jumps over a thin object in one step is not lost. Call cdprep_sweep_begin(), move the model, call
+ * cdprep_sweep_step(), then ask. While one of these calls runs, the others fail with
+ * CDPREP_WHY_BUSY. No query about the sweep may run then: this is not checked. */
+typedef struct cdprep_sweep cdprep_sweep;
+
+/* Stores the number of bytes that cdprep_sweep_make() needs: about 40 per vertex and 3 per triangle.
+ * On failure *size is 0.
+ * Needs of the model: CDPREP_ASK_WITHIN, CDPREP_ASK_CORNERS */
+CDPREP_API int cdprep_sweep_size(const cdprep_model* model, size_t* size, cdprep_error* error);
+
+/* Makes the sweep of a model that deforms in place, such as that of a live model. The model must
+ * outlive it. At first, nothing moves. On failure *sweep is null. End it with cdprep_sweep_end().
+ * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_sweep_size()
+ * bytes. With null memory of size 0, the allocator makes one allocation; null is the heap. No later
+ * call allocates.
+ * Errors: CDPREP_WHY_TOO_SMALL, CDPREP_WHY_OUT_OF_RANGE and CDPREP_WHY_NO_MEANING about memory, as
+ * cdprep_live_make(); CDPREP_OVER_BUDGET.
+ * Needs of the model: CDPREP_ASK_WITHIN, CDPREP_ASK_CORNERS */
+CDPREP_API int cdprep_sweep_make(const cdprep_model* model, const cdprep_allocator* allocator,
+                                 void* memory, size_t size, cdprep_sweep** sweep,
+                                 cdprep_error* error);
+
+/* Ends a sweep, unless another call uses it. Null does nothing. */
+CDPREP_API void cdprep_sweep_end(cdprep_sweep* sweep);
+
+/* Begins a step: the positions of the model are those at time 0. Takes O(vertices) time. */
+CDPREP_API int cdprep_sweep_begin(cdprep_sweep* sweep, cdprep_error* error);
+
+/* Completes the step: the positions of the model are those at time 1. If the model tears within a
+ * step, the way of a new triangle begins at any earlier positions of its vertices. Takes O(n)
+ * time. */
+CDPREP_API int cdprep_sweep_step(cdprep_sweep* sweep, cdprep_error* error);
+
+/* Both functions find the pairs of triangles that may touch during the step: triangle `a` of the
+ * deforming model, and `b` of another model that `motion` moves. The coordinates of the deforming
+ * model are those of the world. The first function stops at the first pair and stores CDPREP_YES.
+ * The list is in the order of (a, b); if there is too little room, it keeps the smallest pairs.
+ *
+ * CDPREP_NO is proven: no triangles touch at any time of the step. CDPREP_YES says that the convex
+ * hull of a triangle's way, seen from the other model, comes near one of its triangles. It does not
+ * say whether they touch, nor when, nor that one model is inside the other. A step of less motion
+ * gives fewer false alarms.
+ *
+ * Takes as long as cdprep_within() with a tolerance of half of the motion, and about 1 us for each
+ * pair of triangles near each other. Never allocates.
+ * Needs of the other model: CDPREP_ASK_WITHIN */
+CDPREP_API int cdprep_sweep_may_touch(const cdprep_sweep* sweep, const cdprep_model* other,
+                                      const cdprep_motion* motion, cdprep_workspace* workspace,
+                                      uint32_t* may_touch, cdprep_error* error);
+CDPREP_API int cdprep_sweep_pairs(const cdprep_sweep* sweep, const cdprep_model* other,
+                                  const cdprep_motion* motion, cdprep_workspace* workspace,
+                                  cdprep_overlap_list* list, cdprep_error* error);
 
 #endif /* CDPREP_C_MOTION_H */

@@ -134,5 +134,120 @@ TEST_F(CMotion, RefusesEveryMistake) {
     expect_refused(pair(), all, [&](const P* given) { return ask(given); });
 }
 
+/// A live cube, and its sweep in memory of the heap.
+class CSweep : public CMotion {
+protected:
+    CSweep() {
+        cdprep_live_options options;
+        cdprep_live_options_init(&options, sizeof options);
+        options.model = model_.get();
+        EXPECT_EQ(cdprep_live_make(&options, nullptr, 0, &live_, nullptr), CDPREP_OK);
+        EXPECT_EQ(
+            cdprep_sweep_make(cdprep_live_model(live_), nullptr, nullptr, 0, &sweep_, &error_),
+            CDPREP_OK)
+            << error_.message;
+    }
+    ~CSweep() override {
+        cdprep_sweep_end(sweep_);
+        cdprep_live_end(live_);
+    }
+    CSweep(const CSweep&) = delete;
+    CSweep& operator=(const CSweep&) = delete;
+
+    /// Moves the cube along x.
+    void move(double x) {
+        std::vector<float> positions;
+        for (const Double3& p : unit_cube().positions) {
+            positions.insert(positions.end(), {static_cast<float>(p.x + x), static_cast<float>(p.y),
+                                               static_cast<float>(p.z)});
+        }
+        cdprep_live_move moved;
+        cdprep_live_move_init(&moved, sizeof moved);
+        moved.positions_f32 = positions.data();
+        moved.count = positions.size() / 3;
+        EXPECT_EQ(cdprep_sweep_begin(sweep_, &error_), CDPREP_OK);
+        EXPECT_EQ(cdprep_live_refit(live_, &moved, workspace_.get(), &error_), CDPREP_OK)
+            << error_.message;
+        EXPECT_EQ(cdprep_sweep_step(sweep_, &error_), CDPREP_OK);
+    }
+    /// Asks about a cube at x.
+    std::uint32_t may_touch(double x) {
+        cdprep_motion motion = pair().motion_a;
+        motion.start.rows[9] = motion.end.rows[9] = x;
+        std::uint32_t answer = 77;
+        EXPECT_EQ(cdprep_sweep_may_touch(sweep_, model_.get(), &motion, workspace_.get(), &answer,
+                                         &error_),
+                  CDPREP_OK)
+            << error_.message;
+        cdprep_overlap_list list = {nullptr, 0, 77};
+        EXPECT_EQ(
+            cdprep_sweep_pairs(sweep_, model_.get(), &motion, workspace_.get(), &list, &error_),
+            CDPREP_OK);
+        EXPECT_EQ(list.count > 0, answer == CDPREP_YES);
+        return answer;
+    }
+
+    cdprep_live* live_ = nullptr;
+    cdprep_sweep* sweep_ = nullptr;
+    cdprep_error error_{};
+};
+
+TEST_F(CSweep, FindsWhatTheModelJumpsOver) {
+    EXPECT_EQ(may_touch(5), static_cast<std::uint32_t>(CDPREP_NO));
+    move(10);
+    EXPECT_EQ(may_touch(5), static_cast<std::uint32_t>(CDPREP_YES));
+    EXPECT_EQ(may_touch(11.5), static_cast<std::uint32_t>(CDPREP_NO));
+    move(12);
+    EXPECT_EQ(may_touch(5), static_cast<std::uint32_t>(CDPREP_NO));
+}
+
+TEST_F(CSweep, RefusesEveryMistake) {
+    const cdprep_motion motion = pair().motion_a;
+    std::uint32_t answer = 77;
+    const auto ask = [&](const cdprep_sweep* sweep, const cdprep_model* other,
+                         const cdprep_motion* by, cdprep_workspace* workspace) {
+        answer = 77;
+        const int code = cdprep_sweep_may_touch(sweep, other, by, workspace, &answer, &error_);
+        return std::pair(code, std::string(error_.argument));
+    };
+    const auto refused = [](const char* argument) {
+        return std::pair(static_cast<int>(CDPREP_BAD_ARGUMENT), std::string(argument));
+    };
+    EXPECT_EQ(ask(nullptr, model_.get(), &motion, workspace_.get()), refused("sweep"));
+    EXPECT_EQ(ask(sweep_, nullptr, &motion, workspace_.get()), refused("other"));
+    EXPECT_EQ(ask(sweep_, model_.get(), nullptr, workspace_.get()), refused("motion"));
+    EXPECT_EQ(ask(sweep_, model_.get(), &motion, nullptr), refused("workspace"));
+    EXPECT_EQ(answer, static_cast<std::uint32_t>(CDPREP_UNKNOWN));
+    cdprep_motion wrong = motion;
+    wrong.told_by = 2;
+    EXPECT_EQ(ask(sweep_, model_.get(), &wrong, workspace_.get()), refused("motion.told_by"));
+    cdprep_overlap_list list = {nullptr, 4, 77};
+    EXPECT_EQ(cdprep_sweep_pairs(sweep_, model_.get(), &motion, workspace_.get(), &list, &error_),
+              CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error_.argument, "list.items");
+    EXPECT_EQ(list.count, 0U);
+    EXPECT_EQ(cdprep_sweep_begin(nullptr, nullptr), CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(cdprep_sweep_step(nullptr, nullptr), CDPREP_BAD_ARGUMENT);
+    cdprep_sweep_end(nullptr);
+}
+
+TEST_F(CSweep, TakesMemoryOfTheCaller) {
+    std::size_t size = 77;
+    ASSERT_EQ(cdprep_sweep_size(model_.get(), &size, &error_), CDPREP_OK);
+    AlignedBytes memory(size);
+    cdprep_sweep* sweep = nullptr;
+    EXPECT_EQ(
+        cdprep_sweep_make(model_.get(), nullptr, memory.span().data(), size - 1, &sweep, &error_),
+        CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(error_.why, CDPREP_WHY_TOO_SMALL);
+    EXPECT_EQ(sweep, nullptr);
+    ASSERT_EQ(cdprep_sweep_make(model_.get(), nullptr, memory.span().data(), size, &sweep, &error_),
+              CDPREP_OK);
+    EXPECT_EQ(cdprep_sweep_step(sweep, &error_), CDPREP_OK);
+    cdprep_sweep_end(sweep);
+    EXPECT_EQ(cdprep_sweep_size(nullptr, &size, &error_), CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(size, 0U);
+}
+
 }  // namespace
 }  // namespace cdprep::test
