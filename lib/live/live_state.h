@@ -31,12 +31,6 @@ struct LeafRange {
     std::uint32_t last;  ///< one past
 };
 
-/// A triangle and its number.
-struct NumberedTriangle {
-    format::Triangle triangle;
-    std::uint32_t number;
-};
-
 /// The counts that decide how much memory a live model takes besides its image.
 struct LiveCounts {
     std::size_t numbers;   ///< of vertices, in the imported file
@@ -174,7 +168,13 @@ private:
     /// Returns the bounds of all vertices that triangles use.
     [[nodiscard]] build::Extent used_extent() const;
     void widen_frame(std::span<const format::Triangle> added);
-    void insert(const NumberedTriangle& added);
+    /// Chooses a leaf for each new triangle.
+    void choose_leaves(std::span<const format::Triangle> added);
+    /// Gives new triangles places in their leaves, or in the smallest subtrees with enough free
+    /// places, whose triangles are distributed anew.
+    void place(std::span<NewTriangle> fresh);
+    /// Returns whether new triangles found places in a subtree: a leaf if `height` is 0.
+    bool place_in(std::uint32_t height, std::uint32_t subtree, std::span<const NewTriangle> fresh);
     /// Returns whether a place has a triangle, also while the header does not count it yet.
     [[nodiscard]] bool is_taken(std::uint32_t place) const {
         return !tables.tear ||
@@ -190,10 +190,8 @@ private:
     [[nodiscard]] std::uint64_t to_be_free(std::uint64_t places, std::uint32_t level) const;
     [[nodiscard]] bool has_room(std::uint32_t level, std::uint32_t node) const;
     [[nodiscard]] std::uint32_t nearest_leaf(const format::Triangle& triangle) const;
-    /// Returns the smallest subtree around a leaf that has enough free places for one more.
-    [[nodiscard]] LeafRange find_room_around(std::uint32_t leaf) const;
-    /// Distributes the triangles of a subtree anew, and one more if it is not null.
-    void redistribute(const LeafRange& range, const NumberedTriangle* added);
+    /// Distributes the triangles of a subtree anew, and new ones. Fits no boxes.
+    void redistribute(const LeafRange& range, std::span<const NewTriangle> fresh);
     [[nodiscard]] Corners corners(const format::Triangle& triangle) const;
     void fit_leaves(const LeafRange& range);
     void note_tear();

@@ -22,7 +22,7 @@ constexpr float kEnd = 1.2F;
 
 }  // namespace
 
-void LiveModel::State::redistribute(const LeafRange& range, const NumberedTriangle* added) {
+void LiveModel::State::redistribute(const LeafRange& range, std::span<const NewTriangle> fresh) {
     const build::FrameMap map(frame_);
     std::uint32_t count = 0;
     const auto add = [&](const NumberedTriangle& each) {
@@ -37,7 +37,7 @@ void LiveModel::State::redistribute(const LeafRange& range, const NumberedTriang
         add({triangles[place], source_triangle[place]});
         take_out(place);
     }
-    if (added != nullptr) add(*added);
+    for (const NewTriangle& each : fresh) add(each.added);
     const std::uint32_t leaf_count = range.last - range.first;
     const Fill fill = tables.tear ? Fill::even : Fill::full;
     const std::span<SpreadItem> items = tables.items.first(count);
@@ -52,7 +52,6 @@ void LiveModel::State::redistribute(const LeafRange& range, const NumberedTriang
                 {tables.item_triangles[items[i].from], items[i].id});
         }
     }
-    fit_leaves(range);
 }
 
 /// Fits leaves, and the boxes around them up to the root.
@@ -86,7 +85,8 @@ std::uint32_t LiveModel::State::rebuild(std::uint32_t most) {
         const LeafRange range = subtree(worst);
         const std::uint32_t size = count_in(range);
         if (!is_rebuilding_ || size > most - done) break;
-        redistribute(range, nullptr);
+        redistribute(range, {});
+        fit_leaves(range);
         tables.built_cost[worst] = cost_of(worst);
         tables.growth[worst] = 1;
         done += size;

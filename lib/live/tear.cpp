@@ -18,6 +18,8 @@
 // in the leaf whose box grows least. If that leaf is full, the triangles of the smallest subtree
 // with enough free places are distributed anew. The higher the subtree, the more must be free, so
 // the next time is far off. This is a packed-memory array (Bender, Demaine and Farach-Colton 2005).
+// Triangles that come together choose their leaves first. So a subtree is distributed once for all
+// of them.
 
 namespace cdprep {
 namespace {
@@ -30,8 +32,6 @@ using format::Triangle;
 
 /// Ids count upward to this.
 constexpr std::uint32_t kIdLimit = 0x7fffffff;
-
-constexpr std::uint8_t kFullLeaf = 0xff;
 
 /// What stands at a place without a triangle.
 constexpr Triangle kNoTriangle = {{0, 0, 0}};
@@ -153,9 +153,12 @@ std::optional<Error> LiveModel::State::find_fault(std::span<const std::uint32_t>
 // --- Changes ----------------------------------------------------------------------------
 
 void LiveModel::State::append(std::span<const Triangle> added) {
+    if (added.empty()) return;
     widen_frame(added);
-    for (const Triangle& triangle : added) insert({triangle, tables.tear->next_id++});
-    if (!added.empty()) note_tear();
+    choose_leaves(added);
+    place(tables.tear->fresh.first(added.size()));
+    fit_changed(serial_for);
+    note_tear();
 }
 
 void LiveModel::State::remove(std::span<const std::uint32_t> removed) {
@@ -203,18 +206,56 @@ void LiveModel::State::widen_frame(std::span<const Triangle> added) {
     fit_all(serial_for);
 }
 
-void LiveModel::State::insert(const NumberedTriangle& added) {
+void LiveModel::State::choose_leaves(std::span<const Triangle> added) {
     TearTables& tear = *tables.tear;
-    const std::uint32_t leaf = nearest_leaf(added.triangle);
-    ++tear.count;
-    tear.hash += hash_of(added.number, added.triangle);
-    if (tear.lanes[leaf] == kFullLeaf) {
-        redistribute(find_room_around(leaf), &added);
-        return;
+    const std::span<NewTriangle> fresh = tear.fresh.first(added.size());
+    for (std::size_t i = 0; i < added.size(); ++i) {
+        fresh[i] = {nearest_leaf(added[i]), {added[i], tear.next_id++}};
+        tear.hash += hash_of(fresh[i].added.number, added[i]);
+        count_at(fresh[i].leaf * kBvhWidth, 1);  // until it has a place: others see less room
     }
-    const auto lane = static_cast<std::uint32_t>(std::countr_one(tear.lanes[leaf]));
-    put(leaf * kBvhWidth + lane, added);
-    fit_leaves({leaf, leaf + 1});
+    for (const NewTriangle& each : fresh) count_at(each.leaf * kBvhWidth, -1);
+    tear.count += static_cast<std::uint32_t>(added.size());
+    std::ranges::sort(fresh, {}, [](const NewTriangle& each) {
+        return std::uint64_t{each.leaf} << 32 | each.added.number;
+    });
+}
+
+void LiveModel::State::place(std::span<NewTriangle> fresh) {
+    for (std::uint32_t height = 0; !fresh.empty(); ++height) {
+        assert(height <= model.bvh().shape.levels);  // the whole tree has room
+        const auto subtree_of = [&](std::size_t i) { return fresh[i].leaf >> (3 * height); };
+        std::size_t left = 0;
+        for (std::size_t first = 0, last = 0; first < fresh.size(); first = last) {
+            while (last < fresh.size() && subtree_of(last) == subtree_of(first)) ++last;
+            const std::span<NewTriangle> of_subtree = fresh.subspan(first, last - first);
+            if (place_in(height, subtree_of(first), of_subtree)) continue;
+            std::ranges::copy(of_subtree, fresh.begin() + static_cast<std::ptrdiff_t>(left));
+            left += of_subtree.size();
+        }
+        fresh = fresh.first(left);
+    }
+}
+
+bool LiveModel::State::place_in(std::uint32_t height, std::uint32_t subtree,
+                                std::span<const NewTriangle> fresh) {
+    const format::BvhShape& shape = model.bvh().shape;
+    const std::uint32_t size = 1U << (3 * height);
+    const LeafRange range = {subtree * size, std::min((subtree + 1) * size, shape.leaf_count)};
+    const std::uint64_t places = std::uint64_t{range.last - range.first} * kBvhWidth;
+    const std::uint64_t free = height == 0 ? 0 : to_be_free(places, height - 1);
+    const bool is_root = height == shape.levels;
+    if (!is_root && count_in(range) + fresh.size() + free > places) return false;
+    if (height > 0) {
+        redistribute(range, fresh);
+    } else {
+        for (const NewTriangle& each : fresh) {
+            const auto lane = std::countr_one(tables.tear->lanes[range.first]);
+            put(range.first * kBvhWidth + static_cast<std::uint32_t>(lane), each.added);
+        }
+    }
+    for (std::uint32_t leaf = range.first; leaf < range.last; ++leaf) tables.changed.mark(leaf);
+    return true;
 }
 
 void LiveModel::State::put(std::uint32_t place, const NumberedTriangle& added) {
@@ -285,21 +326,6 @@ std::uint32_t LiveModel::State::nearest_leaf(const Triangle& triangle) const {
         place = place * kBvhWidth + best;
     }
     return place;
-}
-
-LeafRange LiveModel::State::find_room_around(std::uint32_t leaf) const {
-    const format::BvhShape& shape = model.bvh().shape;
-    LeafRange range{leaf, leaf + 1};
-    std::uint32_t size = 1;
-    for (std::uint32_t level = 0; level < shape.levels; ++level) {
-        size *= kBvhWidth;
-        range.first = leaf / size * size;
-        range.last = std::min(range.first + size, shape.leaf_count);
-        const std::uint64_t count = std::uint64_t{count_in(range)} + 1;
-        const std::uint64_t places = std::uint64_t{range.last - range.first} * kBvhWidth;
-        if (count + to_be_free(places, level) <= places) break;
-    }
-    return range;
 }
 
 Corners LiveModel::State::corners(const Triangle& triangle) const {
