@@ -57,16 +57,6 @@ void mark_degenerate(std::span<const Float3> positions, std::span<const Triangle
     mark(positions, triangles, words, parallel_for);
 }
 
-void mark_some_degenerate(std::span<const Double3> positions, std::span<const Triangle> triangles,
-                          std::span<std::uint64_t> words, std::size_t first, std::size_t last) {
-    mark_some(positions, triangles, words, first, last);
-}
-
-void mark_some_degenerate(std::span<const Float3> positions, std::span<const Triangle> triangles,
-                          std::span<std::uint64_t> words, std::size_t first, std::size_t last) {
-    mark_some(positions, triangles, words, first, last);
-}
-
 std::vector<std::uint64_t> find_degenerate(std::span<const Double3> positions,
                                            std::span<const Triangle> triangles,
                                            ParallelFor parallel_for) {

@@ -18,12 +18,4 @@ void mark_degenerate(std::span<const format::Float3> positions,
                      std::span<const format::Triangle> triangles, std::span<std::uint64_t> words,
                      ParallelFor parallel_for);
 
-/// Does the same for the triangles from `first` up to `last` alone.
-void mark_some_degenerate(std::span<const format::Double3> positions,
-                          std::span<const format::Triangle> triangles,
-                          std::span<std::uint64_t> words, std::size_t first, std::size_t last);
-void mark_some_degenerate(std::span<const format::Float3> positions,
-                          std::span<const format::Triangle> triangles,
-                          std::span<std::uint64_t> words, std::size_t first, std::size_t last);
-
 }  // namespace cdprep::build

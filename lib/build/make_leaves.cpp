@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 
 #include "build/chunks.h"
 #include "build/frame_map.h"
@@ -11,6 +12,7 @@
 #include "build/make_nodes.h"
 #include "cdprep/advanced/parallel_for.h"
 #include "core/prefetch.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::build {
 namespace {
@@ -165,13 +167,57 @@ std::size_t lane_for(std::size_t lane, unsigned lanes) {
                                                : std::countr_zero(lanes));
 }
 
+/// Returns the lanes for which rounding proves that the corners are not collinear: the coordinate
+/// `axis` of the normal is not 0. Let u = 2^-53. The differences, the products and their difference
+/// round by less than 5 u of the products' magnitudes. Where numbers underflow or overflow, nothing
+/// is proven.
+unsigned lanes_with_area(const LeafCorners& corners, std::size_t axis) {
+    constexpr double kRounding = 0x1p-50, kLeast = 0x1p-960;
+    const CornerRow& x = corners[(axis + 1) % 3];
+    const CornerRow& y = corners[(axis + 2) % 3];
+    Lanes<double, kBvhWidth> proof;
+    for_lanes<kBvhWidth>([&](std::size_t lane) {
+        const std::size_t b = kBvhWidth + lane, c = 2 * kBvhWidth + lane;
+        const double first = (x[b] - x[lane]) * (y[c] - y[lane]);
+        const double second = (y[b] - y[lane]) * (x[c] - x[lane]);
+        proof[lane] = std::fabs(first - second) -
+                      (kRounding * (std::fabs(first) + std::fabs(second)) + kLeast);
+    });
+    unsigned lanes = 0;
+    for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
+        lanes |= static_cast<unsigned>(proof[lane] > 0) << lane;
+    }
+    return lanes;
+}
+
+/// Sets the bits of a leaf's places, of which `lanes` have a triangle.
+void mark_degenerate_places(const LeafCorners& corners, std::size_t leaf, unsigned lanes,
+                            unsigned places, std::span<std::uint64_t> words) {
+    unsigned marks = places & ~lanes;
+    unsigned open = lanes;
+    for (std::size_t axis = 0; axis < 3 && open != 0; ++axis) {
+        open &= ~lanes_with_area(corners, axis);
+    }
+    for (; open != 0; open &= open - 1) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(open));
+        const auto at = [&](std::size_t corner) {
+            const std::size_t i = corner * kBvhWidth + lane;
+            return Double3{corners[0][i], corners[1][i], corners[2][i]};
+        };
+        if (is_degenerate({at(0), at(1), at(2)})) marks |= 1U << lane;
+    }
+    const std::size_t shift = leaf % kBvhWidth * kBvhWidth;
+    std::uint64_t& word = words[leaf / kBvhWidth];
+    word = (word & ~(std::uint64_t{0xff} << shift)) | std::uint64_t{marks} << shift;
+}
+
 template <class Source>
 void make_range(const LeafRoom& room, const Source& source, std::size_t first, std::size_t last) {
     const LeafMaker maker(room.frame, room.exact);
     const std::size_t count = source.size();
     const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(count));
     BvhNode* const lowest = &room.nodes[shape.first[0]];
-    LeafCorners corners;
+    LeafCorners corners{};
     for (std::size_t leaf = first; leaf < last; ++leaf) {
         source.ask_ahead_of(leaf);
         const std::size_t begin = leaf * kBvhWidth;
@@ -180,6 +226,9 @@ void make_range(const LeafRoom& room, const Source& source, std::size_t first, s
         const unsigned lanes = room.lanes == nullptr ? all : room.lanes[leaf];
         if (lanes == 0) {
             set_unused_box(lowest[leaf / kBvhWidth], leaf % kBvhWidth);
+            if (!room.degenerate_bits.empty()) {
+                mark_degenerate_places(corners, leaf, lanes, all, room.degenerate_bits);
+            }
             continue;
         }
         for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
@@ -191,6 +240,9 @@ void make_range(const LeafRoom& room, const Source& source, std::size_t first, s
                 corners[1][at] = p.y;
                 corners[2][at] = p.z;
             }
+        }
+        if (!room.degenerate_bits.empty()) {
+            mark_degenerate_places(corners, leaf, lanes, all, room.degenerate_bits);
         }
         maker.make(corners, static_cast<std::uint32_t>(std::popcount(lanes)), room.leaves[leaf],
                    lowest[leaf / kBvhWidth], leaf % kBvhWidth);

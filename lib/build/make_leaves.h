@@ -14,6 +14,9 @@ struct LeafRoom {
     /// The places of each leaf that have a triangle, at most eight bits; null: all have one. A leaf
     /// without triangles gets an unused box.
     const std::uint8_t* lanes = nullptr;
+    /// Gets bit i, 64 a word, of each place i whose corners are exactly collinear, and of each
+    /// place without a triangle. Empty: not wanted.
+    std::span<std::uint64_t> degenerate_bits = {};
 };
 
 /// Fills leaves and the boxes around them, which are level 0 of the nodes. Requires triangles in

@@ -15,7 +15,6 @@
 
 #include "build/bad_argument.h"
 #include "build/chunks.h"
-#include "build/degenerate.h"
 #include "build/make_leaves.h"
 #include "build/make_nodes.h"
 #include "build/mesh_fault.h"
@@ -210,13 +209,14 @@ void LiveModel::State::set_all(std::span<const Given> given, std::span<Kept> kep
     std::atomic<std::uint64_t> hash = 0;
     std::atomic<std::uint32_t> rounded = 0;
     std::atomic<bool> in_frame = true;
+    const FrameBounds bounds = frame_bounds();
     for_chunks(count, build::kItemsPerTask, parallel_for, [&](std::size_t first, std::size_t last) {
         Sums part;
         bool fits = true;
         for (auto i = static_cast<std::uint32_t>(first); i < last; ++i) {
             kept[i] = as_kept<Kept>(given[source[i]]);
             part.add(i, kept[i]);
-            fits &= is_in_frame(build::as_double(kept[i])) || !tables.users.is_used(i);
+            fits &= bounds.hold(build::as_double(kept[i])) || !tables.users.is_used(i);
         }
         hash += part.hash;
         rounded += part.rounded;
@@ -247,10 +247,11 @@ void LiveModel::State::set_some(std::span<const std::uint32_t> vertices,
                              [&](std::uint32_t place) { tables.changed.mark(place / kBvhWidth); });
     }
     // A vertex may be listed twice: only its last position counts.
+    const FrameBounds bounds = frame_bounds();
     const bool in_frame = std::ranges::all_of(vertices, [&](std::uint32_t number) {
         const std::uint32_t vertex = tables.vertex_of[number];
         return vertex == kUnusedVertex || !tables.users.is_used(vertex) ||
-               is_in_frame(build::as_double(kept[vertex]));
+               bounds.hold(build::as_double(kept[vertex]));
     });
     fit(false, in_frame, parallel_for);
 }
@@ -259,13 +260,7 @@ void LiveModel::State::fit(bool all, bool in_frame, ParallelFor parallel_for) {
     if (leaves.empty()) return;
     const bool was_exact = (model.header().flags & format::model_exact_leaves) != 0;
     if (!in_frame) frame_ = new_frame(parallel_for);
-    if (all) {
-        with_positions([&](const auto& positions) {
-            build::mark_degenerate(positions, triangles, degenerate_bits, parallel_for);
-        });
-    } else {
-        fit_changed(parallel_for);
-    }
+    if (!all) fit_changed(parallel_for);
     if (all || !in_frame || has_exact_leaves() != was_exact) fit_all(parallel_for);
     if (is_small_in_frame()) {
         const Frame tight = new_frame(parallel_for);
@@ -284,8 +279,12 @@ Frame LiveModel::State::new_frame(ParallelFor parallel_for) const {
 }
 
 build::LeafRoom LiveModel::State::leaf_room() const {
-    return {frame_, has_exact_leaves(), nodes, leaves,
-            tables.tear ? tables.tear->lanes.data() : nullptr};
+    return {frame_,
+            has_exact_leaves(),
+            nodes,
+            leaves,
+            tables.tear ? tables.tear->lanes.data() : nullptr,
+            degenerate_bits};
 }
 
 void LiveModel::State::fit_all(ParallelFor parallel_for) {
@@ -302,9 +301,6 @@ void LiveModel::State::fit_changed(ParallelFor parallel_for) {
             parallel_for,
             [&](std::size_t first, std::size_t last) {
                 build::make_some_leaves(room, positions, triangles, first, last);
-                build::mark_some_degenerate(positions, triangles, degenerate_bits,
-                                            first * kBvhWidth,
-                                            std::min(last * kBvhWidth, triangles.size()));
             },
             [&](std::uint32_t level, std::size_t first, std::size_t last) {
                 fit_boxes_around(level, first, last);
@@ -320,13 +316,10 @@ void LiveModel::State::fit_boxes_around(std::uint32_t level, std::size_t first, 
     }
 }
 
-bool LiveModel::State::is_in_frame(const Double3& p) const {
+FrameBounds LiveModel::State::frame_bounds() const {
     // A new frame leaves twice the room that the vertices take, and more.
     constexpr double kReach = 1 - 0x1p-20;
-    const Scale scale(frame_.exponent);
-    const Double3& o = frame_.origin;
-    return std::fabs(scale(p.x - o.x)) <= kReach && std::fabs(scale(p.y - o.y)) <= kReach &&
-           std::fabs(scale(p.z - o.z)) <= kReach;
+    return {frame_.origin, Scale(-frame_.exponent)(kReach)};
 }
 
 /// Boxes have 24 bits of the frame: in a frame that is much too large they would be too large.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -29,6 +30,17 @@ inline constexpr std::uint32_t kSubtreeLeaves = 512;
 struct LeafRange {
     std::uint32_t first;
     std::uint32_t last;  ///< one past
+};
+
+/// The points that a frame may hold.
+struct FrameBounds {
+    format::Double3 middle;
+    double half;
+
+    [[nodiscard]] bool hold(const format::Double3& p) const noexcept {
+        return std::fabs(p.x - middle.x) <= half && std::fabs(p.y - middle.y) <= half &&
+               std::fabs(p.z - middle.z) <= half;
+    }
 };
 
 /// The counts that decide how much memory a live model takes besides its image.
@@ -150,7 +162,7 @@ private:
     void fit_changed(ParallelFor parallel_for);
     /// Fits the boxes around nodes of a level.
     void fit_boxes_around(std::uint32_t level, std::size_t first, std::size_t last);
-    [[nodiscard]] bool is_in_frame(const Double3& p) const;
+    [[nodiscard]] FrameBounds frame_bounds() const;
     [[nodiscard]] bool is_small_in_frame() const;
     [[nodiscard]] bool has_exact_leaves() const;
     [[nodiscard]] build::LeafRoom leaf_room() const;

@@ -4,7 +4,6 @@
 #include <bit>
 #include <cassert>
 
-#include "build/degenerate.h"
 #include "build/frame_map.h"
 #include "build/make_nodes.h"
 #include "live/live_state.h"
@@ -58,9 +57,6 @@ void LiveModel::State::redistribute(const LeafRange& range, std::span<const NewT
 void LiveModel::State::fit_leaves(const LeafRange& range) {
     with_positions([&](const auto& positions) {
         build::make_some_leaves(leaf_room(), positions, triangles, range.first, range.last);
-        build::mark_some_degenerate(
-            positions, triangles, degenerate_bits, std::size_t{range.first} * kBvhWidth,
-            std::min(std::size_t{range.last} * kBvhWidth, triangles.size()));
     });
     const format::BvhShape& shape = model.bvh().shape;
     LeafRange nodes_of = range;

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "build/bad_argument.h"
-#include "build/degenerate.h"
 #include "build/frame_map.h"
 #include "build/make_nodes.h"
 #include "build/mesh_fault.h"
@@ -193,9 +192,10 @@ build::Extent LiveModel::State::used_extent() const {
 
 /// Chooses a new frame if the present one does not hold all vertices of new triangles.
 void LiveModel::State::widen_frame(std::span<const Triangle> added) {
+    const FrameBounds bounds = frame_bounds();
     const bool fits = std::ranges::all_of(added, [&](const Triangle& triangle) {
         const Corners c = corners(triangle);
-        return is_in_frame(c[0]) && is_in_frame(c[1]) && is_in_frame(c[2]);
+        return bounds.hold(c[0]) && bounds.hold(c[1]) && bounds.hold(c[2]);
     });
     if (fits) return;
     build::Extent extent = used_extent();
