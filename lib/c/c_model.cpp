@@ -175,13 +175,6 @@ std::span<const std::byte> file_of(const Model& model) noexcept {
             static_cast<std::size_t>(header.file_size)};
 }
 
-/// Reads a byte of every page.
-void touch(std::span<const std::byte> bytes) noexcept {
-    for (std::size_t i = 0; i < bytes.size(); i += format::kPageAlignment) {
-        static_cast<void>(*static_cast<const volatile std::byte*>(&bytes[i]));
-    }
-}
-
 }  // namespace
 
 const InputType Input<cdprep_open_options>::type = {"cdprep_open_options", 0xcd500002U,
@@ -306,11 +299,7 @@ int cdprep_model_prefetch(const cdprep_model* model, uint32_t ask, cdprep_error*
         if (const int code = cdprep::c::check_asks(call, {"ask"}, ask)) return code;
         const auto asks = static_cast<cdprep::Ask>(ask);
         if (const int code = check_serves(call, {"model"}, *model, asks)) return code;
-        const cdprep::SectionSet wanted = cdprep::sections_for(asks);
-        for (std::uint32_t id = 0; id < cdprep::c::kSectionNumbers; ++id) {
-            if (!wanted.contains(SectionId{id})) continue;
-            cdprep::c::touch(cdprep::c::section_bytes(model->model, SectionId{id}));
-        }
+        static_cast<void>(model->model.touch(asks));
         return CDPREP_OK;
     });
 }

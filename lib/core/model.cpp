@@ -232,6 +232,28 @@ std::span<const std::byte> Model::bytes() const noexcept {
 SectionSet Model::sections() const noexcept {
     return state_->sections;
 }
+std::size_t Model::touch(SectionSet wanted) const noexcept {
+    std::size_t touched = 0;
+    const auto read = [](const std::byte& byte) {
+        static_cast<void>(*static_cast<const volatile std::byte*>(&byte));
+    };
+    for (std::uint32_t number = 0; number < 64; ++number) {
+        const SectionId id{number};
+        if (!wanted.contains(id) || !state_->sections.contains(id)) continue;
+        const std::optional<format::SectionEntry> entry = format::find_section(state_->file, id);
+        if (!entry || entry->count == 0) continue;
+        const auto bytes =
+            state_->file.subspan(static_cast<std::size_t>(entry->offset),
+                                 static_cast<std::size_t>(entry->count * entry->element_size));
+        for (std::size_t i = 0; i < bytes.size(); i += format::kPageAlignment) read(bytes[i]);
+        read(bytes.back());
+        touched += bytes.size();
+    }
+    return touched;
+}
+std::size_t Model::touch(Ask asks) const noexcept {
+    return touch(sections_for(asks));
+}
 const MeshView& Model::mesh() const noexcept {
     return state_->mesh;
 }

@@ -131,6 +131,15 @@ public:
     /// Returns the sections that were requested and are present.
     [[nodiscard]] SectionSet sections() const noexcept;
 
+    /// Reads a byte of each page of the open sections of `wanted`, and returns how many bytes these
+    /// sections have. Then the first query does not wait for the disk. Pages may still leave memory
+    /// again; to lock them there is the caller's work (mlock() on bytes()). A page has at least
+    /// format::kPageAlignment bytes. Takes as long as the disk needs for pages that are not in
+    /// memory, otherwise some nanoseconds a page. Needs no Ask. Never allocates.
+    std::size_t touch(SectionSet wanted = SectionSet::all()) const noexcept;
+    /// The same for the sections that the queries of `asks` need or use.
+    std::size_t touch(Ask asks) const noexcept;
+
     /// Returns the features that this model serves, computed once at opening. A query that it does
     /// not serve aborts the program with a message (precondition.h).
     [[nodiscard]] Ask asks() const noexcept {

@@ -241,5 +241,29 @@ TEST(Model, OpenAndQueryTouchOnlyTheSectionsAskedFor) {
         Answer::yes);
 }
 
+// Sections on pages of their own. A touch of a closed one ends the program, so all that it returns
+// it has read.
+TEST(Model, TouchReadsTheOpenSectionsThatItIsAskedFor) {
+    const TestMesh ball = icosphere(4);
+    const AlignedBytes bytes =
+        bake_tiny(ball.positions, ball.triangles, {.section_alignment = 4096});
+    const SectionSet wanted = {SectionId::bvh_nodes, SectionId::bvh_leaves};
+    GuardedPages pages(bytes.span(), wanted);
+    const auto opened = Model::open(pages.bytes(), wanted);
+    ASSERT_TRUE(opened);
+    const Model& model = opened.value();
+    const std::size_t nodes = model.bvh().nodes.size_bytes();
+    const std::size_t leaves = model.bvh().leaves.size_bytes();
+    EXPECT_GT(leaves, 100'000U);
+    EXPECT_EQ(model.touch(), nodes + leaves);
+    EXPECT_EQ(model.touch(SectionSet{SectionId::bvh_leaves, SectionId::triangles}), leaves);
+    EXPECT_EQ(model.touch(Ask::closest), nodes);
+    EXPECT_EQ(model.touch(SectionSet{}), 0U);
+    EXPECT_EQ(model.touch(Ask::nothing), 0U);
+    pages.close(SectionId::bvh_nodes);
+    EXPECT_EQ(model.touch(SectionSet{SectionId::bvh_leaves}), leaves);
+    EXPECT_DEATH((void)model.touch(), "");
+}
+
 }  // namespace
 }  // namespace cdprep::test
