@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 
+#include "cdprep/bounded_distance.h"
 #include "cdprep/pairs.h"
 #include "exact/exact_within.h"
 #include "exact/length_of.h"
@@ -72,6 +73,16 @@ public:
     template <class Near>
     void run(double limit, Limit known, Near&& near) noexcept;
 
+    /// As above, best first in any case, and until the workspace is out of work. Returns whether
+    /// nothing is left to be seen. `near` may end the search for good.
+    template <class Near>
+    bool run_best_first(double limit, Limit known, Near&& near) noexcept;
+    /// Returns a lower bound of the distance of what run_best_first() did not see, of what was
+    /// within the limit. Model units.
+    [[nodiscard]] double unseen() const noexcept {
+        return std::ldexp(double{unseen_}, -placed_.exponent);
+    }
+
     /// As above, only below those pairs of the front whose plane does not prove a gap above the
     /// limit.
     template <class Near>
@@ -97,6 +108,8 @@ private:
     template <class Near>
     bool dive(const Tree& a, const Tree& b, Near&& near) noexcept;
     template <class Near>
+    bool look_by_bounds(Near&& near) noexcept;
+    template <class Near>
     bool look_below(std::uint64_t pair, Near&& near) noexcept;
     template <class Near>
     bool look_at_leaves(const PendingPair& pair, Near&& near) noexcept;
@@ -112,6 +125,7 @@ private:
     LeafBatch leaves_;
     Trees trees_;
     kernels::Reach reach_{};
+    float unseen_ = 0;  ///< the least bound of what is not yet seen, pair units
 };
 
 template <class Trees>
@@ -279,6 +293,10 @@ bool NearestSearch<Trees>::dive(const Tree& a, const Tree& b, Near&& near) noexc
         const auto nearest = std::min_element(
             scratch_.near.begin(), scratch_.near.begin() + static_cast<std::ptrdiff_t>(end),
             [](const NearPair& x, const NearPair& y) { return x.bound < y.bound; });
+        // The children of the roots hold everything that is within the limit.
+        if (pair.a.height == a.shape.levels && pair.b.height == b.shape.levels) {
+            unseen_ = nearest->bound;
+        }
         pair = PendingPair::unpacked(nearest->pair);
     }
     return look_at_leaves(pair, near);
@@ -295,6 +313,7 @@ bool NearestSearch<Trees>::look_below(std::uint64_t pair, Near&& near) noexcept 
     for (std::size_t depth = 1; depth > 0;) {
         const NearPair top = scratch_.near[--depth];
         if (top.bound > reach_.limit) continue;
+        if (scratch_.is_out_of_work()) return false;
         const PendingPair places = PendingPair::unpacked(top.pair);
         if (places.a.height == 0 && places.b.height == 0) {
             if (!look_at_leaves(places, near)) return false;
@@ -308,8 +327,7 @@ bool NearestSearch<Trees>::look_below(std::uint64_t pair, Near&& near) noexcept 
     return true;
 }
 
-/// Searches best first, unless the limit is good. Pairs for which the frontier has no room are
-/// searched depth first.
+/// Searches best first, unless the limit is good.
 template <class Trees>
 template <class Near>
 void NearestSearch<Trees>::run(double limit, Limit known, Near&& near) noexcept {
@@ -322,21 +340,43 @@ void NearestSearch<Trees>::run(double limit, Limit known, Near&& near) noexcept 
         look_below(both, near);
         return;
     }
-    if (!dive(a, b, near)) return;
+    if (dive(a, b, near)) look_by_bounds(near);
+}
+
+template <class Trees>
+template <class Near>
+bool NearestSearch<Trees>::run_best_first(double limit, Limit known, Near&& near) noexcept {
+    unseen_ = 0;
+    if (trees_.a.triangles == 0 || trees_.b.triangles == 0) return true;
+    reach_.limit = in_pair_units(limit);
+    if (known == Limit::poor && !dive(trees_.a, trees_.b, near)) return false;
+    return look_by_bounds(near);
+}
+
+// Pairs for which the frontier has no room are searched depth first.
+//
+// All pairs that are not seen yet are below those of the frontier, or were beyond an earlier limit.
+// So the least bound of the frontier holds for all of them, and for those of later frontiers.
+template <class Trees>
+template <class Near>
+bool NearestSearch<Trees>::look_by_bounds(Near&& near) noexcept {
     Frontier frontier(scratch_);
-    frontier.push({0, both});
+    frontier.push({0, roots(trees_.a, trees_.b).packed()});
     while (!frontier.empty()) {
         const NearPair top = frontier.pop(reach_.limit);
-        if (top.bound > reach_.limit) return;  // and so are all others
+        if (top.bound > reach_.limit) return true;  // and so are all others
+        unseen_ = std::max(unseen_, top.bound);
+        if (scratch_.is_out_of_work()) return false;
         const PendingPair pair = PendingPair::unpacked(top.pair);
         if ((pair.a.height == 0 && pair.b.height == 0) ||
             !frontier.has_room_for(std::size_t{format::kBvhWidth} * format::kBvhWidth)) {
-            if (!look_below(top.pair, near)) return;
+            if (!look_below(top.pair, near)) return false;
             continue;
         }
-        const std::size_t end = push_children(a, b, pair, 0);
+        const std::size_t end = push_children(trees_.a, trees_.b, pair, 0);
         for (std::size_t i = 0; i < end; ++i) frontier.push(scratch_.near[i]);
     }
+    return true;
 }
 
 template <class Trees>
@@ -400,6 +440,18 @@ public:
             options_.relative_error > 0 || options_.absolute_error > 0 ? limit() : best_.upper;
         best_.lower = std::min({best_.lower, lower_, unseen});
         return best_;
+    }
+    /// Returns the nearest pair so far, for a search that ended early. What it has not seen is at
+    /// least `unseen` away, or beyond the limit. Without a pair, only `lower` and `upper` are set.
+    [[nodiscard]] BoundedDistance answer_so_far(double unseen) noexcept {
+        settle();
+        BoundedDistance so_far;
+        so_far.lower = std::min({unseen, lower_, limit()});
+        if (!found_) return so_far;
+        so_far.upper = best_.upper;
+        best_.lower = so_far.lower;
+        so_far.nearest = best_;
+        return so_far;
     }
     [[nodiscard]] const TreePair& nearest() const noexcept {
         return nearest_;

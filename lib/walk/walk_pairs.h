@@ -291,7 +291,7 @@ inline PendingPair roots(const Tree& a, const Tree& b) noexcept {
 
 /// Walks two hierarchies from `start` down, depth first. Calls `reach(pair)` for each pair of
 /// places, both at most `floor` high, that no box test separates. Stops and returns false when
-/// `reach` returns false. Both models need nodes and triangles.
+/// `reach` returns false or the workspace is out of work. Both models need nodes and triangles.
 template <Search kSearch, class Reach>
 bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& a, const Tree& b,
                      const PlacedBoxes& placed, Workspace::Storage& scratch,
@@ -316,7 +316,10 @@ bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& 
         });
         assert(depth < scratch.open_steps.size());
         OpenStep& step = scratch.open_steps[depth];
-        if (scratch.counts != nullptr) count_step(a, b, pair, descent, *scratch.counts);
+        if (scratch.counts != nullptr) {
+            if (scratch.is_out_of_work()) return false;
+            count_step(a, b, pair, descent, *scratch.counts);
+        }
         open_step<kSearch>(a, b, placed, tests, pair, descent, step, depths);
         if (is_down_at(step.base, floor)) {
             for (bool best = true; step.pairs != 0; best = false) {

@@ -8,6 +8,7 @@
 
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/bounded_distance.h"
 #include "cdprep/contacts.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/hull.h"
@@ -144,6 +145,13 @@ inline constexpr std::size_t kMaxContactCandidates = 1024;
 inline constexpr std::size_t kMaxComputedContacts = 64;
 inline constexpr std::uint32_t kNoSlot = 0xffffffffU;
 
+/// Returns the work that counts stand for, as DistanceBudget::work counts it.
+inline std::uint64_t work_of(const QueryCounts& counts) noexcept {
+    return counts.node_pairs + kWorkOfLeaves * counts.leaf_pairs +
+           kWorkOfTriangles * (counts.measured + counts.by_filter + counts.by_corner) +
+           kWorkOfExact * (counts.measured_again + counts.by_exact);
+}
+
 struct Workspace::Storage {
     // Members aligned to cache lines come first, so no padding is lost between them.
     kernels::LeafScratch leaf_scratch;
@@ -168,9 +176,15 @@ struct Workspace::Storage {
     std::array<Contact, kMaxComputedContacts> computed_contacts;
     std::array<Contact, kMostListedContacts> listed_contacts;
     std::array<std::uint16_t, kFrontRoom + 2 * kernels::kLanes> weak_planes;  ///< for a PairFront
-    QueryCounts* counts = nullptr;        ///< or null: no counts are wanted
-    const CellSearches* cells = nullptr;  ///< or null: no searches through octrees and tetra-trees
-    void* cell_storage = nullptr;         ///< scratch of cells
+    QueryCounts* counts = nullptr;         ///< or null: no counts are wanted
+    std::uint64_t most_work = UINT64_MAX;  ///< of `counts`
+    const CellSearches* cells = nullptr;   ///< or null: no searches through octrees and tetra-trees
+    void* cell_storage = nullptr;          ///< scratch of cells
+
+    /// Returns whether a search must end, because it has done the work that it may do.
+    [[nodiscard]] bool is_out_of_work() const noexcept {
+        return counts != nullptr && work_of(*counts) >= most_work;
+    }
 };
 
 }  // namespace cdprep

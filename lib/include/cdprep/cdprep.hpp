@@ -5,6 +5,7 @@
 /// and cdprep/cells/ where they are needed.
 
 #include "cdprep/ask.h"
+#include "cdprep/bounded_distance.h"
 #include "cdprep/broad_phase.h"
 #include "cdprep/build.h"
 #include "cdprep/contacts.h"

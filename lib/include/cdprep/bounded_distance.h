@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "cdprep/pairs.h"
+
+namespace cdprep {
+
+// Distances for loops that must answer in time: work is counted, never measured by a clock. So the
+// same machine gives the same answer each time.
+
+// The units of work. A pair of nodes, which have up to 64 pairs of boxes, counts 1.
+inline constexpr std::uint64_t kWorkOfLeaves = 2;     ///< a pair of leaves: up to 64 triangle pairs
+inline constexpr std::uint64_t kWorkOfTriangles = 4;  ///< a pair of triangles, tested in double
+inline constexpr std::uint64_t kWorkOfExact = 16;     ///< one tested beyond double
+
+/// The distance of two surfaces, as far as a search came.
+struct BoundedDistance {
+    /// The search came to its end: `nearest` is what distance() returns. False: the answer is late.
+    /// Its bounds hold, but they may be wide.
+    bool is_complete = false;
+    /// The exact distance is in [lower, upper], model units. 0 and infinity if nothing is known.
+    double lower = 0;
+    double upper = std::numeric_limits<double>::infinity();
+    /// The nearest pair of triangles found, with the same bounds. Nothing if none was found, or
+    /// none is within max_distance.
+    std::optional<Distance> nearest;
+    std::uint64_t work = 0;  ///< as DistanceBudget::work counts it
+};
+
+/// The last complete answer about a pair, which the caller keeps beside late ones.
+struct LastDistance {
+    bool is_known = false;  ///< there was a complete answer
+    Placement placement = Placement::b_moves(Pose());
+    BoundedDistance distance;  ///< in that placement
+    std::uint64_t late = 0;    ///< late answers since then
+};
+
+/// The limits of the work of one query.
+struct DistanceBudget {
+    /// The maximum work, 0 for no limit. The search ends as soon as its work is at least this. Its
+    /// last pair of leaves may exceed it by the tests of up to 64 pairs of triangles.
+    std::uint64_t work = 0;
+    /// Gets each complete answer, and counts late ones; or null.
+    LastDistance* last = nullptr;
+};
+
+/// Returns the distance of two surfaces, or bounds of it if the work does not suffice.
+///
+/// A complete answer is that of distance(), bit for bit. If errors are permitted, it may be another
+/// answer within them. A late answer has the bounds of the search
+/// so far. `upper` is the distance of the nearest pair found. `lower` is the least bound of that
+/// pair and of all pairs of boxes that were not opened. If rounding cannot exclude that triangles
+/// touch, they are searched for in exact arithmetic; `lower` is 0 if this search does not end.
+///
+/// With a cache, `lower` is at least the last proven gap minus the motion since then. The pair that
+/// was nearest before is measured first. So late answers are close if the models moved little.
+///
+/// Reads no pair options: it is about surfaces, through the BVHs. `options` are read as in
+/// distance(). With max_distance NaN or negative, nothing is found. Needs Ask::distance of both
+/// models. Takes as long as distance(), and less without contact. A late answer takes time in
+/// proportion to budget.work: the caller measures how much (tests/bench/haptic_bench). It depends
+/// on the instruction set, because work does. Never allocates, locks or calls the system.
+///
+///     cdprep::LastDistance last;
+///     const auto found = bounded_distance(pair, workspace, {}, {.work = 3000, .last = &last});
+///     if (found.lower > safe) return;  // proven, also if it is late
+[[nodiscard]] BoundedDistance bounded_distance(const Pair& pair, Workspace& workspace,
+                                               const DistanceOptions& options = {},
+                                               const DistanceBudget& budget = {}) noexcept;
+
+/// Notes an answer in `*last`, as bounded_distance() does with DistanceBudget::last. For answers
+/// that the caller completes or changes.
+void note(LastDistance& last, const Placement& placement, const BoundedDistance& found) noexcept;
+
+}  // namespace cdprep

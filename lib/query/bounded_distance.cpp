@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/bounded_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "cdprep/format/float_environment.h"
+#include "core/require.h"
+#include "query/nearest_search.h"
+
+// distance() looks for contact first. Here the search by bounds comes first, so that a late answer
+// has bounds. If all it measured are apart, nothing touches: a pair in contact has the bound 0 in
+// every test, so the search would have measured it. The search for contact runs only if rounding
+// hides whether a measured pair touches. The answers are the same.
+
+namespace cdprep {
+namespace {
+
+/// Counts the work of one query, also for who counts the work of all.
+class CountedWork {
+public:
+    CountedWork(Workspace::Storage& scratch, std::uint64_t most) noexcept
+        : scratch_(scratch), of_all_(scratch.counts) {
+        scratch_.counts = &own_;
+        scratch_.most_work = most == 0 ? UINT64_MAX : most;
+    }
+    CountedWork(const CountedWork&) = delete;
+    CountedWork& operator=(const CountedWork&) = delete;
+    ~CountedWork() {
+        scratch_.counts = of_all_;
+        scratch_.most_work = UINT64_MAX;
+        if (of_all_ != nullptr) add_to(*of_all_);
+    }
+    [[nodiscard]] std::uint64_t done() const noexcept {
+        return work_of(own_);
+    }
+
+private:
+    void add_to(QueryCounts& all) const noexcept {
+        using Numbers = std::array<std::uint64_t, sizeof(QueryCounts) / sizeof(std::uint64_t)>;
+        auto sums = std::bit_cast<Numbers>(all);
+        const auto numbers = std::bit_cast<Numbers>(own_);
+        for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += numbers[i];
+        all = std::bit_cast<QueryCounts>(sums);
+    }
+
+    Workspace::Storage& scratch_;
+    QueryCounts* of_all_;  ///< or null
+    QueryCounts own_;
+};
+
+class BoundedSearch {
+public:
+    BoundedSearch(const Pair& pair, Workspace& workspace, const DistanceOptions& options) noexcept
+        : pair_(pair),
+          workspace_(workspace),
+          scratch_(workspace.storage()),
+          options_(options),
+          gap_(pair.cache == nullptr
+                   ? 0
+                   : std::max(0.0, proven_gap(*pair.cache, pair.a, pair.b, pair.placement))),
+          search_(pair.a, pair.b, pair.placement, workspace),
+          nearest_(pair.a, pair.b, search_, options_) {}
+
+    BoundedDistance run() noexcept {
+        const PairCache* const cache = pair_.cache;
+        const Limit known = limit_by(cache, pair_.a, pair_.b);
+        if (known == Limit::good) nearest_.start_from({cache->triangle_a, cache->triangle_b});
+        if (gap_ > 0) return look(known, false) ? whole() : late();
+        if (look(known, true)) return whole();
+        if (scratch_.is_out_of_work() || !nearest_.may_touch()) return late();
+        const auto at =
+            find_contact_by<TriangleTrees>(pair_.a, pair_.b, pair_.placement, workspace_, {});
+        if (at) return touch(*at);
+        if (scratch_.is_out_of_work()) return late();
+        return look(Limit::good, false) ? whole() : late();
+    }
+
+private:
+    /// Returns whether everything within the limit has been seen. May stop where triangles may
+    /// touch.
+    bool look(Limit known, bool stops_at_touch) noexcept {
+        if (stops_at_touch && nearest_.may_touch()) return false;
+        return search_.run_best_first(nearest_.limit(), known, [&](const TreePair& at) {
+            if (scratch_.is_out_of_work()) return -1.0;
+            const double limit = nearest_.take(at);
+            return stops_at_touch && nearest_.may_touch() ? -1.0 : limit;
+        });
+    }
+    [[nodiscard]] BoundedDistance touch(const TreePair& at) noexcept {
+        if (pair_.cache != nullptr) remember_pair(*pair_.cache, at);
+        return {true, 0, 0, touching(pair_.a, pair_.b, pair_.placement, at), 0};
+    }
+    [[nodiscard]] BoundedDistance whole() noexcept {
+        const std::optional<Distance> found = nearest_.answer();
+        if (!found) return {true, options_.max_distance, kNever, std::nullopt, 0};
+        if (pair_.cache != nullptr) {
+            remember_distance(*pair_.cache, pair_.a, pair_.b, pair_.placement, nearest_.nearest(),
+                              *found);
+        }
+        return {true, found->lower, found->upper, found, 0};
+    }
+    [[nodiscard]] BoundedDistance late() noexcept {
+        BoundedDistance found = nearest_.answer_so_far(search_.unseen());
+        PairCache* const cache = pair_.cache;
+        if (cache != nullptr && found.nearest) remember_pair(*cache, nearest_.nearest());
+        if (cache != nullptr && found.lower > gap_) {
+            remember_gap(*cache, pair_.a, pair_.b, pair_.placement, found.lower);
+        }
+        found.lower = std::max(found.lower, gap_);
+        if (found.nearest) found.nearest->lower = found.lower;
+        return found;
+    }
+
+    static constexpr double kNever = std::numeric_limits<double>::infinity();
+    const Pair& pair_;
+    Workspace& workspace_;
+    Workspace::Storage& scratch_;
+    const DistanceOptions& options_;
+    double gap_;  ///< proven: the surfaces are at least this far apart; or 0
+    NearestSearch<TriangleTrees> search_;
+    Nearest<TriangleTrees> nearest_;
+};
+
+BoundedDistance search(const Pair& pair, Workspace& workspace, const DistanceOptions& options,
+                       std::uint64_t most) noexcept {
+    BoundedDistance nothing;
+    nothing.is_complete = true;
+    if (!(options.max_distance >= 0)) return nothing;
+    if (pair.a.get().triangle_count() == 0 || pair.b.get().triangle_count() == 0) {
+        nothing.lower = options.max_distance;
+        return nothing;
+    }
+    const CountedWork work(workspace.storage(), most);
+    BoundedDistance found = BoundedSearch(pair, workspace, options).run();
+    found.work = work.done();
+    return found;
+}
+
+}  // namespace
+
+BoundedDistance bounded_distance(const Pair& pair, Workspace& workspace,
+                                 const DistanceOptions& options,
+                                 const DistanceBudget& budget) noexcept {
+    const format::FloatEnvironment environment;
+    require(pair.a, pair.b, Ask::distance);
+    const BoundedDistance found = search(pair, workspace, options, budget.work);
+    if (budget.last != nullptr) note(*budget.last, pair.placement, found);
+    return found;
+}
+
+void note(LastDistance& last, const Placement& placement, const BoundedDistance& found) noexcept {
+    if (found.is_complete) {
+        last = {true, placement, found, 0};
+    } else {
+        ++last.late;
+    }
+}
+
+}  // namespace cdprep
