@@ -12,7 +12,7 @@ set(lib_rooms
     "kernels:"
     "core: exact"
     "build: core exact"
-    "live: build core exact"
+    "live: build core exact walk"
     "walk: core exact kernels"
     "hull: core exact kernels"
     "pieces: core exact hull walk"

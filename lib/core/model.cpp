@@ -42,6 +42,7 @@ struct Model::State {
     RecordView record;
     std::uint32_t number_bound = 0;  ///< of a model that can tear; otherwise 0
     bool is_torn = false;
+    bool is_part = false;  ///< of a surface: a window
 
     void find_sections(SectionSet wanted);
 
@@ -199,6 +200,12 @@ std::optional<Refusal> Model::refusal(Ask asks) const {
     if (state_ == nullptr) {
         return Refusal{Reason::not_opened, "The model was moved from: it answers no query."};
     }
+    if (state_->is_part) {
+        return Refusal{Reason::not_baked,
+                       state_->name +
+                           ": a window holds a part of a surface, and serves only collide, "
+                           "overlap, distance, within, ray, closest and touch."};
+    }
     const bool exact_leaves = state_->is_exact();
     const Ask refused = without(asks, served_);
     const Ask missing = without(refused, served_by(state_->in_file, exact_leaves));
@@ -295,6 +302,16 @@ void Model::set_lanes(std::span<const std::uint8_t> lanes,
 void Model::set_torn(std::uint32_t triangle_number_bound) noexcept {
     state_->is_torn = true;
     state_->number_bound = triangle_number_bound;
+}
+void Model::set_part(Ask asks) noexcept {
+    state_->is_part = true;
+    served_ = served_ & asks;
+}
+void Model::set_leaves(std::uint32_t count, std::span<const format::Double3> positions,
+                       std::span<const format::Triangle> triangles) noexcept {
+    state_->bvh.shape = format::bvh_shape(count * format::kBvhWidth);
+    state_->mesh.positions_f64 = positions;
+    state_->mesh.triangles = triangles;
 }
 bool Model::is_balanced() const noexcept {
     return (state_->header->flags & format::model_balanced) != 0 && !is_torn();

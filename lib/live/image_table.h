@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 
 #include "cdprep/format/checksum.h"
@@ -13,6 +14,15 @@
 #include "cdprep/format/sections.h"
 
 namespace cdprep {
+
+/// Returns the elements of a section of a checked image.
+template <class Element>
+std::span<Element> elements_of(std::span<std::byte> image, format::SectionId id) {
+    const std::optional<format::SectionEntry> entry = format::find_section(image, id);
+    if (!entry || entry->count == 0) return {};
+    return {reinterpret_cast<Element*>(image.data() + entry->offset),
+            static_cast<std::size_t>(entry->count)};
+}
 
 /// The section table of an image, to be changed and written back.
 class ImageTable {

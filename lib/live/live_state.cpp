@@ -39,15 +39,6 @@ using format::SectionEntry;
 using format::SectionId;
 using format::Triangle;
 
-/// Returns the elements of a section of a checked image.
-template <class Element>
-std::span<Element> elements_of(std::span<std::byte> image, SectionId id) {
-    const std::optional<SectionEntry> entry = format::find_section(image, id);
-    if (!entry || entry->count == 0) return {};
-    return {reinterpret_cast<Element*>(image.data() + entry->offset),
-            static_cast<std::size_t>(entry->count)};
-}
-
 bool is_positions(SectionId id) {
     return id == SectionId::positions_f32 || id == SectionId::positions_f64;
 }

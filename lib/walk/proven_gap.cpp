@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "exact/length_of.h"
 #include "walk/box_placement.h"
@@ -87,6 +88,13 @@ double proven_gap(PairCache& cache, const Model& a, const Model& b,
     const double way = longest_way(cache, pose_between(placement));
     cache.step = way / cache.questions;
     return cache.gap > 0 ? cache.gap - way - 2 * double_slack(a, b, placement) : 0;
+}
+
+double gap_left(const PairCache& cache, const Model& a, const Model& b,
+                const Placement& placement) noexcept {
+    if (!is_of(cache, a, b)) return -std::numeric_limits<double>::infinity();
+    return cache.gap - longest_way(cache, pose_between(placement)) -
+           2 * double_slack(a, b, placement);
 }
 
 void remember_gap(PairCache& cache, const Model& a, const Model& b, const Placement& placement,

@@ -15,6 +15,12 @@ enum Held : std::uint32_t { held_pair = 1, held_place = 2, held_touch = 4 };
 [[nodiscard]] double proven_gap(PairCache& cache, const Model& a, const Model& b,
                                 const Placement& placement) noexcept;
 
+/// Returns the gap minus the motion since then, in model units. Whatever was at least the gap away
+/// is farther than this in `placement`. Minus infinity if the cache holds no placement of these
+/// models.
+[[nodiscard]] double gap_left(const PairCache& cache, const Model& a, const Model& b,
+                              const Placement& placement) noexcept;
+
 /// Stores the placement and a proved lower bound `gap` of the distance there, or 0 if none is
 /// known. Requires that neither model is empty.
 void remember_gap(PairCache& cache, const Model& a, const Model& b, const Placement& placement,

@@ -119,7 +119,7 @@ public:
     [[nodiscard]] std::uint32_t triangle_count() const noexcept;  ///< from the header
     [[nodiscard]] std::uint32_t vertex_count() const noexcept;    ///< from the header
     /// Returns a bound of the numbers by which answers name triangles: all are less. It is
-    /// triangle_count(), unless the model is a LiveModel that can tear.
+    /// triangle_count(), unless the model is a Window's or a LiveModel that can tear.
     [[nodiscard]] std::uint32_t triangle_number_bound() const noexcept;
 
     [[nodiscard]] const format::FileHeader& header() const noexcept;
@@ -169,8 +169,9 @@ public:
     /// text if there is none. Takes O(index) time.
     [[nodiscard]] std::string_view name(SectionId names, std::uint32_t index) const noexcept;
 
-    /// Returns whether a LiveModel has gained or lost triangles since it was made. Queries about
-    /// solids then give Answer::unknown unless boxes or the surface decide.
+    /// Returns whether a LiveModel has gained or lost triangles since it was made, or the model is
+    /// a Window's. Queries about solids then give Answer::unknown unless boxes or the surface
+    /// decide.
     [[nodiscard]] bool is_torn() const noexcept;
 
     /// Returns whether bvh().leaves is not empty and holds model coordinates without loss.
@@ -185,9 +186,15 @@ private:
     [[nodiscard]] static Result<Model> from_bytes(std::span<const std::byte> bytes,
                                                   const OpenOptions& options);
     friend class LiveModel;
+    friend class Window;
     void set_lanes(std::span<const std::uint8_t> lanes,
                    std::uint32_t triangle_number_bound) noexcept;
     void set_torn(std::uint32_t triangle_number_bound) noexcept;
+    /// Makes this a part of a surface, which serves `asks` alone.
+    void set_part(Ask asks) noexcept;
+    /// Sets the leaves of a part, and its positions and triangles or none.
+    void set_leaves(std::uint32_t count, std::span<const format::Double3> positions,
+                    std::span<const format::Triangle> triangles) noexcept;
     std::unique_ptr<State> state_;
     Ask served_ = Ask::nothing;
 };

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "cdprep/bounded_distance.h"
+#include "cdprep/model.h"
+#include "cdprep/pairs.h"
+#include "cdprep/result.h"
+
+namespace cdprep {
+
+/// The room of a window.
+struct WindowLimits {
+    std::uint32_t leaves = 0;  ///< the most leaves of 8 triangles; at least 1
+};
+
+/// What a window holds.
+struct WindowFill {
+    /// Everything of A at most this far from B is in the window, model units. Less than was asked
+    /// if the room is too small. Negative if not even everything at distance 0 has room: then the
+    /// window is empty.
+    double radius = -1;
+    std::uint32_t leaves = 0;  ///< in the window
+};
+
+/// The part of a large model near a small one, copied into the caller's memory. A slow loop fills
+/// it; a fast loop, such as that of a haptic device at 1 kHz, queries it instead of the model.
+///
+/// model() is a model like any other, with the positions, boxes and triangle numbers of A. The fast
+/// loop reads nothing else of A, so that A may deform meanwhile. What the window lacks was farther
+/// than the radius from the probe when it was filled. Since then, the probe's points have moved by
+/// some way relative to A, so what it lacks is still farther than margin(): the radius minus the
+/// longest way. An answer about anything within margin() is that about A.
+///
+/// The window counts as open and torn, because its surface has a rim. It serves collide, overlap,
+/// distance, within, ray, closest and touch, for surfaces. A query is complete if it is about what
+/// is at most margin() from the probe. So overlaps() and collide() are complete if margin() >= 0,
+/// within() and pairs_within() if margin() >= the tolerance. distance() of this class says so
+/// itself.
+///
+/// Each fill() copies O(leaves) bytes: 330 for a leaf, or 1,000 if A keeps doubles. The caller
+/// keeps two windows: the slow loop fills one while the fast loop reads the other, as in
+/// samples/haptic.cpp. A window must not be read while it is filled.
+///
+/// Move-only; a move leaves the window's bytes in place. A window that was moved from may only be
+/// destroyed or assigned to. Const members, and queries about model(), may run on any number of
+/// threads at once.
+///
+///     auto window = Window::in(memory, {.leaves = 1000});
+///     const WindowFill held = window->fill({organ, probe, placement}, 5.0);   // slow loop
+///     ...
+///     const Pair near{window->model(), probe, now, {}, &cache};               // fast loop
+///     const BoundedDistance found = window->distance(near, workspace);
+///     if (found.is_complete) ...
+class Window {
+public:
+    /// Returns the number of bytes that in() takes: about 1,100 for each leaf. Fails as in().
+    /// Allocates.
+    [[nodiscard]] static Result<std::size_t> bytes(const WindowLimits& limits);
+
+    /// Makes an empty window. `memory` must start at a multiple of format::kSectionAlignment and
+    /// stay in place while the window lives. Writes all of it, so that later fills meet no page for
+    /// the first time. Allocates. Fails with `bad_argument` if `memory` is too small or misaligned,
+    /// or if there are no leaves, or more than kMostWindowLeaves.
+    [[nodiscard]] static Result<Window> in(std::span<std::byte> memory, const WindowLimits& limits);
+
+    Window(Window&&) noexcept;
+    Window& operator=(Window&&) noexcept;
+    ~Window();
+
+    /// Fills the window with the leaves of pair.a that may be at most `radius` from pair.b, in
+    /// model units. If they have no room, tries smaller radii: half as often as needed, then up to
+    /// four between. Infinity asks for all leaves. Gives an empty window for a negative radius or
+    /// NaN. pair.a may be baked or live, or the model of another window. Reads no other part of
+    /// the pair.
+    ///
+    /// Needs Ask::distance of both models. Takes O(log n + leaves log m) time for n triangles of A
+    /// and m of B. Never allocates.
+    WindowFill fill(const Pair& pair, double radius) noexcept;
+
+    /// Returns what the last fill() returned.
+    [[nodiscard]] WindowFill filled() const noexcept;
+
+    /// Returns the model to query. It is the same object after each fill().
+    [[nodiscard]] const Model& model() const noexcept;
+
+    /// Returns the distance from the probe within which the window has everything of A, for a
+    /// placement of the same kind or another, in model units. It is the radius, minus the longest
+    /// way of a point of the probe's box since the fill, minus all rounding. The longest way is at
+    /// most that of a corner of the box, as length is convex and each point's way is affine.
+    ///
+    /// Negative if the probe has moved too far. Minus infinity for another probe, or one that has
+    /// deformed since. Infinity if A or the probe is empty. O(1).
+    [[nodiscard]] double margin(const Model& probe, const Placement& placement) const noexcept;
+
+    /// Returns the distance of A, as it was when the window was filled, and pair.b. Requires that
+    /// pair.a is model(): otherwise the program stops with a message.
+    ///
+    /// Complete if bounded_distance() of the window is, and it or max_distance is less than
+    /// margin(). Then it is the answer about A, bit for bit if no errors are permitted. But if
+    /// triangles touch, it may name another pair of them. Otherwise the bounds are those of the
+    /// window, with `lower` at most margin(). Reads the same options, and needs the same Ask. Takes
+    /// as long as bounded_distance() of the window. Never allocates.
+    [[nodiscard]] BoundedDistance distance(const Pair& pair, Workspace& workspace,
+                                           const DistanceOptions& options = {},
+                                           const DistanceBudget& budget = {}) const noexcept;
+
+private:
+    struct State;
+    explicit Window(std::unique_ptr<State> state) noexcept;
+    void clear() noexcept;
+    std::unique_ptr<State> state_;
+};
+
+/// The largest WindowLimits::leaves: each of its corners has a number in 32 bits.
+inline constexpr std::uint32_t kMostWindowLeaves = format::kMaxVertices / (3 * format::kBvhWidth);
+
+}  // namespace cdprep
