@@ -288,6 +288,7 @@ template <class Near>
 bool NearestSearch<Trees>::dive(const Tree& a, const Tree& b, Near&& near) noexcept {
     PendingPair pair{{a.shape.levels, 0}, {b.shape.levels, 0}};
     while (pair.a.height > 0 || pair.b.height > 0) {
+        if (scratch_.is_out_of_work()) return false;
         const std::size_t end = push_children(a, b, pair, 0);
         if (end == 0) return true;
         const auto nearest = std::min_element(
@@ -442,14 +443,22 @@ public:
         return best_;
     }
     /// Returns the nearest pair so far, for a search that ended early. What it has not seen is at
-    /// least `unseen` away, or beyond the limit. Without a pair, only `lower` and `upper` are set.
+    /// least `unseen` away, or beyond the limit. Measures nothing again.
     [[nodiscard]] BoundedDistance answer_so_far(double unseen) noexcept {
-        settle();
+        double lower = std::min({unseen, lower_, limit()});
+        for (std::size_t i = 0; i < count_; ++i) {
+            const auto& [at, d] = contenders_[i];
+            lower = std::min(lower, d.lower);
+            if (found_ && best_.upper <= d.upper) continue;
+            best_ = as_answer(at, d);
+            nearest_ = at;
+            found_ = true;
+        }
         BoundedDistance so_far;
-        so_far.lower = std::min({unseen, lower_, limit()});
+        so_far.lower = lower;
         if (!found_) return so_far;
         so_far.upper = best_.upper;
-        best_.lower = so_far.lower;
+        best_.lower = lower;
         so_far.nearest = best_;
         return so_far;
     }
@@ -474,8 +483,7 @@ private:
             const TreePair at = contenders_[i].at;
             const TriangleDistance d = search_.tightened(at, contenders_[i].found);
             lower_ = std::min(lower_, d.lower);
-            const Distance found = {
-                d.lower, d.upper, d.on_a, d.on_b, source_number(a_, at.a), source_number(b_, at.b)};
+            const Distance found = as_answer(at, d);
             if (found_ && !precedes(found, best_)) continue;
             best_ = found;
             nearest_ = at;
@@ -483,6 +491,9 @@ private:
             upper_ = std::min(upper_, d.upper);
         }
         count_ = 0;
+    }
+    [[nodiscard]] Distance as_answer(const TreePair& at, const TriangleDistance& d) const noexcept {
+        return {d.lower, d.upper, d.on_a, d.on_b, source_number(a_, at.a), source_number(b_, at.b)};
     }
     static bool precedes(const Distance& x, const Distance& y) noexcept {
         if (x.upper != y.upper) return x.upper < y.upper;

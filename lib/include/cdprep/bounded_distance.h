@@ -41,8 +41,9 @@ struct LastDistance {
 
 /// The limits of the work of one query.
 struct DistanceBudget {
-    /// The maximum work, 0 for no limit. The search ends as soon as its work is at least this. Its
-    /// last pair of leaves may exceed it by the tests of up to 64 pairs of triangles.
+    /// The maximum work, 0 for no limit. The search ends as soon as its work is at least this. Up
+    /// to 64 pairs of triangles may exceed it: those of the last pair of leaves, where contact is
+    /// searched for, or those that are about equally near.
     std::uint64_t work = 0;
     /// Gets each complete answer, and counts late ones; or null.
     LastDistance* last = nullptr;
@@ -51,13 +52,14 @@ struct DistanceBudget {
 /// Returns the distance of two surfaces, or bounds of it if the work does not suffice.
 ///
 /// A complete answer is that of distance(), bit for bit. If errors are permitted, it may be another
-/// answer within them. A late answer has the bounds of the search
-/// so far. `upper` is the distance of the nearest pair found. `lower` is the least bound of that
-/// pair and of all pairs of boxes that were not opened. If rounding cannot exclude that triangles
-/// touch, they are searched for in exact arithmetic; `lower` is 0 if this search does not end.
+/// answer within them. A late answer has the bounds of the search so far. `upper` is that of the
+/// nearest pair found. `lower` is the least bound of the pairs found and of all pairs of boxes that
+/// were not opened. If rounding cannot exclude that triangles touch, they are searched for in exact
+/// arithmetic. `lower` is 0 if this search does not end.
 ///
 /// With a cache, `lower` is at least the last proven gap minus the motion since then. The pair that
-/// was nearest before is measured first. So late answers are close if the models moved little.
+/// was nearest before is measured first. So late answers are close if the models moved little. If
+/// no gap is left, contact is searched for before anything else, in at most half of the work.
 ///
 /// Reads no pair options: it is about surfaces, through the BVHs. `options` are read as in
 /// distance(). With max_distance NaN or negative, nothing is found. Needs Ask::distance of both
