@@ -308,10 +308,12 @@ void Model::set_part(Ask asks) noexcept {
     served_ = served_ & asks;
 }
 void Model::set_leaves(std::uint32_t count, std::span<const format::Double3> positions,
-                       std::span<const format::Triangle> triangles) noexcept {
+                       std::span<const format::Triangle> triangles,
+                       std::span<const format::OrientedNode> oriented) noexcept {
     state_->bvh.shape = format::bvh_shape(count * format::kBvhWidth);
     state_->mesh.positions_f64 = positions;
     state_->mesh.triangles = triangles;
+    state_->bvh.oriented = oriented;
 }
 bool Model::is_balanced() const noexcept {
     return (state_->header->flags & format::model_balanced) != 0 && !is_torn();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "build/bad_argument.h"
+#include "build/frame_map.h"
 #include "build/make_nodes.h"
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/advanced/section_list.h"
@@ -20,14 +21,15 @@
 #include "core/require.h"
 #include "core/triangle_facts.h"
 #include "live/image_table.h"
+#include "live/spread.h"
 #include "walk/box_placement.h"
 #include "walk/near_leaves.h"
 #include "walk/proven_gap.h"
 
-// A window is the image of a model with room for all its leaves. A fill writes leaves, boxes and
-// numbers over those of the last one, then as much of the header as they change. Each place of a
-// leaf has three corners of its own. Leaves that hold model coordinates without loss need no
-// positions, so these and the triangles are then hidden from the queries.
+// A window is the image of a model with room for all its leaves. A fill replaces leaves, boxes and
+// numbers, and then what the header says about them. Each place of a leaf has three corners of its
+// own. Leaves that hold model coordinates without loss need no positions. Positions and triangles
+// are then hidden from the queries.
 
 namespace cdprep {
 namespace {
@@ -36,6 +38,7 @@ using build::bad_argument;
 using format::BvhLeaf;
 using format::BvhNode;
 using format::kBvhWidth;
+using format::OrientedNode;
 using format::SectionId;
 using format::Triangle;
 
@@ -48,6 +51,32 @@ std::optional<Error> find_fault(const WindowLimits& limits) {
     return bad_argument("A window of " + std::to_string(limits.leaves) +
                         " leaves cannot be made: it has 1 to " + std::to_string(kMostWindowLeaves) +
                         ".");
+}
+
+/// Sets the oriented boxes of a node to its boxes. An unused box, from 1 to -1, gets half extents
+/// of -1, as it should.
+void orient_boxes(const BvhNode& node, OrientedNode& to) noexcept {
+    for (std::size_t box = 0; box < kBvhWidth; ++box) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float lower = node.lower[axis][box], upper = node.upper[axis][box];
+            const float middle = (lower + upper) / 2;
+            const double half = std::max(double{upper} - middle, middle - double{lower});
+            to.centre[axis][box] = middle;
+            to.half[axis][box] = build::float_above(half);
+            to.axis[0][axis][box] = axis == 0 ? 1 : 0;
+            to.axis[1][axis][box] = axis == 1 ? 1 : 0;
+        }
+    }
+}
+
+void copy_oriented(const OrientedNode& from, std::size_t at, OrientedNode& to,
+                   std::size_t place) noexcept {
+    for (std::size_t k = 0; k < 3; ++k) {
+        to.axis[0][k][place] = from.axis[0][k][at];
+        to.axis[1][k][place] = from.axis[1][k][at];
+        to.centre[k][place] = from.centre[k][at];
+        to.half[k][place] = from.half[k][at];
+    }
 }
 
 /// The arrays of a window in which every triangle is a point at 0, for the first image.
@@ -70,11 +99,14 @@ public:
             build::set_unused_boxes(nodes_[shape.first[0] + i], shape.used_boxes(0, i));
         }
         build::make_nodes(nodes_, leaves * kBvhWidth, serial_for);
+        oriented_.resize(nodes_.size());
+        for (std::size_t i = 0; i < nodes_.size(); ++i) orient_boxes(nodes_[i], oriented_[i]);
         list_.add(SectionId::positions_f64, positions_);
         list_.add(SectionId::triangles, triangles_);
         list_.add(SectionId::source_triangle, source_);
         list_.add(SectionId::bvh_nodes, nodes_);
         list_.add(SectionId::bvh_leaves, leaves_);
+        list_.add(SectionId::oriented_nodes, oriented_);
         list_.add(SectionId::degenerate_bits, marks_);
         facts_.triangle_count = leaves * kBvhWidth;
         facts_.vertex_count = static_cast<std::uint32_t>(positions_.size());
@@ -95,6 +127,7 @@ private:
     std::vector<std::uint32_t> source_;
     std::vector<BvhNode> nodes_;
     std::vector<BvhLeaf> leaves_;
+    std::vector<OrientedNode> oriented_;
     std::vector<std::uint64_t> marks_;
     build::SectionList list_;
     format::FileHeader facts_{};
@@ -104,10 +137,12 @@ private:
 struct WindowTables {
     WindowTables(Carver& carver, std::uint32_t leaves) noexcept
         : lanes(carver.take<std::uint8_t>(leaves), leaves),
-          kept(carver.take<std::uint32_t>(leaves), leaves) {}
+          kept(carver.take<std::uint32_t>(leaves), leaves),
+          items(carver.take<SpreadItem>(leaves), leaves) {}
 
     std::span<std::uint8_t> lanes;  ///< per leaf: the places that have a triangle
     std::span<std::uint32_t> kept;  ///< the leaves of A
+    std::span<SpreadItem> items;    ///< the same, with places, while they are arranged
 };
 
 Result<std::size_t> bytes_of(const WindowLimits& limits, const EmptyWindow& empty) {
@@ -146,6 +181,7 @@ struct Window::State {
           source(elements_of<std::uint32_t>(bytes, SectionId::source_triangle)),
           nodes(elements_of<BvhNode>(bytes, SectionId::bvh_nodes)),
           leaves(elements_of<BvhLeaf>(bytes, SectionId::bvh_leaves)),
+          oriented(elements_of<OrientedNode>(bytes, SectionId::oriented_nodes)),
           marks(elements_of<std::uint64_t>(bytes, SectionId::degenerate_bits)),
           tables(with) {}
 
@@ -153,8 +189,11 @@ struct Window::State {
     /// and their number in `count`.
     double find_leaves(const Model& a, const Model& b, const Placement& placement, double radius,
                        std::size_t& count) noexcept;
+    /// Sorts the leaves so that those of each node are near each other.
+    void arrange_leaves(const Model& a, std::size_t count) noexcept;
     void copy_leaves(const Model& a, std::size_t count) noexcept;
     void copy_corners(const Model& a, std::uint32_t leaf, std::size_t to) noexcept;
+    void orient_nodes(const format::BvhShape& shape) noexcept;
     /// Writes what follows from the number of leaves, and the facts that are those of A.
     void update(const Model& a, std::size_t count) noexcept;
 
@@ -165,6 +204,7 @@ struct Window::State {
     std::span<std::uint32_t> source;
     std::span<BvhNode> nodes;
     std::span<BvhLeaf> leaves;
+    std::span<OrientedNode> oriented;
     std::span<std::uint64_t> marks;
     WindowTables tables;
     WindowFill filled;
@@ -192,6 +232,25 @@ double Window::State::find_leaves(const Model& a, const Model& b, const Placemen
     return fits(fitting) ? fitting : -1;
 }
 
+/// A's order leaves gaps where leaves are missing. Nodes of eight leaves in that order would be far
+/// larger than A's, and a query would open twice as many.
+void Window::State::arrange_leaves(const Model& a, std::size_t count) noexcept {
+    const std::uint32_t lowest = a.bvh().shape.first[0];
+    const std::span<SpreadItem> items = tables.items.first(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t leaf = tables.kept[i];
+        const BvhNode& node = a.bvh().nodes[lowest + leaf / kBvhWidth];
+        SpreadItem& item = items[i];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            item.middle[axis] =
+                node.lower[axis][leaf % kBvhWidth] + node.upper[axis][leaf % kBvhWidth];
+        }
+        item.id = leaf;
+    }
+    spread(items, static_cast<std::uint32_t>((count + kBvhWidth - 1) / kBvhWidth), Fill::full);
+    for (std::size_t i = 0; i < count; ++i) tables.kept[i] = items[i].id;
+}
+
 void Window::State::copy_corners(const Model& a, std::uint32_t leaf, std::size_t to) noexcept {
     const MovedModel still(a, nullptr);
     const std::uint32_t last = a.triangle_count() - 1;
@@ -204,6 +263,7 @@ void Window::State::copy_corners(const Model& a, std::uint32_t leaf, std::size_t
 
 void Window::State::copy_leaves(const Model& a, std::size_t count) noexcept {
     const std::span<const BvhNode> from = a.bvh().nodes;
+    const std::span<const OrientedNode> from_oriented = a.bvh().oriented;
     const std::uint32_t lowest = a.bvh().shape.first[0];
     const std::span<const std::uint64_t> degenerate = a.mesh().degenerate_bits;
     const bool is_exact = a.has_exact_leaves();
@@ -214,8 +274,11 @@ void Window::State::copy_leaves(const Model& a, std::size_t count) noexcept {
         const std::uint32_t leaf = tables.kept[i];
         leaves[i] = a.bvh().leaves[leaf];
         tables.lanes[i] = lanes_of(a, leaf);
-        copy_box(from[lowest + leaf / kBvhWidth], leaf % kBvhWidth,
-                 nodes[lowest_here + i / kBvhWidth], i % kBvhWidth);
+        const std::size_t node = lowest + leaf / kBvhWidth, here = lowest_here + i / kBvhWidth;
+        copy_box(from[node], leaf % kBvhWidth, nodes[here], i % kBvhWidth);
+        if (!from_oriented.empty()) {
+            copy_oriented(from_oriented[node], leaf % kBvhWidth, oriented[here], i % kBvhWidth);
+        }
         const std::size_t first = std::size_t{leaf} * kBvhWidth;
         const std::size_t used = std::min<std::size_t>(kBvhWidth, a.triangle_count() - first);
         std::ranges::copy(a.source().triangle.subspan(first, used),
@@ -228,18 +291,35 @@ void Window::State::copy_leaves(const Model& a, std::size_t count) noexcept {
     }
 }
 
+/// The boxes around leaves have those of A. A box farther up has no other leaves of A's below, so
+/// it gets the axes of the frame.
+void Window::State::orient_nodes(const format::BvhShape& shape) noexcept {
+    for (std::uint32_t i = 0; i < shape.first[0]; ++i) orient_boxes(nodes[i], oriented[i]);
+    const std::uint32_t last = shape.count[0] - 1;
+    OrientedNode unused;
+    BvhNode none;
+    build::set_unused_boxes(none, 0);
+    orient_boxes(none, unused);
+    for (std::size_t box = shape.used_boxes(0, last); box < kBvhWidth; ++box) {
+        copy_oriented(unused, box, oriented[shape.first[0] + last], box);
+    }
+}
+
 void Window::State::update(const Model& a, std::size_t count) noexcept {
     const auto leaf_count = static_cast<std::uint32_t>(count);
     const std::uint32_t places = leaf_count * kBvhWidth;
     const format::BvhShape shape = format::bvh_shape(places);
+    const bool is_oriented = !a.bvh().oriented.empty();
     if (count > 0) {
         const std::uint32_t last = shape.count[0] - 1;
         build::set_unused_boxes(nodes[shape.first[0] + last], shape.used_boxes(0, last));
         build::make_nodes(nodes.first(shape.node_count), places, serial_for);
+        if (is_oriented) orient_nodes(shape);
     }
     const bool has_corners = !a.has_exact_leaves();
     model.set_leaves(leaf_count, has_corners ? positions : std::span<Double3>(),
-                     has_corners ? triangles : std::span<Triangle>());
+                     has_corners ? triangles : std::span<Triangle>(),
+                     is_oriented ? oriented : std::span<OrientedNode>());
     model.set_torn(a.triangle_number_bound());
     format::FileHeader facts = a.header();
     facts.flags &= std::uint32_t{format::model_exact_leaves};
@@ -295,7 +375,7 @@ void Window::clear() noexcept {
     format::FileHeader facts = format::read_header(state_->image);
     facts.triangle_count = 0;
     table.write(facts);
-    state_->model.set_leaves(0, {}, {});
+    state_->model.set_leaves(0, {}, {}, {});
     state_->model.set_torn(0);
     state_->filled = {};
     state_->when_filled = {};
@@ -312,6 +392,7 @@ WindowFill Window::fill(const Pair& pair, double radius) noexcept {
     const bool is_empty = a.triangle_count() == 0 || b.triangle_count() == 0;
     if (!is_empty) radius = state.find_leaves(a, b, pair.placement, radius, count);
     if (radius < 0) return {};
+    state.arrange_leaves(a, count);
     state.copy_leaves(a, count);
     state.update(a, count);
     state.filled = {radius, static_cast<std::uint32_t>(count)};
@@ -346,8 +427,8 @@ BoundedDistance Window::distance(const Pair& pair, Workspace& workspace,
         stop_with("Window::distance() was asked about another model than that of the window.");
     }
     BoundedDistance found = bounded_distance(pair, workspace, options, {.work = budget.work});
-    // The share covers the width of a distance's interval, with room: answers about A are then the
-    // same bit for bit.
+    // The share covers the width of a distance's interval, with room. Answers about A are then the
+    // same, bit for bit.
     constexpr double kShare = 1 - 0x1p-30;
     const double beyond = margin(pair.b, pair.placement) * kShare;
     const bool is_sure = found.upper == 0 || std::min(found.upper, options.max_distance) <= beyond;

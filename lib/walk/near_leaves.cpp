@@ -9,8 +9,8 @@
 #include "walk/walk_pairs.h"
 
 // A's hierarchy is walked depth first in tree order, so each leaf is met at most once. For each
-// node of A, B's hierarchy is walked until each box of the node is near a leaf's box of B, or all
-// boxes of B have been excluded. Most boxes of A far up are near the first leaf of B.
+// node of A, B's hierarchy is walked. This walk ends as soon as each box of the node is near a
+// leaf's box of B. Most boxes of A far up are near the first leaf of B.
 
 namespace cdprep {
 namespace {

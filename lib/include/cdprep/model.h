@@ -192,9 +192,10 @@ private:
     void set_torn(std::uint32_t triangle_number_bound) noexcept;
     /// Makes this a part of a surface, which serves `asks` alone.
     void set_part(Ask asks) noexcept;
-    /// Sets the leaves of a part, and its positions and triangles or none.
+    /// Sets the leaves of a part, and its positions, triangles and oriented boxes, or none of them.
     void set_leaves(std::uint32_t count, std::span<const format::Double3> positions,
-                    std::span<const format::Triangle> triangles) noexcept;
+                    std::span<const format::Triangle> triangles,
+                    std::span<const format::OrientedNode> oriented) noexcept;
     std::unique_ptr<State> state_;
     Ask served_ = Ask::nothing;
 };

@@ -27,14 +27,14 @@ struct WindowFill {
     std::uint32_t leaves = 0;  ///< in the window
 };
 
-/// The part of a large model near a small one, copied into the caller's memory. A slow loop fills
-/// it; a fast loop, such as that of a haptic device at 1 kHz, queries it instead of the model.
+/// The part of a large model A near a small one, the probe, copied into the caller's memory. A slow
+/// loop fills it. A fast loop queries it instead of A, such as that of a haptic device at 1 kHz.
 ///
 /// model() is a model like any other, with the positions, boxes and triangle numbers of A. The fast
-/// loop reads nothing else of A, so that A may deform meanwhile. What the window lacks was farther
-/// than the radius from the probe when it was filled. Since then, the probe's points have moved by
-/// some way relative to A, so what it lacks is still farther than margin(): the radius minus the
-/// longest way. An answer about anything within margin() is that about A.
+/// loop reads nothing else of A, so that A may deform meanwhile. When the window was filled, all
+/// that it lacks was farther than the radius from the probe. A point of the probe has moved at most
+/// the longest way since then, relative to A. So what the window lacks is farther than margin(),
+/// the radius minus the longest way. An answer about anything within margin() is that about A.
 ///
 /// The window counts as open and torn, because its surface has a rim. It serves collide, overlap,
 /// distance, within, ray, closest and touch, for surfaces. A query is complete if it is about what
@@ -88,10 +88,10 @@ public:
     /// Returns the model to query. It is the same object after each fill().
     [[nodiscard]] const Model& model() const noexcept;
 
-    /// Returns the distance from the probe within which the window has everything of A, for a
-    /// placement of the same kind or another, in model units. It is the radius, minus the longest
-    /// way of a point of the probe's box since the fill, minus all rounding. The longest way is at
-    /// most that of a corner of the box, as length is convex and each point's way is affine.
+    /// Returns the distance from the probe within which the window has everything of A, in model
+    /// units. It is the radius, minus the longest way of a point of the probe's box since the fill,
+    /// minus all rounding. A point's way is affine in the point, and length is convex. So the
+    /// longest way is that of a corner of the box. Either placement may be of any kind.
     ///
     /// Negative if the probe has moved too far. Minus infinity for another probe, or one that has
     /// deformed since. Infinity if A or the probe is empty. O(1).

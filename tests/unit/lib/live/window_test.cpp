@@ -203,7 +203,7 @@ TEST(Window, CompleteAnswersAreThoseAboutTheWholeModel) {
 TEST(Window, NothingWithinTheRadiusIsMissing) {
     std::mt19937 random(3);
     const int kRounds = rounds(1500, 5);
-    std::size_t pairs = 0, whole = 0, none = 0;
+    std::size_t pairs = 0, skipped = 0, whole = 0, none = 0;
     for (int round = 0; round < kRounds; ++round) {
         const TestMesh mesh =
             round % 2 == 0 ? random_soup(random(), 300, 0.3) : coarse_grid_soup(random(), 300, 4);
@@ -221,6 +221,13 @@ TEST(Window, NothingWithinTheRadiusIsMissing) {
             near_pairs({all.model, probe.model, placement}, radius, workspace);
         ASSERT_EQ(near_pairs({owned.window.model(), probe.model, placement}, radius, workspace),
                   expected);
+        const PairOptions skip = {.degenerate = Degenerate::skip};
+        const Pair proper{all.model, probe.model, placement, skip};
+        const PairList fewer = near_pairs(proper, radius, workspace);
+        ASSERT_EQ(
+            near_pairs({owned.window.model(), probe.model, placement, skip}, radius, workspace),
+            fewer);
+        skipped += expected.size() - fewer.size();
         const double margin = owned.window.margin(probe.model, placement);
         EXPECT_LE(margin, radius);
         EXPECT_GT(margin, radius * (1 - 1e-8));
@@ -229,6 +236,7 @@ TEST(Window, NothingWithinTheRadiusIsMissing) {
         none += held.leaves == 0 ? 1 : 0;
     }
     EXPECT_GT(pairs, 1000U);
+    EXPECT_GT(skipped, 100U);
     EXPECT_LT(whole, static_cast<std::size_t>(kRounds) / 2);
     EXPECT_LT(none, static_cast<std::size_t>(kRounds) / 2);
 }
