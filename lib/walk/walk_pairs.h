@@ -165,6 +165,15 @@ inline void count_step(const Tree& a, const Tree& b, const PendingPair& pair,
     ++counts.node_pairs;
 }
 
+/// As above, unless the workspace is out of work. Not inlined: walks that do not count would pay.
+[[gnu::noinline]] inline bool count_or_end(const Tree& a, const Tree& b, const PendingPair& pair,
+                                           const WaysDown& descent,
+                                           const Workspace::Storage& scratch) noexcept {
+    if (scratch.is_out_of_work()) return false;
+    count_step(a, b, pair, descent, *scratch.counts);
+    return true;
+}
+
 /// Prefetches the parts of a node's swept spheres that the test of its kind reads.
 inline void prefetch_swept(const format::SweptNode& node, format::SweptKind kind) noexcept {
     prefetch(&node.centre);
@@ -316,10 +325,7 @@ bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& 
         });
         assert(depth < scratch.open_steps.size());
         OpenStep& step = scratch.open_steps[depth];
-        if (scratch.counts != nullptr) {
-            if (scratch.is_out_of_work()) return false;
-            count_step(a, b, pair, descent, *scratch.counts);
-        }
+        if (scratch.counts != nullptr && !count_or_end(a, b, pair, descent, scratch)) return false;
         open_step<kSearch>(a, b, placed, tests, pair, descent, step, depths);
         if (is_down_at(step.base, floor)) {
             for (bool best = true; step.pairs != 0; best = false) {

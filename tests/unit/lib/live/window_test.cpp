@@ -373,11 +373,17 @@ TEST(Window, TheModelMayDeformAfterTheFill) {
         EXPECT_TRUE(found.is_complete);
         expect_same(found.nearest, distance({fixed.model, probe.model, placement}, workspace));
     }
-    // After the next fill, the cache's gap is not that of the new shape.
-    ASSERT_TRUE(all.object.refit(moved_by(rest, 1, {0, 0, 0.2}).positions));
-    owned.window.fill({all.object.model(), probe.model, placement}, 0.2);
-    EXPECT_EQ(owned.window.distance(near, workspace).upper, 0);
-    EXPECT_EQ(distance({all.object.model(), probe.model, placement}, workspace)->upper, 0);
+    // After a fill with the same leaves of another shape, the cache's gap is not used.
+    OwnedWindow whole = window_of(600);
+    PairCache of_whole;
+    const Pair same{whole.window.model(), probe.model, placement, {}, &of_whole};
+    for (const bool touches : {false, true}) {
+        const Double3 by = {0, 0, touches ? 0.2 : 0.0};
+        ASSERT_TRUE(all.object.refit(moved_by(rest, 1, by).positions));
+        whole.window.fill({all.object.model(), probe.model, placement}, kEndless);
+        EXPECT_EQ(whole.window.distance(same, workspace).upper == 0, touches);
+        EXPECT_EQ(collide(same, workspace).hit == Answer::yes, touches);
+    }
 }
 
 // One window serves models of floats and of doubles in turn, and points near the probe.
