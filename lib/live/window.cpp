@@ -437,7 +437,7 @@ BoundedDistance Window::distance(const Pair& pair, Workspace& workspace,
         found.lower = std::min(found.lower, std::max(0.0, beyond));
         if (found.nearest) found.nearest->lower = found.lower;
     }
-    if (budget.last != nullptr) note(*budget.last, pair.placement, found);
+    if (budget.last != nullptr) budget.last->note(pair.placement, found);
     return found;
 }
 

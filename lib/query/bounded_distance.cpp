@@ -158,15 +158,15 @@ BoundedDistance bounded_distance(const Pair& pair, Workspace& workspace,
     const format::FloatEnvironment environment;
     require(pair.a, pair.b, Ask::distance);
     const BoundedDistance found = search(pair, workspace, options, budget.work);
-    if (budget.last != nullptr) note(*budget.last, pair.placement, found);
+    if (budget.last != nullptr) budget.last->note(pair.placement, found);
     return found;
 }
 
-void note(LastDistance& last, const Placement& placement, const BoundedDistance& found) noexcept {
+void LastDistance::note(const Placement& at, const BoundedDistance& found) noexcept {
     if (found.is_complete) {
-        last = {true, placement, found, 0};
+        *this = {true, at, found, 0};
     } else {
-        ++last.late;
+        ++late;
     }
 }
 

@@ -203,6 +203,10 @@ inline const std::vector<Question>& questions() {
         {"distance through pieces", Ask::distance | Ask::pieces, distance_by<kSurface, pieces>},
         {"time_of_impact", Ask::distance, time_of_impact_of<kSurface>},
         {"time_of_impact solid", Ask::distance | Ask::solid, time_of_impact_of<kSolid>},
+        {"bounded_distance", Ask::distance,
+         [](const Scene& scene) {
+             return told(bounded_distance(scene.pair(), scene.workspace).nearest);
+         }},
         {"within", Ask::within,
          [](const Scene& scene) { return told(within(scene.pair(), 0.5, scene.workspace)); }},
         {"pairs_within", Ask::within,

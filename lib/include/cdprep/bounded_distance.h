@@ -37,6 +37,9 @@ struct LastDistance {
     Placement placement = Placement::b_moves(Pose());
     BoundedDistance distance;  ///< in that placement
     std::uint64_t late = 0;    ///< late answers since then
+
+    /// Notes an answer, as bounded_distance() does with DistanceBudget::last.
+    void note(const Placement& at, const BoundedDistance& found) noexcept;
 };
 
 /// The limits of the work of one query.
@@ -73,9 +76,5 @@ struct DistanceBudget {
 [[nodiscard]] BoundedDistance bounded_distance(const Pair& pair, Workspace& workspace,
                                                const DistanceOptions& options = {},
                                                const DistanceBudget& budget = {}) noexcept;
-
-/// Notes an answer in `*last`, as bounded_distance() does with DistanceBudget::last. For answers
-/// that the caller completes or changes.
-void note(LastDistance& last, const Placement& placement, const BoundedDistance& found) noexcept;
 
 }  // namespace cdprep
