@@ -279,7 +279,7 @@ int cdprep_model_open_memory(const void* bytes, size_t size, const cdprep_open_o
 }
 
 void cdprep_model_close(cdprep_model* model) {
-    if (model == nullptr || model->live != nullptr) return;  // cdprep_live_end() ends that one
+    if (model == nullptr || !model->own) return;  // that of a live model or a window ends with it
     const cdprep::c::Memory object = model->object, bytes = model->bytes, index = model->index;
     std::destroy_at(model);
     cdprep::c::release_all(object, bytes, index);

@@ -9,14 +9,16 @@
 #include "c/input.h"
 #include "c/memory.h"
 #include "cdprep/c/model.h"
+#include "cdprep/c/window.h"
 #include "cdprep/live_model.h"
 #include "cdprep/model.h"
 
 /// An open model, with indices for cdprep_model_corners() and cdprep_model_mesh().
 struct cdprep_model {
-    std::optional<cdprep::Model> own;  ///< none if a live model has it
+    std::optional<cdprep::Model> own;  ///< none if a live model or a window has it
     const cdprep::Model& model;
     const cdprep::LiveModel* live = nullptr;  ///< or null
+    const cdprep_window* window = nullptr;    ///< or null
     cdprep::c::Memory object;                 ///< this object; none in the caller's memory
     cdprep::c::Memory bytes;                  ///< a copy of the file, or none
     cdprep::c::Memory index;                  ///< of what follows, or none
@@ -33,12 +35,14 @@ struct cdprep_model {
           bytes(of_bytes),
           index(of_index) {}
     explicit cdprep_model(const cdprep::LiveModel& of) noexcept : model(of.model()), live(&of) {}
+    cdprep_model(const cdprep::Model& lent, const cdprep_window& by) noexcept
+        : model(lent), window(&by) {}
     cdprep_model(const cdprep_model&) = delete;
     cdprep_model& operator=(const cdprep_model&) = delete;
     ~cdprep_model() = default;
 
     [[nodiscard]] bool can_tear() const noexcept {
-        return !model.bvh().lanes.empty();
+        return live != nullptr && !model.bvh().lanes.empty();
     }
 };
 

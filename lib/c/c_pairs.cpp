@@ -115,7 +115,7 @@ Ask needs_of(std::uint32_t through) noexcept {
 }
 
 int read_pair(Call& call, const Name& name, const PairQuestion& question, const cdprep_pair* given,
-              const cdprep_workspace& workspace, AskedPair& asked) {
+              AskedPair& asked) {
     cdprep_pair pair;
     if (const int code = read_input(call, name, given, pair)) return code;
     if (const int code =
@@ -127,7 +127,6 @@ int read_pair(Call& call, const Name& name, const PairQuestion& question, const 
     if (pair.body == CDPREP_SOLID) needs = needs | Ask::solid;
     if (const int code = check_serves(call, name.of("a"), *pair.a, needs)) return code;
     if (const int code = check_serves(call, name.of("b"), *pair.b, needs)) return code;
-    if (const int code = check_cells(call, workspace, needs)) return code;
     asked.a = &pair.a->model;
     asked.b = &pair.b->model;
     asked.options.body = pair.body == CDPREP_SOLID ? Body::solid : Body::surface;
@@ -137,6 +136,12 @@ int read_pair(Call& call, const Name& name, const PairQuestion& question, const 
     asked.options.through = structure_of(pair.through);
     asked.cache = pair.cache;
     return CDPREP_OK;
+}
+
+int read_pair(Call& call, const Name& name, const PairQuestion& question, const cdprep_pair* given,
+              const cdprep_workspace& workspace, AskedPair& asked) {
+    if (const int code = read_pair(call, name, question, given, asked)) return code;
+    return check_cells(call, workspace, question.needs | ask_of(asked.options.through));
 }
 
 int read_distance_options(Call& call, const cdprep_distance_options* given,
@@ -284,6 +289,20 @@ int cdprep_distance(const cdprep_pair* pair, const cdprep_distance_options* opti
         [&](Call& call) { return cdprep::c::read_distance_options(call, options, given); },
         [&](const AskedPair& asked, Workspace& scratch) {
             *nearest = cdprep::c::nearest_of(asked, given, scratch);
+        });
+}
+
+int cdprep_distance_bounded(const cdprep_pair* pair, const cdprep_distance_options* options,
+                            uint64_t work, cdprep_workspace* workspace, cdprep_bounded* bounded,
+                            cdprep_error* error) {
+    cdprep_distance_options given{};
+    return ask_pair(
+        cdprep::c::kBoundedDistance, pair, workspace, bounded, "bounded", error,
+        [&](Call& call) { return cdprep::c::read_distance_options(call, options, given); },
+        [&](const AskedPair& asked, Workspace& scratch) {
+            cdprep::c::PairCacheWords cache(asked.cache);
+            *bounded = cdprep::c::in_c(bounded_distance(asked.with(cache), scratch,
+                                                        cdprep::c::in_cpp(given), {.work = work}));
         });
 }
 

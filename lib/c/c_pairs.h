@@ -57,6 +57,7 @@ inline constexpr PairQuestion kOverlaps = {Ask::overlap, uses_overlap | uses_deg
 inline constexpr PairQuestion kOverlapsOtherwise = {Ask::overlap, uses_overlap | uses_degenerate,
                                                     kBvhAlone};
 inline constexpr PairQuestion kDistance = {Ask::distance, uses_body, kBvhOrPieces};
+inline constexpr PairQuestion kBoundedDistance = {Ask::distance, 0, kBvhAlone};
 inline constexpr PairQuestion kWithin = {Ask::within, 0, kBvhOrPieces};
 inline constexpr PairQuestion kPairsWithin = {Ask::within, uses_degenerate, kBvhOrPieces};
 inline constexpr PairQuestion kPairsWithinVisit = {Ask::within, uses_degenerate, kBvhAlone};
@@ -83,6 +84,9 @@ struct AskedPair {
     }
 };
 
+/// Reads a pair and checks all of it but the workspace.
+int read_pair(Call& call, const Name& name, const PairQuestion& question, const cdprep_pair* given,
+              AskedPair& asked);
 /// Reads a pair and checks all of it.
 int read_pair(Call& call, const Name& name, const PairQuestion& question, const cdprep_pair* given,
               const cdprep_workspace& workspace, AskedPair& asked);
@@ -109,6 +113,10 @@ inline void set_unknown(cdprep_collision& answer) noexcept {
 }
 inline void set_unknown(cdprep_nearest& answer) noexcept {
     answer = {};
+}
+inline void set_unknown(cdprep_bounded& answer) noexcept {
+    answer = {};
+    answer.complete = CDPREP_UNKNOWN;
 }
 inline void set_unknown(cdprep_marks& answer) noexcept {
     answer.count = 0;

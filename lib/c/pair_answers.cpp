@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "c/pair_answers.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "c/pair_cache_words.h"
@@ -45,6 +46,15 @@ cdprep_nearest in_c(const std::optional<Distance>& found) noexcept {
     return to;
 }
 
+cdprep_bounded in_c(const BoundedDistance& found) noexcept {
+    const double lower = std::min(found.lower, format::kMaxCoordinate);
+    return {word(found.is_complete), 0, found.work, lower, in_c(found.nearest)};
+}
+
+DistanceOptions in_cpp(const cdprep_distance_options& options) noexcept {
+    return {options.relative_error, options.absolute_error, options.max_distance};
+}
+
 cdprep_collision collision_of(const AskedPair& asked, Workspace& workspace) noexcept {
     PairCacheWords cache(asked.cache);
     const Collision found = collide(asked.with(cache), workspace);
@@ -67,8 +77,7 @@ std::size_t mark_overlaps(const AskedPair& asked, Workspace& workspace,
 cdprep_nearest nearest_of(const AskedPair& asked, const cdprep_distance_options& options,
                           Workspace& workspace) noexcept {
     PairCacheWords cache(asked.cache);
-    return in_c(distance(asked.with(cache), workspace,
-                         {options.relative_error, options.absolute_error, options.max_distance}));
+    return in_c(distance(asked.with(cache), workspace, in_cpp(options)));
 }
 
 bool is_pair_within(const AskedPair& asked, double tolerance, Workspace& workspace) noexcept {

@@ -324,6 +324,15 @@ inline const std::vector<CQuestion>& c_questions() {
         {"time of impact", CDPREP_ASK_DISTANCE, time_of_impact<CDPREP_SURFACE>},
         {"time of impact solid", CDPREP_ASK_DISTANCE | CDPREP_ASK_SOLID,
          time_of_impact<CDPREP_SOLID>},
+        {"distance bounded", CDPREP_ASK_DISTANCE,
+         [](const CScene& scene) {
+             const cdprep_pair pair = pair_of(scene);
+             cdprep_bounded found{};
+             cdprep_error error;
+             const int code =
+                 cdprep_distance_bounded(&pair, nullptr, 0, scene.workspace, &found, &error);
+             return told(code, error, found.complete == CDPREP_UNKNOWN, found.nearest);
+         }},
         {"within", CDPREP_ASK_WITHIN,
          [](const CScene& scene) {
              const cdprep_pair pair = pair_of(scene);

@@ -22,5 +22,6 @@
 #include "cdprep/c/pairs.h"
 #include "cdprep/c/points.h"
 #include "cdprep/c/scene.h"
+#include "cdprep/c/window.h"
 
 #endif /* CDPREP_CDPREP_H */

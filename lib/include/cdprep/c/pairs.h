@@ -221,6 +221,30 @@ CDPREP_API int cdprep_distance(const cdprep_pair* pair, const cdprep_distance_op
                                cdprep_workspace* workspace, cdprep_nearest* nearest,
                                cdprep_error* error);
 
+/* A distance, as far as a search came. */
+typedef struct cdprep_bounded {
+    uint32_t complete; /* CDPREP_YES: `nearest` is the answer of cdprep_distance(); CDPREP_NO: late.
+        CDPREP_UNKNOWN: the call failed */
+    uint32_t reserved; /* 0 */
+    uint64_t work;     /* done */
+    double lower;      /* the distance is at least this; at most 2^1000 */
+    /* The nearest pair of triangles found, with bounds of the distance of the models. `found`
+     * CDPREP_NO: none was found, or none is within max_distance. */
+    cdprep_nearest nearest;
+} cdprep_bounded;
+
+/* Stores the distance of two surfaces, or bounds of it if the work does not suffice. `work` is the
+ * maximum, and 0 is no limit. A pair of nodes of the BVHs counts 1, a pair of leaves 2. A pair of
+ * triangles counts 4 in double and 16 in exact arithmetic. The last pair of leaves may exceed the
+ * work. With a cache, late bounds are close if little has moved. `options` may be null. No clock is
+ * read: measure how much work the time allows.
+ * Through: CDPREP_THROUGH_BVH. Takes as long as cdprep_distance(), or in proportion to `work`.
+ * Needs: CDPREP_ASK_DISTANCE */
+CDPREP_API int cdprep_distance_bounded(const cdprep_pair* pair,
+                                       const cdprep_distance_options* options, uint64_t work,
+                                       cdprep_workspace* workspace, cdprep_bounded* bounded,
+                                       cdprep_error* error);
+
 /* Stores whether two surfaces are at most `tolerance` apart. `tolerance` must be at least 0. Exact
  * to the last bit. Uses through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES. Takes as long as
  * cdprep_distance(), or less if the distance differs clearly from `tolerance`.

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef CDPREP_C_WINDOW_H
+#define CDPREP_C_WINDOW_H
+
+#include "cdprep/c/pairs.h"
+
+/* Windows: the part of a large model near a small one, copied for a loop that must answer in time.
+ * A slow loop fills one window while a fast loop queries another, then the two are swapped. */
+
+/* A window. It is queried through cdprep_window_model(). While one call fills it, all other calls
+ * of this header fail with CDPREP_WHY_BUSY. No query about its model may run then: this is not
+ * checked. */
+typedef struct cdprep_window cdprep_window;
+
+typedef struct cdprep_window_options {
+    cdprep_head head;
+    uint32_t max_leaves;               /* 0, which is refused: the most leaves of 8 triangles */
+    uint32_t reserved;                 /* 0 */
+    const cdprep_allocator* allocator; /* null: the heap; copied */
+} cdprep_window_options;
+
+/* Makes default options. Writes `size` bytes, which must be sizeof(cdprep_window_options). */
+CDPREP_API void cdprep_window_options_init(cdprep_window_options* options, size_t size);
+
+/* Stores the number of bytes that cdprep_window_make() needs for these options: about 1,100 for
+ * each leaf. On failure *size is 0. Errors: those of cdprep_window_make(). */
+CDPREP_API int cdprep_window_size(const cdprep_window_options* options, size_t* size,
+                                  cdprep_error* error);
+
+/* Makes an empty window. On failure *window is null. End it with cdprep_window_end().
+ *
+ * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_window_size()
+ * bytes. With null memory of size 0, the allocator makes one allocation of that size. In addition,
+ * the window takes about 1 KiB of the heap. No later call but cdprep_window_end() allocates or
+ * frees memory, except to report an error.
+ *
+ * Errors:
+ * - CDPREP_WHY_NULL: no options.
+ * - CDPREP_WHY_OUT_OF_RANGE: max_leaves is 0 or too large, or `memory` is not aligned.
+ * - CDPREP_WHY_NO_MEANING: an allocator in addition to memory.
+ * - CDPREP_WHY_TOO_SMALL: `size` is less than cdprep_window_size() stores.
+ * - CDPREP_OVER_BUDGET: there is not enough memory. */
+CDPREP_API int cdprep_window_make(const cdprep_window_options* options, void* memory, size_t size,
+                                  cdprep_window** window, cdprep_error* error);
+
+/* Ends a window, unless another call uses it. Null does nothing. */
+CDPREP_API void cdprep_window_end(cdprep_window* window);
+
+/* Returns the model to query; null of null. It is the same object after each fill, and lives as
+ * long as the window: do not close it. It serves CDPREP_ASK_COLLIDE, _OVERLAP, _DISTANCE, _WITHIN,
+ * _RAY, _CLOSEST and _TOUCH. Its triangles have the numbers of the large model. A query is complete
+ * if it is about what is at most cdprep_window_margin() from the probe. */
+CDPREP_API const cdprep_model* cdprep_window_model(const cdprep_window* window);
+
+typedef struct cdprep_window_info {
+    double radius;     /* everything at most this far from the probe is in the window; see below */
+    uint32_t leaves;   /* in the window */
+    uint32_t is_empty; /* CDPREP_YES: not even what touches the probe has room; radius is 0 */
+} cdprep_window_info;
+
+/* Fills a window with the leaves of pair.a that may be at most `radius` from pair.b, the probe. If
+ * they have no room, the radius is smaller. `radius` must be at least 0; infinity asks for all
+ * leaves, and is then stored as 2^1000. Uses only the models and their placement.
+ * Takes O(log n + leaves log m) time for n triangles of A and m of B.
+ * On failure, the window is as before, and *info is all 0. Errors: those of cdprep_distance().
+ * CDPREP_WHY_OUT_OF_RANGE: pair.a is the model of this window. CDPREP_WHY_BUSY.
+ * Needs: CDPREP_ASK_DISTANCE */
+CDPREP_API int cdprep_window_fill(cdprep_window* window, const cdprep_pair* pair, double radius,
+                                  cdprep_window_info* info, cdprep_error* error);
+
+/* Stores the distance from pair.b within which a window has everything of the large model. pair.a
+ * is the window's model. The margin is the radius, minus the longest way of a point of the probe
+ * since the fill, minus rounding. It is negative if the probe has moved too far. It is -2^1000 if
+ * pair.b is another probe than that of the last fill, or has deformed since. It is 2^1000 if
+ * nothing can be missing. O(1).
+ * Errors: those of cdprep_distance(). CDPREP_WHY_OUT_OF_RANGE: pair.a is no window's model.
+ * CDPREP_WHY_BUSY: the window is being filled.
+ * Needs: CDPREP_ASK_DISTANCE */
+CDPREP_API int cdprep_window_margin(const cdprep_pair* pair, double* margin, cdprep_error* error);
+
+/* Stores the distance of pair.b from the large model, as that was when the window was filled.
+ * pair.a is the window's model. Does what cdprep_distance_bounded() does. But the answer is
+ * complete only if the distance is less than the margin. Then it is the answer about the large
+ * model, but may name another pair of triangles that touch. Otherwise `lower` is at most the
+ * margin.
+ * Errors: those of cdprep_distance_bounded() and cdprep_window_margin().
+ * Needs: CDPREP_ASK_DISTANCE */
+CDPREP_API int cdprep_window_distance(const cdprep_pair* pair,
+                                      const cdprep_distance_options* options, uint64_t work,
+                                      cdprep_workspace* workspace, cdprep_bounded* bounded,
+                                      cdprep_error* error);
+
+#endif /* CDPREP_C_WINDOW_H */
