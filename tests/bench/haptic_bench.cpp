@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+// Distances at the rate of a haptic loop: a probe glides over a large model (gliding_probe.h), and
+// each step asks for the distance. Of the whole model and through windows, within budgets of work,
+// and of a model of which a fiftieth deforms each step; beside FCL for the first 600 steps.
+// Processor time, one thread; page faults after a warm-up.
+//
+// Usage: haptic_bench MODEL PROBE [STEPS [RADIUS]]
+// MODEL is a bake of a model normalised to a diagonal of 1, with --effects
+// overlap,distance,closest. PROBE is one of a ball of radius 0.02 about 0, with --effects distance.
+// A window is filled every 10 steps and used from 2 steps later on, with everything in RADIUS
+// (default 0.1).
+//
+// Prints CSV tables: microseconds of a step; then late answers by budget.
+#include <sys/resource.h>
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "bench_input.h"
+#include "cdprep/live_model.h"
+#include "cdprep/window.h"
+#include "gliding_probe.h"
+
+#ifdef CDPREP_HAVE_FCL
+#include "fcl_models.h"
+#endif
+
+namespace cdprep {
+namespace {
+
+constexpr std::size_t kFillEvery = 10;
+constexpr std::size_t kFillLag = 2;
+constexpr std::size_t kFclSteps = 600;
+constexpr std::size_t kDeformSteps = 600;
+
+double microseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
+long faults() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_majflt + usage.ru_minflt;
+}
+
+double share_of(std::vector<double>& sorted, double share) {
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+void print_row(const char* way, std::vector<double> times, long with_faults, double note) {
+    std::sort(times.begin(), times.end());
+    std::printf("%s,%zu,%.2f,%.2f,%.2f,%.2f,%ld,%.4f\n", way, times.size(), share_of(times, 0.5),
+                share_of(times, 0.99), share_of(times, 0.999), share_of(times, 1), with_faults,
+                note);
+}
+
+/// Times `step(i)` for each step, after a warm-up by the first ones. `step` returns a number whose
+/// mean is printed.
+template <class Step>
+void time_steps(const char* way, std::size_t steps, Step&& step) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(steps, 20); ++i) step(i);
+    std::vector<double> times(steps);
+    double sum = 0;
+    const long before = faults();
+    for (std::size_t i = 0; i < steps; ++i) {
+        const double begun = microseconds();
+        const double noted = step(i);
+        times[i] = microseconds() - begun;
+        sum += noted;
+    }
+    print_row(way, std::move(times), faults() - before, sum / static_cast<double>(steps));
+}
+
+struct alignas(format::kSectionAlignment) Block {
+    std::array<std::byte, format::kSectionAlignment> bytes;
+};
+
+std::vector<Block> room_of(const Result<std::size_t>& bytes) {
+    if (!bytes) stop(bytes.error().message);
+    return std::vector<Block>(*bytes / sizeof(Block) + 1);
+}
+
+/// Two windows in turn, as a slow loop fills them.
+class Windows {
+public:
+    Windows(std::uint32_t leaves, double radius) : radius_(radius) {
+        for (std::vector<Block>& room : rooms_) {
+            room = room_of(Window::bytes({leaves}));
+            auto made = Window::in(std::as_writable_bytes(std::span(room)), {leaves});
+            if (!made) stop(made.error().message);
+            windows_.push_back(std::move(made).value());
+        }
+    }
+    [[nodiscard]] Window& of(std::size_t step) {
+        const std::size_t number = step < kFillLag ? 0 : (step - kFillLag) / kFillEvery;
+        return windows_[number % 2];
+    }
+    /// Fills a window for the steps to come, where one is due. Returns the time it took.
+    double fill(const Model& model, const Model& probe, const std::vector<Double3>& way,
+                std::size_t step) {
+        if (step % kFillEvery != 0) return 0;
+        const double begun = microseconds();
+        const WindowFill held =
+            windows_[step / kFillEvery % 2].fill({model, probe, placed_at(way[step])}, radius_);
+        leaves_ += held.leaves;
+        ++fills_;
+        return microseconds() - begun;
+    }
+    [[nodiscard]] double mean_leaves() const {
+        return static_cast<double>(leaves_) / static_cast<double>(fills_);
+    }
+
+private:
+    double radius_;
+    std::array<std::vector<Block>, 2> rooms_;
+    std::vector<Window> windows_;
+    std::size_t leaves_ = 0, fills_ = 0;
+};
+
+void time_windows(const Model& model, const Model& probe, const std::vector<Double3>& way,
+                  double radius) {
+    Windows windows(1U << 15, radius);
+    Workspace workspace;
+    PairCache cache;
+    std::vector<double> steps(way.size()), fills;
+    double complete = 0;
+    windows.fill(model, probe, way, 0);
+    long met = 0;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+        const double filled = windows.fill(model, probe, way, i);
+        if (filled > 0) fills.push_back(filled);
+        const long before = faults();
+        const double begun = microseconds();
+        Window& window = windows.of(i);
+        const BoundedDistance found =
+            window.distance({window.model(), probe, placed_at(way[i]), {}, &cache}, workspace);
+        steps[i] = microseconds() - begun;
+        if (i > 4 * kFillEvery) met += faults() - before;
+        complete += found.is_complete ? 1 : 0;
+    }
+    print_row("window", std::move(steps), met, complete / static_cast<double>(way.size()));
+    print_row("window_fill", std::move(fills), 0, windows.mean_leaves());
+}
+
+#ifdef CDPREP_HAVE_FCL
+template <class Volume>
+void time_fcl(const char* way_name, const Model& model, const Model& probe,
+              const std::vector<Double3>& way) {
+    const fcl::BVHModel<Volume> a = fcl_model<Volume>(model), b = fcl_model<Volume>(probe);
+    time_steps(way_name, std::min(kFclSteps, way.size()), [&](std::size_t i) {
+        const fcl::DistanceRequestd request(false, false, 0, 0);
+        fcl::DistanceResultd result;
+        return fcl::distance(&a, fcl::Transform3d::Identity(), &b,
+                             fcl_transform(placed_at(way[i]).pose_b()), request, result) > 0
+                   ? 1.0
+                   : 0.0;
+    });
+}
+#endif
+
+/// A fiftieth of the vertices, those around the probe, moves a little at each step.
+void time_deforming(const Model& model, const Model& probe, const std::vector<Double3>& way) {
+    std::vector<Block> room = room_of(LiveModel::bytes(model));
+    auto made = LiveModel::in(std::as_writable_bytes(std::span(room)), model);
+    if (!made) stop(made.error().message);
+    LiveModel& live = made.value();
+    const std::span<const Float3> rest = model.mesh().positions_f32;
+    const std::span<const std::uint32_t> number = model.source().vertex;
+    const std::size_t count = rest.size() / 50;
+    std::vector<std::uint32_t> nearest(rest.size());
+    std::iota(nearest.begin(), nearest.end(), 0U);
+    std::vector<std::uint32_t> moved(count);
+    std::vector<Float3> to(count);
+    Workspace workspace;
+    PairCache cache;
+    const auto choose = [&](std::size_t i) {
+        const auto far = [&](std::uint32_t v) {
+            return std::hypot(rest[v].x - way[i].x, rest[v].y - way[i].y, rest[v].z - way[i].z);
+        };
+        std::ranges::nth_element(nearest, nearest.begin() + static_cast<std::ptrdiff_t>(count), {},
+                                 far);
+    };
+    std::vector<double> steps, refits;
+    for (std::size_t i = 0; i < std::min(kDeformSteps, way.size()); ++i) {
+        if (i % 50 == 0) choose(i);
+        const auto by = static_cast<float>(1e-4 * std::sin(0.3 * static_cast<double>(i)));
+        for (std::size_t k = 0; k < count; ++k) {
+            const Float3& p = rest[nearest[k]];
+            moved[k] = number[nearest[k]];
+            to[k] = {p.x + by, p.y - by, p.z + by};
+        }
+        const double begun = microseconds();
+        const auto done = live.refit(moved, to);
+        const double fitted = microseconds();
+        if (!done) stop(done.error().message);
+        (void)distance({live.model(), probe, placed_at(way[i]), {}, &cache}, workspace);
+        steps.push_back(microseconds() - begun);
+        refits.push_back(fitted - begun);
+    }
+    print_row("deforming_2_percent", std::move(steps), 0, 0);
+    print_row("its_refit", std::move(refits), 0, 0);
+}
+
+/// The widths of late answers, by budget, with a cache that had a whole answer every 50 steps.
+void print_budgets(const Model& model, const Model& probe, const std::vector<Double3>& way) {
+    std::printf("work,complete,median_us,p999_us,max_us,us_per_work,late_width_median,max\n");
+    for (const std::uint64_t work : {20, 50, 100, 200, 500, 1000, 2000, 5000, 0}) {
+        Workspace workspace;
+        PairCache cache;
+        std::vector<double> times, widths = {0};
+        double complete = 0, all_work = 0, all_time = 0;
+        for (std::size_t i = 0; i < way.size(); ++i) {
+            const bool is_whole = i % 50 == 0;
+            const double begun = microseconds();
+            const BoundedDistance found =
+                bounded_distance({model, probe, placed_at(way[i]), {}, &cache}, workspace, {},
+                                 {.work = is_whole ? 0 : work});
+            const double took = microseconds() - begun;
+            if (is_whole) continue;
+            times.push_back(took);
+            all_work += static_cast<double>(found.work);
+            all_time += took;
+            complete += found.is_complete ? 1 : 0;
+            if (!found.is_complete && found.nearest) widths.push_back(found.upper - found.lower);
+        }
+        std::sort(times.begin(), times.end());
+        std::sort(widths.begin(), widths.end());
+        std::printf("%llu,%.4f,%.2f,%.2f,%.2f,%.4f,%.5f,%.5f\n",
+                    static_cast<unsigned long long>(work),
+                    complete / static_cast<double>(times.size()), share_of(times, 0.5),
+                    share_of(times, 0.999), share_of(times, 1), all_time / all_work,
+                    share_of(widths, 0.5), share_of(widths, 1));
+    }
+}
+
+void run(const Model& model, const Model& probe, std::size_t steps, double radius) {
+    const std::vector<Double3> way = glide(model, steps);
+    std::printf("triangles: %u and %u; touched ahead: %zu bytes\n", model.triangle_count(),
+                probe.triangle_count(), model.touch() + probe.touch());
+    std::printf("way,steps,median_us,p99_us,p999_us,max_us,faults,note\n");
+    Workspace workspace;
+    PairCache cache, of_bounded;
+    time_steps("distance", steps, [&](std::size_t i) {
+        const auto found = distance({model, probe, placed_at(way[i])}, workspace);
+        return found->upper == 0 ? 1.0 : 0.0;
+    });
+    time_steps("distance_cached", steps, [&](std::size_t i) {
+        const Pair pair{model, probe, placed_at(way[i]), {}, &cache};
+        return distance(pair, workspace)->upper == 0 ? 1.0 : 0.0;
+    });
+    time_steps("bounded_cached", steps, [&](std::size_t i) {
+        const Pair pair{model, probe, placed_at(way[i]), {}, &of_bounded};
+        return bounded_distance(pair, workspace).upper == 0 ? 1.0 : 0.0;
+    });
+    time_windows(model, probe, way, radius);
+    time_deforming(model, probe, way);
+#ifdef CDPREP_HAVE_FCL
+    time_fcl<fcl::OBBRSSd>("fcl_obbrss", model, probe, way);
+    time_fcl<fcl::RSSd>("fcl_rss", model, probe, way);
+#endif
+    print_budgets(model, probe, way);
+}
+
+}  // namespace
+}  // namespace cdprep
+
+int main(int count, char** arguments) {
+    if (count < 3) cdprep::stop("Usage: haptic_bench MODEL PROBE [STEPS [RADIUS]]");
+    const std::size_t steps = count > 3 ? std::strtoull(arguments[3], nullptr, 10) : 5000;
+    const double radius = count > 4 ? std::strtod(arguments[4], nullptr) : 0.1;
+    cdprep::run(cdprep::open_or_stop(arguments[1]), cdprep::open_or_stop(arguments[2]), steps,
+                radius);
+}
