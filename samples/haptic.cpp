@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A haptic loop: a ball glides over a torus. The fast loop asks for the distance at every step and
-// reads only a window, the part of the torus near the ball. The slow loop fills another window
-// around the present place, then hands it over.
+// A haptic loop: a small ring glides over a torus. The fast loop asks for the distance at every
+// step. It reads only a window, the part of the torus near the ring. The slow loop fills another
+// window around the present place, then hands it over.
 //
 //     sample_haptic
 #include <algorithm>
@@ -46,7 +46,7 @@ struct alignas(cdprep::format::kSectionAlignment) Line {
     std::byte bytes[cdprep::format::kSectionAlignment];
 };
 
-/// The ball's place at a step.
+/// The place of the small ring at a step.
 cdprep::Placement place(int step) {
     const double turn = 2 * kPi * step / kSteps, height = 0.37 + 0.05 * std::sin(40 * turn);
     return cdprep::Placement::b_moves(

@@ -11,9 +11,9 @@
 
 // distance() looks for contact first. Here the search by bounds comes first, so that a late answer
 // has bounds. A pair in contact has the bound 0 in every test, so a complete search measures it. So
-// nothing touches if all measured pairs are apart. Contact is searched for if rounding hides
-// whether a measured pair touches, or first, in half of the work, if the cache makes contact
-// likely. The answers are the same.
+// nothing touches if all measured pairs are apart. Contact is searched for only if rounding hides
+// whether a measured pair touches. If the cache makes contact likely, that search comes first, in
+// half of the work. The answers are the same.
 
 namespace cdprep {
 namespace {
