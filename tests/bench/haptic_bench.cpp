@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Distances at the rate of a haptic loop: a probe glides over a large model (gliding_probe.h), and
-// each step asks for the distance. Of the whole model and through windows, within budgets of work,
-// and of a model of which a fiftieth deforms each step; beside FCL for the first 600 steps.
-// Processor time, one thread; page faults after a warm-up.
+// Distances at the rate of a haptic loop: a probe glides over a large model (gliding_probe.h). The
+// ways: the whole model, windows, budgets of work, and a model of which a fiftieth deforms each
+// step. FCL answers the first 600 steps. Processor time, one thread; page faults after a warm-up.
 //
 // Usage: haptic_bench MODEL PROBE [STEPS [RADIUS]]
-// MODEL is a bake of a model normalised to a diagonal of 1, with --effects
-// overlap,distance,closest. PROBE is one of a ball of radius 0.02 about 0, with --effects distance.
-// A window is filled every 10 steps and used from 2 steps later on, with everything in RADIUS
-// (default 0.1).
+// MODEL was baked with --normalize --effects overlap,distance,closest. PROBE is a ball of radius
+// 0.02 about 0, baked with --effects distance. A window is filled every 10 steps and used from 2
+// steps later on. It has everything in RADIUS (default 0.05).
 //
 // Prints CSV tables: microseconds of a step; then late answers by budget.
 #include <sys/resource.h>
@@ -277,7 +275,7 @@ void run(const Model& model, const Model& probe, std::size_t steps, double radiu
 int main(int count, char** arguments) {
     if (count < 3) cdprep::stop("Usage: haptic_bench MODEL PROBE [STEPS [RADIUS]]");
     const std::size_t steps = count > 3 ? std::strtoull(arguments[3], nullptr, 10) : 5000;
-    const double radius = count > 4 ? std::strtod(arguments[4], nullptr) : 0.1;
+    const double radius = count > 4 ? std::strtod(arguments[4], nullptr) : 0.05;
     cdprep::run(cdprep::open_or_stop(arguments[1]), cdprep::open_or_stop(arguments[2]), steps,
                 radius);
 }
