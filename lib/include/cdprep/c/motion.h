@@ -88,9 +88,8 @@ CDPREP_API int cdprep_time_of_impact(const cdprep_moving_pair* pair, cdprep_work
  * CDPREP_WHY_BUSY. No query about the sweep may run then: this is not checked. */
 typedef struct cdprep_sweep cdprep_sweep;
 
-/* Stores the number of bytes that cdprep_sweep_make() needs: about 40 per vertex and 3 per triangle.
- * On failure *size is 0.
- * Needs of the model: CDPREP_ASK_WITHIN, CDPREP_ASK_CORNERS */
+/* Stores the number of bytes that cdprep_sweep_make() needs: about 40 per vertex and 3 per
+ * triangle. On failure *size is 0. Needs of the model: CDPREP_ASK_WITHIN, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_sweep_size(const cdprep_model* model, size_t* size, cdprep_error* error);
 
 /* Makes the sweep of a model that deforms in place, such as that of a live model. The model must
