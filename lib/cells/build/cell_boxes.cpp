@@ -20,7 +20,7 @@ namespace {
 using format::CellBox;
 using format::kInnerNode;
 
-constexpr std::size_t kNodesPerTask = 256;
+constexpr std::size_t kCellsPerTask = 256;
 
 constexpr Box3 kNothing = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
@@ -102,7 +102,7 @@ void bound(Tree& tree, const Listing& listing, const Frame& frame, ParallelFor p
     const FrameMap map(frame);
     const std::vector<Box3> cells = cells_of(tree);
     tree.boxes.resize(tree.nodes.size());
-    for_chunks(cells.size(), kNodesPerTask, parallel_for, [&](std::size_t first, std::size_t last) {
+    for_chunks(cells.size(), kCellsPerTask, parallel_for, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const auto& node = tree.nodes[i];
             if ((node.count & kInnerNode) != 0) continue;
