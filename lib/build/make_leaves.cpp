@@ -167,8 +167,8 @@ std::size_t lane_for(std::size_t lane, unsigned lanes) {
                                                : std::countr_zero(lanes));
 }
 
-/// Returns the lanes for which rounding proves that the corners are not collinear: the coordinate
-/// `axis` of the normal is not 0. Let u = 2^-53. The differences, the products and their difference
+/// Returns the lanes whose corners are proven not to be collinear, because the coordinate `axis` of
+/// their normal is not 0. Let u = 2^-53. The differences, the products and their difference
 /// round by less than 5 u of the products' magnitudes. Where numbers underflow or overflow, nothing
 /// is proven.
 unsigned lanes_with_area(const LeafCorners& corners, std::size_t axis) {

@@ -59,8 +59,7 @@ Turn turn_of(const Double3& v) noexcept {
 }
 
 /// Returns the turn of a rotation matrix, by pi at most. Its quaternion w + xi + yj + zk comes from
-/// the row with the largest component, so that none is the quotient of small numbers (Shepperd
-/// 1978).
+/// the row with the largest component. So none is the quotient of small numbers (Shepperd 1978).
 Turn turn_of(const Matrix& r) noexcept {
     const std::array<double, 4> squares = {
         1 + r[0] + r[4] + r[8], 1 + r[0] - r[4] - r[8], 1 - r[0] + r[4] - r[8],

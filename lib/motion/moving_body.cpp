@@ -52,8 +52,8 @@ Double3 own_axis(const Motion::Parts& parts) noexcept {
             r[2] * k.x + r[5] * k.y + r[8] * k.z};
 }
 
-/// Returns the greatest distance of a point of the box from an axis through `centre`: the length of
-/// a cross product, bounded by component.
+/// Returns a bound of the distance of the box's points from an axis through `centre`. It is the
+/// length of a cross product, of which each component is bounded.
 double reach_from_axis(const RootBox& box, const Double3& centre, const Double3& axis) noexcept {
     const Double3 arm = cross(axis, box.middle - centre);
     const Double3 k = {std::fabs(axis.x), std::fabs(axis.y), std::fabs(axis.z)};
@@ -70,8 +70,8 @@ double largest_coordinate(const Model& model) noexcept {
 
 // The path is x(t) = R(t) (p - c) + c(t), with exact sums and an exact turn of the stored rotation.
 // A pose that at() computes, and the vertices that a query moves by it, are off by roundings. The
-// turn is off by those of its angle, too. The poses at 0 and 1 are given, so their entries may
-// differ from the path by end_error; each coordinate then by three times this.
+// turn is off by those of its angle, too. The poses at 0 and 1 are given. So their entries may
+// differ from the path's by end_error, and each coordinate by three times this.
 double deviation_of(const Model& model, const Motion::Parts& parts) noexcept {
     constexpr double kRounding = 0x1p-44;
     const double arm = largest_coordinate(model) + largest_of(parts.centre);

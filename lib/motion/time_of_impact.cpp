@@ -14,13 +14,13 @@
 #include "motion/moving_body.h"
 #include "query/nearest_search.h"
 
-// Let d be the distance at time t, and let no point move faster than m relative to the other model.
+// Let d be the distance at time t. Let no point move faster than m, relative to the other model.
 // Then nothing touches before t + d / m. That is the plain step.
 //
 // A close step is longer. It looks at all pairs of triangles that are nearer than a reach. The
 // others are free for reach / m. A pair with a gap s along a unit vector n closes along n. Its
-// corners close at a speed of s1 at time t, and turning changes this speed by c2 at most in a unit
-// of time. So the pair is free while s > s1 h + c2 h^2 / 2.
+// corners close at a speed of s1 at time t. Turning changes this speed by c2 at most in a unit of
+// time. So the pair is free while s > s1 h + c2 h^2 / 2.
 //
 // Vertices of a query are off the ideal path by MovingBody::deviation(). So a margin of twice the
 // deviations of both bodies is taken off each gap. All roundings here are much smaller.

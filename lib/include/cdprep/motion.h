@@ -11,8 +11,8 @@ namespace cdprep {
 /// centre, moves along a straight line at constant speed. The model turns about the centre, about a
 /// fixed axis at constant speed.
 ///
-/// The centre of mass is a good centre for a free body, the joint for a part that turns about it. A
-/// centre far outside the model makes time_of_impact() slow.
+/// The centre of mass is a good centre for a free body. The joint is one for a part that turns
+/// about it. A centre far outside the model makes time_of_impact() slow.
 class Motion {
 public:
     /// No motion at all: the identity at all times.

@@ -23,11 +23,11 @@ namespace cdprep {
 ///     }
 ///
 /// Lives in the caller's memory and allocates nothing. Copies share that memory. Queries about it
-/// may run on any number of threads at once, but not during begin(), end() or a change of the
-/// model.
+/// may run on any number of threads at once. They must not run during begin(), end() or a change of
+/// the model.
 class Sweep {
 public:
-    /// Returns the number of bytes that in() takes: about 40 per vertex and 3 per triangle.
+    /// Returns the number of bytes that in() takes: 24 per vertex and about 4 per triangle.
     [[nodiscard]] static std::size_t bytes(const Model& model) noexcept;
 
     /// Makes the sweep of a model that deforms in place, such as that of a LiveModel. The model
@@ -40,9 +40,8 @@ public:
     /// Begins a step: the positions of the model are those at time 0. Takes O(vertices) time.
     void begin() noexcept;
 
-    /// Ends the step: the positions of the model are those at time 1. If the model tears within a
-    /// step, the way of a new triangle begins at any earlier positions of its vertices. Takes O(n)
-    /// time.
+    /// Ends the step: the positions of the model are those at time 1. A triangle that was appended
+    /// within the step may have begun at any positions. Takes O(n) time.
     void end() noexcept;
 
     [[nodiscard]] const Model& model() const noexcept {
@@ -66,12 +65,13 @@ private:
 ///
 /// `false` is proven: no triangle of one touches a triangle of the other at any time of the step.
 /// `true` says that the convex hull of a triangle's way, seen from B, comes near a triangle of B.
-/// It does not say whether they touch, nor when. A hull ignores that its triangle is in one place
-/// at a time, so a step of less motion gives fewer false alarms. Nor does it say that one model is
-/// inside the other: collide() with Body::solid does.
+/// It does not say whether they touch, nor when. Nor does it say that one model is inside the
+/// other: collide() with Body::solid does. A hull ignores that its triangle is in one place at a
+/// time. So a step of less motion gives fewer false alarms. If B turns by more than a quarter of a
+/// radian, the step is tested in parts, 64 at most.
 ///
-/// Needs Ask::within of B. Takes as long as within() with a tolerance of half of B's
-/// motion, and about 1 us for each pair of triangles near each other. Never allocates.
+/// Needs Ask::within of B. Takes as long as within() with a tolerance of half of B's motion. Each
+/// pair of triangles near each other takes about 1 us more for each part. Never allocates.
 [[nodiscard]] bool may_touch(const Sweep& sweep, const Model& b, const Motion& motion,
                              Workspace& workspace) noexcept;
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "cdprep/motion.h"
@@ -42,7 +43,7 @@ struct Impact {
     /// At all times before, the surfaces are apart. 1 if the kind is `none`.
     double lower = 1;
     /// At this time they touch. Infinity if no such time was found.
-    double upper = 0;
+    double upper = std::numeric_limits<double>::infinity();
     std::uint32_t steps = 0;  ///< distance queries
     /// The nearest points at `lower`, in world coordinates: the direction of the contact. Nothing
     /// if the kind is `none`, or the models touch at time 0.
@@ -61,7 +62,7 @@ struct Impact {
 ///
 /// Conservative advancement (Mirtich 1996): no point moves faster than a bound, so a distance gives
 /// a time without contact. Where the surfaces are close, each pair of triangles has a bound of its
-/// own along the direction between them (as C2A of Tang, Kim and Manocha 2009).
+/// own, along the direction between them. C2A does the same for boxes (Tang, Kim and Manocha 2009).
 ///
 /// Needs Ask::distance of both models; Body::solid also Ask::solid. Takes a distance query for each
 /// step, most of them with a PairCache. A pair that passes without coming near takes 2 or 3 steps,

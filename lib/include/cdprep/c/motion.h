@@ -14,8 +14,8 @@ enum {
 
 /* The rigid motion of a model during a step, from time 0 to time 1. One point of the model, the
  * centre, moves along a straight line at constant speed. The model turns about it, about a fixed
- * axis at constant speed. The centre of mass is a good centre for a free body, the joint for a part
- * that turns about it. A centre far outside the model makes the query slow.
+ * axis at constant speed. The centre of mass is a good centre for a free body. The joint is one for
+ * a part that turns about it. A centre far outside the model makes the query slow.
  * cdprep_moving_pair_init() makes motions without motion, to be filled in. */
 typedef struct cdprep_motion {
     cdprep_pose start;
@@ -74,8 +74,8 @@ typedef struct cdprep_impact {
  * An end at the tolerance without a contact is CDPREP_IMPACT_NEAR: the models may pass each other
  * closely, or touch later. A solver treats it as an impact at `lower`.
  *
- * Takes a distance query for each step: 2 or 3 for models that pass at a distance, 10 or so for an
- * impact. Never allocates.
+ * Takes a distance query for each step. Models that pass at a distance take 2 or 3 steps, an impact
+ * takes 10 or so. Never allocates.
  * Errors: CDPREP_WHY_OUT_OF_RANGE also for a motion beyond 2^1000, or a turn of more than 1000.
  * Needs: CDPREP_ASK_DISTANCE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_time_of_impact(const cdprep_moving_pair* pair, cdprep_workspace* workspace,
@@ -88,8 +88,9 @@ CDPREP_API int cdprep_time_of_impact(const cdprep_moving_pair* pair, cdprep_work
  * CDPREP_WHY_BUSY. No query about the sweep may run then: this is not checked. */
 typedef struct cdprep_sweep cdprep_sweep;
 
-/* Stores the number of bytes that cdprep_sweep_make() needs: about 40 per vertex and 3 per
- * triangle. On failure *size is 0. Needs of the model: CDPREP_ASK_WITHIN, CDPREP_ASK_CORNERS */
+/* Stores the number of bytes that cdprep_sweep_make() needs: 24 per vertex and about 4
+ * per triangle. On failure *size is 0.
+ * Needs of the model: CDPREP_ASK_WITHIN, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_sweep_size(const cdprep_model* model, size_t* size, cdprep_error* error);
 
 /* Makes the sweep of a model that deforms in place, such as that of a live model. The model must
@@ -110,23 +111,23 @@ CDPREP_API void cdprep_sweep_end(cdprep_sweep* sweep);
 /* Begins a step: the positions of the model are those at time 0. Takes O(vertices) time. */
 CDPREP_API int cdprep_sweep_begin(cdprep_sweep* sweep, cdprep_error* error);
 
-/* Completes the step: the positions of the model are those at time 1. If the model tears within a
- * step, the way of a new triangle begins at any earlier positions of its vertices. Takes O(n)
- * time. */
+/* Completes the step: the positions of the model are those at time 1. A triangle that was appended
+ * within the step may have begun at any positions. Takes O(n) time. */
 CDPREP_API int cdprep_sweep_step(cdprep_sweep* sweep, cdprep_error* error);
 
-/* Both functions find the pairs of triangles that may touch during the step: triangle `a` of the
- * deforming model, and `b` of another model that `motion` moves. The coordinates of the deforming
- * model are those of the world. The first function stops at the first pair and stores CDPREP_YES.
- * The list is in the order of (a, b); if there is too little room, it keeps the smallest pairs.
+/* Both functions find the pairs of triangles that may touch during the step. Triangle `a` is of the
+ * deforming model, whose coordinates are those of the world. `b` is of another model, which
+ * `motion` moves. The first function stops at the first pair and stores CDPREP_YES. The list is in
+ * the order of (a, b). If there is too little room, it keeps the smallest pairs.
  *
- * CDPREP_NO is proven: no triangles touch at any time of the step. CDPREP_YES says that the convex
- * hull of a triangle's way, seen from the other model, comes near one of its triangles. It does not
- * say whether they touch, nor when, nor that one model is inside the other. A step of less motion
- * gives fewer false alarms.
+ * CDPREP_NO is proven: no triangles touch at any time of the step. CDPREP_YES says that two come
+ * near: the convex hull of a triangle's way, seen from the other model, and a triangle of that. It
+ * does not say whether they touch, nor when, nor that one model is inside the other. A step of less
+ * motion gives fewer false alarms. If the other model turns by more than a quarter of a radian, the
+ * step is tested in parts, 64 at most.
  *
- * Takes as long as cdprep_within() with a tolerance of half of the motion, and about 1 us for each
- * pair of triangles near each other. Never allocates.
+ * Takes as long as cdprep_within() with a tolerance of half of the motion. Each pair of triangles
+ * near each other takes about 1 us more for each part. Never allocates.
  * Needs of the other model: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_sweep_may_touch(const cdprep_sweep* sweep, const cdprep_model* other,
                                       const cdprep_motion* motion, cdprep_workspace* workspace,

@@ -223,6 +223,8 @@ TEST(TimeOfImpact, OfAnEmptyModelIsNone) {
     const Case empty = {open_tiny(TestMesh{}), open_tiny(unit_cube())};
     EXPECT_EQ(empty.ask().kind, ImpactKind::none);
     EXPECT_EQ(empty.ask().steps, 0U);
+    EXPECT_EQ(empty.ask().lower, 1);
+    EXPECT_EQ(empty.ask().upper, kInfinity);
 }
 
 TEST(TimeOfImpact, SaysWhenItRunsOutOfSteps) {
