@@ -177,7 +177,7 @@ unsigned lanes_with_area(const LeafCorners& corners, std::size_t axis) {
     const CornerRow& y = corners[(axis + 2) % 3];
     Lanes<double, kBvhWidth> proof;
     for_lanes<kBvhWidth>([&](std::size_t lane) {
-        const std::size_t b = kBvhWidth + lane, c = 2 * kBvhWidth + lane;
+        const std::size_t b = kBvhWidth + lane, c = std::size_t{2} * kBvhWidth + lane;
         const double first = (x[b] - x[lane]) * (y[c] - y[lane]);
         const double second = (y[b] - y[lane]) * (x[c] - x[lane]);
         proof[lane] = std::fabs(first - second) -

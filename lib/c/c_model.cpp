@@ -212,7 +212,6 @@ std::span<const std::byte> section_bytes(const Model& model, SectionId id) noexc
 
 }  // namespace cdprep::c
 
-using cdprep::SectionId;
 using cdprep::c::Call;
 using cdprep::c::guarded;
 using cdprep::c::Name;
