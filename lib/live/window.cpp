@@ -42,7 +42,7 @@ using format::OrientedNode;
 using format::SectionId;
 using format::Triangle;
 
-constexpr std::size_t kCornersOfLeaf = 3 * kBvhWidth;
+constexpr std::size_t kCornersOfLeaf = std::size_t{3} * kBvhWidth;
 constexpr Ask kServed = Ask::collide | Ask::overlap | Ask::distance | Ask::within | Ask::ray |
                         Ask::closest | Ask::touch;
 
@@ -256,8 +256,9 @@ void Window::State::copy_corners(const Model& a, std::uint32_t leaf, std::size_t
     const std::uint32_t last = a.triangle_count() - 1;
     for (std::uint32_t lane = 0; lane < kBvhWidth; ++lane) {
         const Corners corners = still.corners(std::min(leaf * kBvhWidth + lane, last));
-        std::ranges::copy(corners, positions.begin() +
-                                       static_cast<std::ptrdiff_t>(to * kCornersOfLeaf + 3 * lane));
+        std::ranges::copy(
+            corners, positions.begin() +
+                         static_cast<std::ptrdiff_t>(to * kCornersOfLeaf + std::size_t{3} * lane));
     }
 }
 
