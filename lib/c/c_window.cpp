@@ -110,7 +110,7 @@ int check_other(Call& call, const cdprep_window& window, const AskedPair& asked)
 
 }  // namespace
 
-const InputType Input<cdprep_window_options>::type = {"cdprep_window_options", 0xcd500013U,
+const InputType Input<cdprep_window_options>::type = {"cdprep_window_options", 0xcd500015U,
                                                       sizeof(cdprep_window_options),
                                                       sizeof(cdprep_window_options), kFields};
 

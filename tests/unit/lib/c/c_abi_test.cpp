@@ -373,7 +373,7 @@ PLACE(cdprep_motion, end, 96);
 PLACE(cdprep_motion, centre, 192);
 PLACE(cdprep_motion, shift, 216);
 PLACE(cdprep_motion, turn, 240);
-PLACE(cdprep_motion, told_by, 264);
+PLACE(cdprep_motion, given_by, 264);
 PLACE(cdprep_motion, reserved, 268);
 SIZE(cdprep_moving_pair, 584);
 PLACE(cdprep_moving_pair, a, 8);
@@ -427,6 +427,7 @@ TEST(CAbi, TagsAreWhatTheyWere) {
     EXPECT_EQ(tag_of(cdprep_live_move_init), 0xcd500012U);
     EXPECT_EQ(tag_of(cdprep_self_query_init), 0xcd500013U);
     EXPECT_EQ(tag_of(cdprep_moving_pair_init), 0xcd500014U);
+    EXPECT_EQ(tag_of(cdprep_window_options_init), 0xcd500015U);
 }
 
 }  // namespace
