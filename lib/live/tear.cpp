@@ -279,7 +279,8 @@ void LiveModel::State::take_out(std::uint32_t place) {
 
 void LiveModel::State::count_at(std::uint32_t place, std::int32_t by) {
     const format::BvhShape& shape = model.bvh().shape;
-    for (std::uint32_t level = kCountedLevel; level < shape.levels; ++level) {
+    // The whole tree is not counted.
+    for (std::uint32_t level = kCountedLevel; level + 1 < shape.levels; ++level) {
         tables.tear->taken[shape.first[level] + (place >> (3 * (level + 2)))] +=
             static_cast<std::uint32_t>(by);
     }

@@ -434,7 +434,7 @@ BoundedDistance Window::distance(const Pair& pair, Workspace& workspace,
     const double beyond = margin(pair.b, pair.placement) * kShare;
     const bool is_sure = found.upper == 0 || std::min(found.upper, options.max_distance) <= beyond;
     found.is_complete = found.is_complete && is_sure;
-    if (!is_sure) {
+    if (!found.is_complete) {
         found.lower = std::min(found.lower, std::max(0.0, beyond));
         if (found.nearest) found.nearest->lower = found.lower;
     }

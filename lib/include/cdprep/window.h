@@ -42,7 +42,7 @@ struct WindowFill {
 /// within() and pairs_within() if margin() >= the tolerance. distance() of this class says so
 /// itself.
 ///
-/// Each fill() copies O(leaves) bytes: 330 for a leaf, or 1,000 if A keeps doubles. The caller
+/// Each fill() copies O(leaves) bytes: 430 for a leaf, or 1,000 if A keeps doubles. The caller
 /// keeps two windows: the slow loop fills one while the fast loop reads the other, as in
 /// samples/haptic.cpp. A window must not be read while it is filled.
 ///
@@ -59,7 +59,7 @@ struct WindowFill {
 class Window {
 public:
     /// Returns the number of bytes that in() takes: about 1,100 for each leaf. Fails as in().
-    /// Allocates.
+    /// Allocates as much while it runs.
     [[nodiscard]] static Result<std::size_t> bytes(const WindowLimits& limits);
 
     /// Makes an empty window. `memory` must start at a multiple of format::kSectionAlignment and

@@ -355,6 +355,28 @@ TEST(Window, AnotherProbeHasNoMargin) {
     EXPECT_GT(owned.window.margin(probe.object.model(), placement), 0.19);
 }
 
+// The window lacks the second ball, which is nearer than the first after the probe has moved.
+TEST(Window, ALateAnswerBoundsWhatTheWindowLacks) {
+    const TestMesh ball = icosphere(1);
+    const OpenModel all = open_tiny(joined(ball, moved_by(ball, 1, {30, 0, 0})));
+    const OpenModel probe = open_tiny(small_mesh());
+    OwnedWindow owned = window_of(300);
+    Workspace workspace;
+    PairCache cache;
+    owned.window.fill({all.model, probe.model, shifted({8, 0, 0})}, 12);
+    const Placement moved = shifted({17, 0, 0});
+    const double true_distance = distance({all.model, probe.model, moved}, workspace)->upper;
+    const Pair near{owned.window.model(), probe.model, moved, {}, &cache};
+    for (const double max_distance : {kEndless, 1.0}) {
+        for (const std::uint64_t work : {std::uint64_t{0}, std::uint64_t{1}}) {
+            const BoundedDistance found = owned.window.distance(
+                near, workspace, {.max_distance = max_distance}, {.work = work});
+            if (found.is_complete) continue;
+            EXPECT_LE(found.lower, true_distance) << max_distance << ", " << work;
+        }
+    }
+}
+
 // The window keeps the shape that the model had.
 TEST(Window, TheModelMayDeformAfterTheFill) {
     const TestMesh rest = large_mesh();
