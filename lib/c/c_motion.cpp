@@ -35,12 +35,12 @@ constexpr std::array kFields = {
     Field{"tolerance", offsetof(cdprep_moving_pair, tolerance), Holds::length},
 };
 
-constexpr MotionNames kOfA = {{"pair"},        "motion_a",         "motion_a.start",
-                              "motion_a.end",  "motion_a.centre",  "motion_a.shift",
-                              "motion_a.turn", "motion_a.told_by", "motion_a.reserved"};
-constexpr MotionNames kOfB = {{"pair"},        "motion_b",         "motion_b.start",
-                              "motion_b.end",  "motion_b.centre",  "motion_b.shift",
-                              "motion_b.turn", "motion_b.told_by", "motion_b.reserved"};
+constexpr MotionNames kOfA = {{"pair"},        "motion_a",          "motion_a.start",
+                              "motion_a.end",  "motion_a.centre",   "motion_a.shift",
+                              "motion_a.turn", "motion_a.given_by", "motion_a.reserved"};
+constexpr MotionNames kOfB = {{"pair"},        "motion_b",          "motion_b.start",
+                              "motion_b.end",  "motion_b.centre",   "motion_b.shift",
+                              "motion_b.turn", "motion_b.given_by", "motion_b.reserved"};
 
 /// A moving pair whose every field was checked.
 struct AskedMotion {

@@ -103,7 +103,7 @@ void cdprep_sweep_end(cdprep_sweep* sweep) {
     release(memory);
 }
 
-int cdprep_sweep_begin(cdprep_sweep* sweep, cdprep_error* error) {
+int cdprep_sweep_start_step(cdprep_sweep* sweep, cdprep_error* error) {
     return guarded(error, [&](Call& call) -> int {
         if (const int code = call.need(sweep, {"sweep"})) return code;
         InUse use;
@@ -113,7 +113,7 @@ int cdprep_sweep_begin(cdprep_sweep* sweep, cdprep_error* error) {
     });
 }
 
-int cdprep_sweep_step(cdprep_sweep* sweep, cdprep_error* error) {
+int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error) {
     return guarded(error, [&](Call& call) -> int {
         if (const int code = call.need(sweep, {"sweep"})) return code;
         InUse use;

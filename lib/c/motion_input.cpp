@@ -27,22 +27,22 @@ int check_all_numbers(Call& call, const MotionNames& names, const cdprep_motion&
 
 int refuse_unused(Call& call, const Name& name) noexcept {
     return call.refuse(CDPREP_WHY_NO_MEANING, name,
-                       "is set, but told_by does not use it; leave it at its default.");
+                       "is set, but given_by does not use it; leave it at its default.");
 }
 
 /// Refuses fields that this kind of motion does not use.
 int check_use(Call& call, const MotionNames& names, const cdprep_motion& given) noexcept {
     const Name& whole = names.whole;
-    if (given.told_by > CDPREP_MOTION_VELOCITY) {
-        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, whole.of(names.told_by),
-                           "is %u; the greatest value is %d.", given.told_by,
+    if (given.given_by > CDPREP_MOTION_VELOCITY) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, whole.of(names.given_by),
+                           "is %u; the greatest value is %d.", given.given_by,
                            static_cast<int>(CDPREP_MOTION_VELOCITY));
     }
     if (given.reserved != 0) {
         return call.refuse(CDPREP_WHY_NEWER_FIELD, whole.of(names.reserved),
                            "is %u; this version of the library needs 0.", given.reserved);
     }
-    if (given.told_by == CDPREP_MOTION_VELOCITY) {
+    if (given.given_by == CDPREP_MOTION_VELOCITY) {
         return is_identity(given.end) ? CDPREP_OK : refuse_unused(call, whole.of(names.end));
     }
     if (!is_zero(given.shift)) return refuse_unused(call, whole.of(names.shift));
@@ -59,7 +59,7 @@ int read_motion(Call& call, const MotionNames& names, const cdprep_motion& given
     if (const int code = read_rigid(call, names.whole.of(names.start), given.start, start))
         return code;
     if (const int code = read_rigid(call, names.whole.of(names.end), given.end, end)) return code;
-    const Result<Motion> made = given.told_by == CDPREP_MOTION_POSES
+    const Result<Motion> made = given.given_by == CDPREP_MOTION_POSES
                                     ? Motion::between(start, end, point(given.centre))
                                     : Motion::by_velocity(start, point(given.shift),
                                                           point(given.turn), point(given.centre));

@@ -16,12 +16,12 @@ struct MotionNames {
     const char* centre;
     const char* shift;
     const char* turn;
-    const char* told_by;
+    const char* given_by;
     const char* reserved;
 };
 
-inline constexpr MotionNames kMotionAlone = {{"motion"}, nullptr, "start",   "end",     "centre",
-                                             "shift",    "turn",  "told_by", "reserved"};
+inline constexpr MotionNames kMotionAlone = {{"motion"}, nullptr, "start",    "end",     "centre",
+                                             "shift",    "turn",  "given_by", "reserved"};
 /// Reads a motion and checks all of it.
 int read_motion(Call& call, const MotionNames& names, const cdprep_motion& given, Motion& motion);
 

@@ -197,11 +197,11 @@ private:
     void draw_motion(cdprep_motion& motion) {
         draw_pose(draw_, motion.start);
         if (draw_.one_in(2)) draw_pose(draw_, motion.end);
-        if (draw_.one_in(4)) motion.told_by = draw_.below(2);
+        if (draw_.one_in(4)) motion.given_by = draw_.below(2);
         if (draw_.one_in(3)) motion.centre[draw_.below(3)] = draw_.number();
         if (draw_.one_in(3)) motion.shift[draw_.below(3)] = draw_.number();
         if (draw_.one_in(3)) motion.turn[draw_.below(3)] = draw_.number();
-        if (draw_.one_in(20)) motion.told_by = draw_.word();
+        if (draw_.one_in(20)) motion.given_by = draw_.word();
     }
     void impact() {
         Longer<cdprep_moving_pair> given{};

@@ -6,7 +6,7 @@
 
 /* The time at which two moving models first touch, and what a deforming model passes through. */
 
-/* What tells a motion. */
+/* How a motion is given. */
 enum {
     CDPREP_MOTION_POSES = 0,   /* `start` and `end`; the model turns the shorter way between them */
     CDPREP_MOTION_VELOCITY = 1 /* `start`, `shift` and `turn` */
@@ -23,7 +23,7 @@ typedef struct cdprep_motion {
     double centre[3]; /* in the model's coordinates; 0 */
     double shift[3];  /* the way of the centre; used only by CDPREP_MOTION_VELOCITY; otherwise 0 */
     double turn[3];   /* the same: along the axis, its length is the angle; radians, 1000 at most */
-    uint32_t told_by; /* CDPREP_MOTION_POSES */
+    uint32_t given_by; /* CDPREP_MOTION_POSES */
     uint32_t reserved; /* 0 */
 } cdprep_motion;
 
@@ -83,9 +83,10 @@ CDPREP_API int cdprep_time_of_impact(const cdprep_moving_pair* pair, cdprep_work
 
 /* The space through which a deforming model passes during a step: boxes around the way of each of
  * its triangles. Each vertex moves along a straight line, at constant speed. So a triangle that
- * jumps over a thin object in one step is not lost. Call cdprep_sweep_begin(), move the model, call
- * cdprep_sweep_step(), then ask. While one of these calls runs, the others fail with
- * CDPREP_WHY_BUSY. No query about the sweep may run then: this is not checked. */
+ * jumps over a thin object in one step is not lost. Call cdprep_sweep_start_step(), move the model,
+ * call cdprep_sweep_finish_step(), then ask. While one of these calls runs, the others fail with
+ * CDPREP_WHY_BUSY. No query about the sweep may run from the first to the end of the second: this
+ * is not checked. */
 typedef struct cdprep_sweep cdprep_sweep;
 
 /* Stores the number of bytes that cdprep_sweep_make() needs: 24 per vertex and about 4
@@ -109,11 +110,12 @@ CDPREP_API int cdprep_sweep_make(const cdprep_model* model, const cdprep_allocat
 CDPREP_API void cdprep_sweep_end(cdprep_sweep* sweep);
 
 /* Begins a step: the positions of the model are those at time 0. Takes O(vertices) time. */
-CDPREP_API int cdprep_sweep_begin(cdprep_sweep* sweep, cdprep_error* error);
+CDPREP_API int cdprep_sweep_start_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Completes the step: the positions of the model are those at time 1. A triangle that was appended
- * within the step may have begun at any positions. Takes O(n) time. */
-CDPREP_API int cdprep_sweep_step(cdprep_sweep* sweep, cdprep_error* error);
+ * within the step begins where its vertices were, or at the origin if they had no positions. Takes
+ * O(n) time. */
+CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Both functions find the pairs of triangles that may touch during the step. Triangle `a` is of the
  * deforming model, whose coordinates are those of the world. `b` is of another model, which

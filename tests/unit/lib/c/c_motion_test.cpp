@@ -57,7 +57,7 @@ TEST_F(CMotion, FindsTheTimeOfImpact) {
 TEST_F(CMotion, TakesVelocitiesAndLimits) {
     cdprep_moving_pair given = pair();
     given.motion_b.end = given.motion_a.end;
-    given.motion_b.told_by = CDPREP_MOTION_VELOCITY;
+    given.motion_b.given_by = CDPREP_MOTION_VELOCITY;
     given.motion_b.shift[0] = -4;
     ASSERT_EQ(ask(&given).code, CDPREP_OK);
     EXPECT_EQ(impact_.kind, static_cast<std::uint32_t>(CDPREP_IMPACT_TOUCHING));
@@ -103,9 +103,9 @@ TEST_F(CMotion, RefusesEveryMistake) {
     add("pair.a", CDPREP_WHY_NULL, [](P& p) { p.a = nullptr; });
     add("pair.b", CDPREP_WHY_NULL, [](P& p) { p.b = nullptr; });
     add("pair.body", CDPREP_WHY_OUT_OF_RANGE, [](P& p) { p.body = 2; });
-    add("pair.motion_a.told_by", CDPREP_WHY_OUT_OF_RANGE, [](P& p) { p.motion_a.told_by = 2; });
-    add("pair.motion_b.told_by", CDPREP_WHY_OUT_OF_RANGE,
-        [](P& p) { p.motion_b.told_by = UINT32_MAX; });
+    add("pair.motion_a.given_by", CDPREP_WHY_OUT_OF_RANGE, [](P& p) { p.motion_a.given_by = 2; });
+    add("pair.motion_b.given_by", CDPREP_WHY_OUT_OF_RANGE,
+        [](P& p) { p.motion_b.given_by = UINT32_MAX; });
     add("pair.motion_a.reserved", CDPREP_WHY_NEWER_FIELD, [](P& p) { p.motion_a.reserved = 1; });
     add("pair.tolerance", CDPREP_WHY_OUT_OF_RANGE, [](P& p) { p.tolerance = -1; });
     for (const auto& [number, why] : bad_numbers()) {
@@ -122,9 +122,9 @@ TEST_F(CMotion, RefusesEveryMistake) {
     add("pair.motion_a.shift", CDPREP_WHY_NO_MEANING, [](P& p) { p.motion_a.shift[2] = 1; });
     add("pair.motion_a.turn", CDPREP_WHY_NO_MEANING, [](P& p) { p.motion_a.turn[2] = 1; });
     add("pair.motion_b.end", CDPREP_WHY_NO_MEANING,
-        [](P& p) { p.motion_b.told_by = CDPREP_MOTION_VELOCITY; });
+        [](P& p) { p.motion_b.given_by = CDPREP_MOTION_VELOCITY; });
     add("pair.motion_a", CDPREP_WHY_OUT_OF_RANGE, [](P& p) {
-        p.motion_a.told_by = CDPREP_MOTION_VELOCITY;
+        p.motion_a.given_by = CDPREP_MOTION_VELOCITY;
         p.motion_a.turn[2] = 1001;
     });
     add("pair.motion_b", CDPREP_WHY_OUT_OF_RANGE, [](P& p) {
@@ -165,10 +165,10 @@ protected:
         cdprep_live_move_init(&moved, sizeof moved);
         moved.positions_f32 = positions.data();
         moved.count = positions.size() / 3;
-        EXPECT_EQ(cdprep_sweep_begin(sweep_, &error_), CDPREP_OK);
+        EXPECT_EQ(cdprep_sweep_start_step(sweep_, &error_), CDPREP_OK);
         EXPECT_EQ(cdprep_live_refit(live_, &moved, workspace_.get(), &error_), CDPREP_OK)
             << error_.message;
-        EXPECT_EQ(cdprep_sweep_step(sweep_, &error_), CDPREP_OK);
+        EXPECT_EQ(cdprep_sweep_finish_step(sweep_, &error_), CDPREP_OK);
     }
     /// Asks about a cube at x.
     std::uint32_t may_touch(double x) {
@@ -219,15 +219,15 @@ TEST_F(CSweep, RefusesEveryMistake) {
     EXPECT_EQ(ask(sweep_, model_.get(), &motion, nullptr), refused("workspace"));
     EXPECT_EQ(answer, static_cast<std::uint32_t>(CDPREP_UNKNOWN));
     cdprep_motion wrong = motion;
-    wrong.told_by = 2;
-    EXPECT_EQ(ask(sweep_, model_.get(), &wrong, workspace_.get()), refused("motion.told_by"));
+    wrong.given_by = 2;
+    EXPECT_EQ(ask(sweep_, model_.get(), &wrong, workspace_.get()), refused("motion.given_by"));
     cdprep_overlap_list list = {nullptr, 4, 77};
     EXPECT_EQ(cdprep_sweep_pairs(sweep_, model_.get(), &motion, workspace_.get(), &list, &error_),
               CDPREP_BAD_ARGUMENT);
     EXPECT_STREQ(error_.argument, "list.items");
     EXPECT_EQ(list.count, 0U);
-    EXPECT_EQ(cdprep_sweep_begin(nullptr, nullptr), CDPREP_BAD_ARGUMENT);
-    EXPECT_EQ(cdprep_sweep_step(nullptr, nullptr), CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(cdprep_sweep_start_step(nullptr, nullptr), CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(cdprep_sweep_finish_step(nullptr, nullptr), CDPREP_BAD_ARGUMENT);
     cdprep_sweep_end(nullptr);
 }
 
@@ -243,7 +243,7 @@ TEST_F(CSweep, TakesMemoryOfTheCaller) {
     EXPECT_EQ(sweep, nullptr);
     ASSERT_EQ(cdprep_sweep_make(model_.get(), nullptr, memory.span().data(), size, &sweep, &error_),
               CDPREP_OK);
-    EXPECT_EQ(cdprep_sweep_step(sweep, &error_), CDPREP_OK);
+    EXPECT_EQ(cdprep_sweep_finish_step(sweep, &error_), CDPREP_OK);
     cdprep_sweep_end(sweep);
     EXPECT_EQ(cdprep_sweep_size(nullptr, &size, &error_), CDPREP_BAD_ARGUMENT);
     EXPECT_EQ(size, 0U);
