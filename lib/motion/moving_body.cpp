@@ -123,4 +123,12 @@ double greatest_speed(const MovingBody& a, const MovingBody& b) noexcept {
     return (length_of(b.shift() - a.shift()) + a.turning_speed() + b.turning_speed()) * kRaised;
 }
 
+double time_apart(double gap, double closing, double bend) noexcept {
+    if (!(gap > 0)) return 0;
+    // No square under- or overflows, and no difference cancels.
+    const double root = length_of(closing, std::sqrt(2 * bend) * std::sqrt(gap), 0);
+    if (closing > 0) return 2 * (gap / (closing + root));
+    return bend > 0 ? (root - closing) / bend : kInfinity;
+}
+
 }  // namespace cdprep

@@ -52,4 +52,9 @@ private:
 /// Returns a bound of the speed of any point of one body relative to the other.
 [[nodiscard]] double greatest_speed(const MovingBody& a, const MovingBody& b) noexcept;
 
+/// Returns a time during which a gap stays open. It closes at the speed `closing` now, which may be
+/// negative, and this speed changes by `bend` at most in a unit of time. The time is the positive h
+/// with gap = closing h + bend h^2 / 2, up to some roundings; 0 without a gap, infinity if none.
+[[nodiscard]] double time_apart(double gap, double closing, double bend) noexcept;
+
 }  // namespace cdprep

@@ -60,13 +60,12 @@ struct Room {
           nodes(carver.take<BvhNode>(model.bvh().nodes.size())) {}
 };
 
-/// Calls use(place, vertices) for each triangle of the model.
+/// Calls use(triangle) for each triangle of a leaf.
 template <class Use>
 void for_triangles(const Model& model, std::uint32_t leaf, std::uint8_t used, Use&& use) noexcept {
     for (unsigned lanes = used; lanes != 0; lanes &= lanes - 1) {
-        const std::uint32_t place =
-            leaf * kBvhWidth + static_cast<std::uint32_t>(std::countr_zero(lanes));
-        use(model.mesh().triangles[place]);
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
+        use(model.mesh().triangles[leaf * kBvhWidth + lane]);
     }
 }
 

@@ -18,9 +18,9 @@
 // Then nothing touches before t + d / m. That is the plain step.
 //
 // A close step is longer. It looks at all pairs of triangles that are nearer than a reach. The
-// others are free for reach / m. A pair with a gap s along a unit vector n closes along n. Its
+// others stay apart for reach / m. A pair with a gap s along a unit vector n closes along n. Its
 // corners close at a speed of s1 at time t. Turning changes this speed by c2 at most in a unit of
-// time. So the pair is free while s > s1 h + c2 h^2 / 2.
+// time. So the pair stays apart while s > s1 h + c2 h^2 / 2.
 //
 // Vertices of a query are off the ideal path by MovingBody::deviation(). So a margin of twice the
 // deviations of both bodies is taken off each gap. All roundings here are much smaller.
@@ -37,13 +37,6 @@ constexpr std::uint32_t kMostClosePairs = 128;
 /// An interval with a time of contact is narrowed by so many steps.
 constexpr std::uint32_t kMostNarrowings = 32;
 
-/// Returns for how long the pair stays apart: the positive h with s = s1 h + c2 h^2 / 2.
-double free_time(double s, double s1, double c2) noexcept {
-    if (!(s > 0)) return 0;
-    const double denominator = s1 + std::sqrt(std::max(0.0, s1 * s1 + 2 * c2 * s));
-    return denominator > 0 ? 2 * s / denominator : kInfinity;
-}
-
 class ImpactSearch {
 public:
     ImpactSearch(const MovingPair& pair, Workspace& workspace,
@@ -54,7 +47,7 @@ public:
           body_a_(pair.a, pair.motion_a),
           body_b_(pair.b, pair.motion_b),
           margin_(2 * (body_a_.deviation() + body_b_.deviation())),
-          tolerance_(std::max(options.tolerance, 8 * margin_)),
+          tolerance_(options.tolerance > 8 * margin_ ? options.tolerance : 8 * margin_),
           speed_(std::max(greatest_speed(body_a_, body_b_), std::numeric_limits<double>::min())),
           triangle_size_(std::min(body_a_.triangle_size(), body_b_.triangle_size())) {}
 
@@ -70,8 +63,8 @@ private:
     /// Returns a time after time_ at which nothing has touched yet.
     [[nodiscard]] double advance(const Distance& found) noexcept;
     [[nodiscard]] double close_step(const Distance& found) noexcept;
-    [[nodiscard]] double free_time_of(const TriangleDistance& found, const Corners& a,
-                                      const Corners& b) const noexcept;
+    [[nodiscard]] double time_apart_of(const TriangleDistance& found, const Corners& a,
+                                       const Corners& b) const noexcept;
     /// Looks for a time of contact after a time, soon ones first.
     void look_ahead(double after) noexcept;
     /// Looks for one between time_ and upper_.
@@ -107,8 +100,8 @@ bool ImpactSearch::touch_at(double time) noexcept {
     return any_contact(pair_.a, pair_.b, placement_at(time), workspace_, {}, nullptr);
 }
 
-double ImpactSearch::free_time_of(const TriangleDistance& found, const Corners& a,
-                                  const Corners& b) const noexcept {
+double ImpactSearch::time_apart_of(const TriangleDistance& found, const Corners& a,
+                                   const Corners& b) const noexcept {
     const double plain = (found.lower - margin_) / speed_;
     const Double3 way = found.on_b - found.on_a;
     const double length = length_of(way);
@@ -117,7 +110,7 @@ double ImpactSearch::free_time_of(const TriangleDistance& found, const Corners& 
     const Extent in_a = body_a_.extent(a, n, time_);
     const Extent in_b = body_b_.extent(b, n, time_);
     const double gap = in_b.lowest - in_a.highest - margin_;
-    return std::max(plain, free_time(gap, in_a.fastest - in_b.slowest, in_a.bend + in_b.bend));
+    return std::max(plain, time_apart(gap, in_a.fastest - in_b.slowest, in_a.bend + in_b.bend));
 }
 
 double ImpactSearch::close_step(const Distance& found) noexcept {
@@ -128,16 +121,16 @@ double ImpactSearch::close_step(const Distance& found) noexcept {
     const MovedModel in_b = moved_b(pair_.b, placement);
     NearestSearch<TriangleTrees> search(pair_.a, pair_.b, placement, workspace_);
     search.point(found.witness_a, found.witness_b);
-    double free = (reach - margin_) / speed_;
+    double apart = (reach - margin_) / speed_;
     std::uint32_t pairs = 0;
     search.run(reach, Limit::good, [&](const TreePair& at) {
         if (++pairs > kMostClosePairs) return -1.0;
         const TriangleDistance gap = search.measure(at, false);
-        free = std::min(free, free_time_of(gap, in_a.corners(at.a), in_b.corners(at.b)));
-        // Farther pairs are free for this time without a look.
-        return std::clamp(free * speed_ + margin_, 0.0, reach);
+        apart = std::min(apart, time_apart_of(gap, in_a.corners(at.a), in_b.corners(at.b)));
+        // Farther pairs stay apart for this time without a look.
+        return std::clamp(apart * speed_ + margin_, 0.0, reach);
     });
-    if (pairs <= kMostClosePairs) return free;
+    if (pairs <= kMostClosePairs) return apart;
     close_reach_ = reach;
     return 0;
 }
@@ -151,7 +144,7 @@ double ImpactSearch::advance(const Distance& found) noexcept {
 
 void ImpactSearch::look_ahead(double after) noexcept {
     constexpr double kGrowth = 8;
-    double step = tolerance_ / speed_;
+    double step = std::max(tolerance_ / speed_, 0x1p-52);  // not 0, whatever underflows
     double time = after;
     while (time < 1 && upper_ == kInfinity) {
         time = std::min(1.0, after + step);

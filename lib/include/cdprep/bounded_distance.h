@@ -62,7 +62,7 @@ struct DistanceBudget {
 ///
 /// With a cache, `lower` is at least the last proven gap minus the motion since then. The pair that
 /// was nearest before is measured first. So late answers are close if the models moved little. If
-/// no gap is left, contact is searched for before anything else, in at most half of the work.
+/// no gap is left, contact is searched for before anything else, in about half of the work.
 ///
 /// Reads no pair options: it is about surfaces, through the BVHs. `options` are read as in
 /// distance(). With max_distance NaN or negative, nothing is found. Needs Ask::distance of both

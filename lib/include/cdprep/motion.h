@@ -24,8 +24,9 @@ public:
     /// own coordinates. The model turns the shorter way, by pi at most. Two turns by exactly pi
     /// are equally short. Then it takes one of them, always the same.
     ///
-    /// Fails with bad_argument if a number of `centre` is not finite, or the centre comes beyond
-    /// format::kMaxCoordinate. Allocates only then.
+    /// Fails with bad_argument if a number of `centre` is not finite. Also fails if the way of the
+    /// centre is longer than format::kMaxCoordinate along an axis, or a pose might come beyond it.
+    /// Allocates only then.
     [[nodiscard]] static Result<Motion> between(const Pose& start, const Pose& end,
                                                 const Double3& centre = {});
 

@@ -23,8 +23,8 @@ namespace cdprep {
 ///     }
 ///
 /// Lives in the caller's memory and allocates nothing. Copies share that memory. Queries about it
-/// may run on any number of threads at once. They must not run during begin(), end() or a change of
-/// the model.
+/// may run on any number of threads at once. None may run from begin() to the end of end(): the
+/// boxes are then of no step.
 class Sweep {
 public:
     /// Returns the number of bytes that in() takes: 24 per vertex and about 4 per triangle.
@@ -41,7 +41,8 @@ public:
     void begin() noexcept;
 
     /// Ends the step: the positions of the model are those at time 1. A triangle that was appended
-    /// within the step may have begun at any positions. Takes O(n) time.
+    /// within the step begins where its vertices were, or at the origin if they had no positions.
+    /// Takes O(n) time.
     void end() noexcept;
 
     [[nodiscard]] const Model& model() const noexcept {

@@ -22,10 +22,13 @@ struct MovingPair {
 
 struct ImpactOptions {
     /// The search ends when no point moves farther than this between `lower` and `upper`, relative
-    /// to the other model. It also ends when the surfaces are this near, and no time of contact is
-    /// found. Model units; smaller tolerances than the rounding of coordinates count as that.
+    /// to the other model, or after 32 steps that narrow them. It also ends when the surfaces are
+    /// this near, and no time of contact is found. Model units.
+    ///
+    /// A tolerance that rounding could exceed counts as a larger one: 2^-39 or so of the largest
+    /// coordinate, more for many turns, and for poses whose R is off a rotation.
     double tolerance = 0;
-    /// The search ends after so many distance queries.
+    /// The search ends after so many distance queries that advance it.
     std::uint32_t most_steps = 256;
 };
 
@@ -44,7 +47,7 @@ struct Impact {
     double lower = 1;
     /// At this time they touch. Infinity if no such time was found.
     double upper = std::numeric_limits<double>::infinity();
-    std::uint32_t steps = 0;  ///< distance queries
+    std::uint32_t steps = 0;  ///< distance queries that advanced the search
     /// The nearest points at `lower`, in world coordinates: the direction of the contact. Nothing
     /// if the kind is `none`, or the models touch at time 0.
     std::optional<Distance> nearest;
@@ -65,8 +68,9 @@ struct Impact {
 /// own, along the direction between them. C2A does the same for boxes (Tang, Kim and Manocha 2009).
 ///
 /// Needs Ask::distance of both models; Body::solid also Ask::solid. Takes a distance query for each
-/// step, most of them with a PairCache. A pair that passes without coming near takes 2 or 3 steps,
-/// an impact 10 or so. Never allocates.
+/// step, most of them with a PairCache, and one for the nearest points. Near a contact it also
+/// takes some collide() queries. A pair that passes without coming near takes 2 or 3 steps, an
+/// impact 10 or so. Never allocates.
 [[nodiscard]] Impact time_of_impact(const MovingPair& pair, Workspace& workspace,
                                     const ImpactOptions& options = {}) noexcept;
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "motion/moving_body.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 #include "support/rounds.h"
@@ -250,20 +251,72 @@ TEST(TimeOfImpact, SaysWhenItRunsOutOfSteps) {
 }
 
 TEST(TimeOfImpact, ScalesWithTheModel) {
-    // The same motion at sizes whose squares leave the range of float, and far from the origin.
-    for (const double scale : {0x1p-60, 0x1p-20, 1.0, 0x1p20, 0x1p60}) {
+    for (const int exponent : {-950, -600, -60, -20, 0, 20, 60, 600, 950}) {
+        const double scale = std::ldexp(1, exponent);
         const TestMesh ball = moved_by(icosphere(2), scale, {});
+        const TinyOptions doubles = {.double_precision = true};
         const Case of = {
-            open_tiny(ball),
-            open_tiny(ball),
+            open_tiny(ball, doubles),
+            open_tiny(ball, doubles),
             {},
             Motion::by_velocity(Pose::from_quaternion(1, 0, 0, 0, {4 * scale, 0, 0}).value(),
                                 {-4 * scale, scale / 2, 0}, {1, 2, 3})
                 .value()};
         const Impact impact = of.ask(scale * 1e-6);
-        ASSERT_EQ(impact.kind, ImpactKind::touching);
+        ASSERT_EQ(impact.kind, ImpactKind::touching) << exponent;
         EXPECT_LE(impact.upper - impact.lower, 1e-6);
         EXPECT_NEAR(impact.lower, 0.5, 0.05);
+    }
+}
+
+// Straight ahead at extreme sizes, where the squares of speeds leave the range of double.
+TEST(TimeOfImpact, OfExtremeSizesMissesNoContact) {
+    for (const int exponent : {-950, -600, -540, 0, 540, 950}) {
+        const double scale = std::ldexp(1, exponent);
+        const TestMesh box = moved_by(unit_cube(), scale, {});
+        const TinyOptions doubles = {.double_precision = true};
+        const Case of = {open_tiny(box, doubles),
+                         open_tiny(moved_by(unit_cube(), scale, {1.6 * scale, 0, 0}), doubles),
+                         {},
+                         shifted({-scale, 0, 0})};
+        const Impact impact = of.ask();
+        ASSERT_EQ(impact.kind, ImpactKind::touching) << exponent;
+        EXPECT_LE(impact.lower, 0.6 + 1e-12);
+        EXPECT_GE(impact.upper, 0.6 - 1e-12);
+    }
+}
+
+TEST(TimeOfImpact, TakesAnyTolerance) {
+    const Case of = {open_tiny(unit_cube()),
+                     open_tiny(moved_by(unit_cube(), 1, {3, 0, 0})),
+                     {},
+                     shifted({-8, 0, 0})};
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double tolerance : {nan, -1.0, -kInfinity, 0.0}) {
+        const Impact impact = of.ask(tolerance);
+        EXPECT_EQ(impact.kind, ImpactKind::touching) << tolerance;
+        EXPECT_NEAR(impact.lower, 0.25, 1e-9);
+    }
+    EXPECT_NE(of.ask(kInfinity).kind, ImpactKind::none);
+}
+
+TEST(TimeApart, IsTheTimeInWhichAGapCloses) {
+    EXPECT_EQ(time_apart(0, 1, 1), 0);
+    EXPECT_EQ(time_apart(-1, -1, 0), 0);
+    EXPECT_EQ(time_apart(3, 2, 0), 1.5);
+    EXPECT_EQ(time_apart(3, 0, 0), kInfinity);
+    EXPECT_EQ(time_apart(3, -2, 0), kInfinity);
+    EXPECT_DOUBLE_EQ(time_apart(1, 0, 2), 1);
+    EXPECT_DOUBLE_EQ(time_apart(2, 1, 2), 1);
+    // It opens at first: the gap hardly counts.
+    EXPECT_DOUBLE_EQ(time_apart(1e-16, -10, 100), 0.2);
+    EXPECT_DOUBLE_EQ(time_apart(1e-300, -10, 100), 0.2);
+    // Scaled by any power of two, the time is the same.
+    for (const int exponent : {-1000, -600, 600, 980}) {
+        const double scale = std::ldexp(1, exponent);
+        EXPECT_DOUBLE_EQ(time_apart(2 * scale, scale, 2 * scale), 1) << exponent;
+        EXPECT_DOUBLE_EQ(time_apart(0.6 * scale, scale, 0), 0.6) << exponent;
+        EXPECT_DOUBLE_EQ(time_apart(scale, -scale, 4 * scale), 1) << exponent;
     }
 }
 
