@@ -159,18 +159,17 @@ private:
     std::span<const Triangle> triangles_;
 };
 
-/// Returns the lane whose triangle is stored in a lane: itself if it has one, else the last before
-/// it that has, else the first.
+/// Returns the lane whose triangle is stored in a lane: itself if it has one. Otherwise it is the
+/// last before it that has, or else the first.
 std::size_t lane_for(std::size_t lane, unsigned lanes) {
     const unsigned up_to = lanes & ((2U << lane) - 1);
     return static_cast<std::size_t>(up_to != 0 ? std::bit_width(up_to) - 1
                                                : std::countr_zero(lanes));
 }
 
-/// Returns the lanes whose corners are proven not to be collinear, because the coordinate `axis` of
-/// their normal is not 0. Let u = 2^-53. The differences, the products and their difference
-/// round by less than 5 u of the products' magnitudes. Where numbers underflow or overflow, nothing
-/// is proven.
+/// Returns the lanes whose corners are proven not to be collinear: the coordinate `axis` of their
+/// normal is not 0. Let u = 2^-53. The differences, the products and their difference round by less
+/// than 5 u of the products' magnitudes. Where numbers underflow or overflow, nothing is proven.
 unsigned lanes_with_area(const LeafCorners& corners, std::size_t axis) {
     constexpr double kRounding = 0x1p-50, kLeast = 0x1p-960;
     const CornerRow& x = corners[(axis + 1) % 3];

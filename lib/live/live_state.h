@@ -183,7 +183,7 @@ private:
     /// Chooses a leaf for each new triangle.
     void choose_leaves(std::span<const format::Triangle> added);
     /// Gives new triangles places in their leaves, or in the smallest subtrees with enough free
-    /// places, whose triangles are distributed anew.
+    /// places. The triangles of these are distributed anew.
     void place(std::span<NewTriangle> fresh);
     /// Returns whether new triangles found places in a subtree: a leaf if `height` is 0.
     bool place_in(std::uint32_t height, std::uint32_t subtree, std::span<const NewTriangle> fresh);

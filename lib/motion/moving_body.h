@@ -53,8 +53,9 @@ private:
 [[nodiscard]] double greatest_speed(const MovingBody& a, const MovingBody& b) noexcept;
 
 /// Returns a time during which a gap stays open. It closes at the speed `closing` now, which may be
-/// negative, and this speed changes by `bend` at most in a unit of time. The time is the positive h
-/// with gap = closing h + bend h^2 / 2, up to some roundings; 0 without a gap, infinity if none.
+/// negative. This speed changes by `bend` at most in a unit of time. The time is the positive h
+/// with gap = closing h + bend h^2 / 2, up to some roundings. It is 0 without a gap, and infinity
+/// if there is no such h.
 [[nodiscard]] double time_apart(double gap, double closing, double bend) noexcept;
 
 }  // namespace cdprep

@@ -45,8 +45,8 @@ struct LastDistance {
 /// The limits of the work of one query.
 struct DistanceBudget {
     /// The maximum work, 0 for no limit. The search ends as soon as its work is at least this. Up
-    /// to 64 pairs of triangles may exceed it: those of the last pair of leaves, where contact is
-    /// searched for, or those that are about equally near.
+    /// to 64 pairs of triangles may exceed it. They are those of the last pair of leaves where
+    /// contact is searched for, or about equally near.
     std::uint64_t work = 0;
     /// Gets each complete answer, and counts late ones; or null.
     LastDistance* last = nullptr;

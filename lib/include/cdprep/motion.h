@@ -25,8 +25,8 @@ public:
     /// are equally short. Then it takes one of them, always the same.
     ///
     /// Fails with bad_argument if a number of `centre` is not finite. Also fails if the way of the
-    /// centre is longer than format::kMaxCoordinate along an axis, or a pose might come beyond it.
-    /// Allocates only then.
+    /// centre along an axis is longer than format::kMaxCoordinate. The same holds if a pose might
+    /// come beyond that. Allocates only then.
     [[nodiscard]] static Result<Motion> between(const Pose& start, const Pose& end,
                                                 const Double3& centre = {});
 

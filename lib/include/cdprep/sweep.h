@@ -41,8 +41,8 @@ public:
     void begin() noexcept;
 
     /// Ends the step: the positions of the model are those at time 1. A triangle that was appended
-    /// within the step begins where its vertices were, or at the origin if they had no positions.
-    /// Takes O(n) time.
+    /// within the step begins where its vertices were. Vertices without positions were at the
+    /// origin. Takes O(n) time.
     void end() noexcept;
 
     [[nodiscard]] const Model& model() const noexcept {

@@ -22,11 +22,11 @@ struct MovingPair {
 
 struct ImpactOptions {
     /// The search ends when no point moves farther than this between `lower` and `upper`, relative
-    /// to the other model, or after 32 steps that narrow them. It also ends when the surfaces are
-    /// this near, and no time of contact is found. Model units.
+    /// to the other model. It ends after 32 steps that narrow them, too. It also ends when the
+    /// surfaces are this near, and no time of contact is found. Model units.
     ///
     /// A tolerance that rounding could exceed counts as a larger one: 2^-39 or so of the largest
-    /// coordinate, more for many turns, and for poses whose R is off a rotation.
+    /// coordinate. For many turns, and for poses whose R is off a rotation, it is more.
     double tolerance = 0;
     /// The search ends after so many distance queries that advance it.
     std::uint32_t most_steps = 256;

@@ -113,8 +113,8 @@ CDPREP_API void cdprep_sweep_end(cdprep_sweep* sweep);
 CDPREP_API int cdprep_sweep_start_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Completes the step: the positions of the model are those at time 1. A triangle that was appended
- * within the step begins where its vertices were, or at the origin if they had no positions. Takes
- * O(n) time. */
+ * within the step begins where its vertices were. Vertices without positions were at the origin.
+ * Takes O(n) time. */
 CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Both functions find the pairs of triangles that may touch during the step. Triangle `a` is of the
@@ -122,11 +122,11 @@ CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error
  * `motion` moves. The first function stops at the first pair and stores CDPREP_YES. The list is in
  * the order of (a, b). If there is too little room, it keeps the smallest pairs.
  *
- * CDPREP_NO is proven: no triangles touch at any time of the step. CDPREP_YES says that two come
- * near: the convex hull of a triangle's way, seen from the other model, and a triangle of that. It
- * does not say whether they touch, nor when, nor that one model is inside the other. A step of less
- * motion gives fewer false alarms. If the other model turns by more than a quarter of a radian, the
- * step is tested in parts, 64 at most.
+ * CDPREP_NO is proven: no triangles touch at any time of the step. CDPREP_YES says that the convex
+ * hull of a triangle's way comes near a triangle of the other model. The way is seen from that
+ * model. It does not say whether they touch, nor when, nor that one model is inside the other. A
+ * step of less motion gives fewer false alarms. If the other model turns by more than a quarter of
+ * a radian, the step is tested in parts. There are 64 at most.
  *
  * Takes as long as cdprep_within() with a tolerance of half of the motion. Each pair of triangles
  * near each other takes about 1 us more for each part. Never allocates.
