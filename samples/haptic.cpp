@@ -30,7 +30,8 @@ cdprep::Result<cdprep::build::ModelArrays> torus(double ring, double tube, std::
     std::vector<Double3> points;
     std::vector<Triangle> triangles;
     for (std::uint32_t i = 0; i < n * n; ++i) {
-        const double u = 2 * kPi * (i / n) / n, v = 2 * kPi * (i % n) / n;
+        const std::uint32_t ring_number = i / n;
+        const double u = 2 * kPi * ring_number / n, v = 2 * kPi * (i % n) / n;
         const double out = ring + tube * std::cos(v);
         points.push_back({out * std::cos(u), out * std::sin(u), tube * std::sin(v)});
         const std::uint32_t next = (i + n) % (n * n);  // the same place of the next ring

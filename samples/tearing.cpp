@@ -25,7 +25,8 @@ struct Mesh {
 Mesh sheet(std::uint32_t n) {
     Mesh mesh;
     for (std::uint32_t i = 0; i < (n + 1) * (n + 1); ++i) {
-        mesh.positions.push_back({1.0 * (i % (n + 1)) / n, 1.0 * (i / (n + 1)) / n, 0});
+        const std::uint32_t row = i / (n + 1), column = i % (n + 1);
+        mesh.positions.push_back({1.0 * column / n, 1.0 * row / n, 0});
     }
     for (std::uint32_t i = 0; i < n * n; ++i) {
         const std::uint32_t a = i / n * (n + 1) + i % n, b = a + n + 1;
