@@ -52,8 +52,8 @@ Double3 own_axis(const Motion::Parts& parts) noexcept {
             r[2] * k.x + r[5] * k.y + r[8] * k.z};
 }
 
-/// Returns a bound of the distance of the box's points from an axis through `centre`. It is the
-/// length of a cross product, of which each component is bounded.
+/// Returns a bound of the distance of the box's points from an axis through `centre`. The distance
+/// is the length of a cross product. Each of its components is bounded.
 double reach_from_axis(const RootBox& box, const Double3& centre, const Double3& axis) noexcept {
     const Double3 arm = cross(axis, box.middle - centre);
     const Double3 k = {std::fabs(axis.x), std::fabs(axis.y), std::fabs(axis.z)};

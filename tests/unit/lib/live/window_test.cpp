@@ -480,7 +480,7 @@ TEST(WindowDeathTest, AnotherModelStopsTheProgram) {
                  "another model");
 }
 
-/// Two windows of which one thread fills one while another reads the other.
+/// Two windows. One thread fills one of them while another thread reads the other.
 class TwoWindows {
 public:
     explicit TwoWindows(std::uint32_t leaves) : windows_{window_of(leaves), window_of(leaves)} {}
