@@ -19,8 +19,8 @@ inline constexpr std::uint64_t kWorkOfExact = 16;     ///< one tested beyond dou
 
 /// The distance of two surfaces, as far as a search came.
 struct BoundedDistance {
-    /// The search came to its end: `nearest` is what distance() returns. False: the answer is late.
-    /// Its bounds hold, but they may be wide.
+    /// True: the search came to its end, and `nearest` is what distance() returns. False: the
+    /// answer is late. Its bounds hold, but they may be wide.
     bool is_complete = false;
     /// The exact distance is in [lower, upper], model units. 0 and infinity if nothing is known.
     double lower = 0;
@@ -45,8 +45,8 @@ struct LastDistance {
 /// The limits of the work of one query.
 struct DistanceBudget {
     /// The maximum work, 0 for no limit. The search ends as soon as its work is at least this. Up
-    /// to 64 pairs of triangles may exceed it. They are those of the last pair of leaves where
-    /// contact is searched for, or about equally near.
+    /// to 64 pairs of triangles may exceed it. They are in the last pair of leaves of a search for
+    /// contact. Or they are about equally near, and are measured again at the end.
     std::uint64_t work = 0;
     /// Gets each complete answer, and counts late ones; or null.
     LastDistance* last = nullptr;
@@ -56,19 +56,20 @@ struct DistanceBudget {
 ///
 /// A complete answer is that of distance(), bit for bit. If errors are permitted, it may be another
 /// answer within them. A late answer has the bounds of the search so far. `upper` is that of the
-/// nearest pair found. `lower` is the least bound of the pairs found and of all pairs of boxes that
-/// were not opened. If rounding cannot exclude that triangles touch, they are searched for in exact
+/// nearest pair found. `lower` is the least bound of the pairs found and of all pairs of boxes not
+/// yet visited. If rounding cannot exclude that triangles touch, contact is searched for in exact
 /// arithmetic. `lower` is 0 if this search does not end.
 ///
 /// With a cache, `lower` is at least the last proven gap minus the motion since then. The pair that
-/// was nearest before is measured first. So late answers are close if the models moved little. If
-/// no gap is left, contact is searched for before anything else, in about half of the work.
+/// was nearest before is measured first. So late bounds are close if the models moved little. If no
+/// gap is left, contact is searched for first, with about half of the work.
 ///
 /// Reads no pair options: it is about surfaces, through the BVHs. `options` are read as in
 /// distance(). With max_distance NaN or negative, nothing is found. Needs Ask::distance of both
 /// models. Takes as long as distance(), and less without contact. A late answer takes time in
-/// proportion to budget.work: the caller measures how much (tests/bench/haptic_bench). It depends
-/// on the instruction set, because work does. Never allocates, locks or calls the system.
+/// proportion to budget.work: the caller measures how much (tests/bench/haptic_bench). A late
+/// answer depends on the instruction set, because the counted work does. Never allocates, locks or
+/// calls the system.
 ///
 ///     cdprep::LastDistance last;
 ///     const auto found = bounded_distance(pair, workspace, {}, {.work = 3000, .last = &last});

@@ -69,10 +69,11 @@ struct BroadPhaseUpdate {
 /// Each box gets a larger box around it, and pairs of larger boxes are kept from update to update.
 /// Only boxes that leave their larger box are searched for again, in a tree of eight boxes a node.
 /// If many leave, all pairs are searched for anew without larger boxes. The tree follows the
-/// Z-order curve (Morton 1966). The answer depends neither on the way nor on the threads.
+/// Z-order curve (Morton 1966). The answer does not depend on which search was used, or on the
+/// threads.
 ///
 /// An update takes O(n + pairs) time if few boxes leave. Otherwise, it takes O(n log n + pairs) for
-/// boxes of similar size that are spread out. Of boxes that all meet, each pair is looked at.
+/// boxes of similar size that are spread out. If all boxes meet, every pair is tested.
 /// tests/bench/broad_phase_bench measures both beside other libraries.
 ///
 ///     cdprep::BroadPhase broad_phase({.boxes = 1000, .pairs = 16000});
@@ -84,9 +85,9 @@ public:
     /// possible.
     explicit BroadPhase(const BroadPhaseLimits& limits);
 
-    /// Makes one in the caller's memory, which must outlive it. Allocates nothing. Returns nothing
-    /// if the memory is smaller than size() or not aligned to alignment(), or the limits are not
-    /// possible.
+    /// Makes a broad phase in the caller's memory, which must outlive it. Allocates nothing.
+    /// Returns nothing if the memory is smaller than size() or not aligned to alignment(), or the
+    /// limits are not possible.
     [[nodiscard]] static std::optional<BroadPhase> in_memory(
         std::span<std::byte> memory, const BroadPhaseLimits& limits) noexcept;
     /// Returns the bytes that it takes: about 150 for each box and 24 for each pair. Each thread

@@ -26,12 +26,13 @@ struct ManifoldPoint {
     Double3 on_a;
     Double3 on_b;
     /// From on_a to on_b along the normal, rounded; negative: overlap. In a cluster, the normal is
-    /// that of the member with the point, which may differ by the options' cluster_angle.
+    /// that of the point's own contact. It may differ from Contact::normal by up to
+    /// ContactOptions::cluster_angle.
     double distance;
     /// Stays the same for the same point of the same contact after a small motion. It is made of
-    /// the source number of the vertex at the point. If two edges cross there, it is made of those
-    /// of their ends. 0 for the only point of a contact. In a cluster, it also differs between
-    /// points of different members.
+    /// the source number of the vertex at the point. If two edges cross there, it is made of the
+    /// source numbers of their ends. 0 for the only point of a contact. In a cluster, it also
+    /// differs between points of different members.
     std::uint64_t id;
 };
 
@@ -41,8 +42,8 @@ enum ContactFlags : std::uint32_t {
     /// both pieces are contained (format::piece_contained). The distance is 0 or negative: minus
     /// the length of the shortest translation that separates the hulls.
     contact_overlap = 1,
-    /// The shortest direction between the pieces, or out of their overlap, would snag. The normal
-    /// is a different direction: see contacts().
+    /// The shortest line between the pieces, or the shortest way out of their overlap, snags. The
+    /// normal is a different direction: see contacts().
     contact_internal_edge = 2,
     /// The pieces do not overlap, but one lies behind the other's triangles, inside the solid.
     /// Ignore this contact in a solver; other piece pairs give the separating direction.
@@ -95,12 +96,13 @@ struct ContactOptions {
     std::uint32_t most = 0;
     /// The maximum work, 0 for no limit. Each pair of near triangles counts 1. Each contact counts
     /// kWorkOfContact and, between two pieces, 1 for every kTrianglesOfWork of their triangles. The
-    /// search for near triangles takes at most half of the work, and the last contact may exceed
-    /// it. If the work allows all contacts and `most` fewer than half of them, closer bounds of
-    /// depths count kWorkOfBound each.
+    /// search for near triangles takes at most half of the work. The last contact may exceed the
+    /// work. If the work allows all contacts, and `most` fewer than half of them, some depths are
+    /// bounded more closely first. Each such bound counts kWorkOfBound.
     std::uint64_t work = 0;
-    /// Joins contacts that are linked by common pieces and whose normals differ by at most this, in
-    /// radians. A joined contact has at most four points. 0: joins none. Needs `most`.
+    /// Joins contacts that are linked by common pieces. Their normals differ from the normal of the
+    /// deepest by at most this, in radians. A joined contact has at most four points. 0: joins
+    /// none. Needs `most`.
     double cluster_angle = 0;
 };
 
@@ -145,20 +147,22 @@ struct ContactsVerdict {
 /// that does not snag. The candidates are the face normals of both hulls and the directions
 /// perpendicular to an edge of each. If the hulls overlap but the pieces do not, the contact has
 /// the distance of the triangles. If several pairs of points are equally near, as between parallel
-/// faces, the contact has one of them. The normal of a gap is that of the shortest line. If it
-/// snags there, it is turned until it no longer tilts across these edges. If either feature is a
-/// face, the normal is turned only if it tilts across a flat edge.
+/// faces, the contact has one of them. If the pieces do not overlap, the normal is the direction of
+/// the shortest line between them. If it snags at a feature, it is turned until it no longer tilts
+/// across the feature's edges. If either feature is a face, the normal is turned only if it tilts
+/// across a flat edge.
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
-/// vertex it does not snag if no triangle there reaches farther than the vertex. It also snags if
-/// it leads through a part of the hull that no triangle covers. If the shortest translation snags,
-/// the shortest one that does not is used, and contact_internal_edge is set. A translation less
-/// than half as long is used even if it tilts across a reflex edge. It must not tilt across a flat
-/// edge or lead deeper into a solid. `upper` is still minus the length of the shortest separating
-/// translation. If that one does not snag, `lower` and `upper` are equal up to rounding. Bodies may
-/// overlap by more than the size of a piece. Then a contact separates its two pieces only, not the
-/// bodies: push by the deepest, and query again. Inside a solid, the inner side of a wall may be
-/// near (contact_from_behind); such a contact should not push.
+/// vertex, the tilt counts only if a triangle there reaches farther along the translation than the
+/// vertex. A translation also snags if it leads through a part of the hull that no triangle covers.
+/// If the shortest translation snags, the shortest one that does not is used, and
+/// contact_internal_edge is set. A translation less than half as long as that one is preferred,
+/// even if it tilts across a reflex edge. It must not tilt across a flat edge or lead deeper into a
+/// solid. `upper` is still minus the length of the shortest separating translation. If that one
+/// does not snag, `lower` and `upper` are equal up to rounding. Bodies may overlap by more than the
+/// size of a piece. Then a contact separates its two pieces only, not the bodies: push by the
+/// deepest, and query again. Inside a solid, the inner side of a wall may be near
+/// (contact_from_behind); such a contact should not push.
 ///
 /// With Body::solid, a component that is proven to be inside the other model makes a contact of its
 /// own (contact_deep). No such contact is made if any triangles of the two models touch. A deep

@@ -15,7 +15,7 @@
 
 namespace cdprep {
 
-/// The room of a live model that can tear.
+/// The capacity of a live model that can tear.
 struct LiveLimits {
     std::uint32_t triangles = 0;  ///< the most triangles at a time; 0: the model cannot tear
     /// Triangles may use the vertices with numbers less than this. 0: those of the base.
@@ -41,13 +41,14 @@ struct LiveTriangle {
 /// spheres, hulls, pieces, octrees, bounds or mass. It serves the queries that need none of these:
 /// collide, overlap, distance, within, ray, closest, inside and touch.
 ///
-/// A model made with LiveLimits can tear: append() and remove(). From the first of these calls on
-/// it is_torn(). It then counts as open, so only boxes and surfaces decide about solids. Some
-/// places of its tree order have no triangle: model().triangle_count() counts places, or is 0
-/// without triangles. Its mesh() and source() views have an element for each place.
+/// A model made with LiveLimits can tear: append() and remove() change its triangles. After the
+/// first such call, model().is_torn() is true. The model then counts as open, so only boxes and
+/// surfaces decide about solids. Some places of its tree order have no triangle.
+/// model().triangle_count() counts places, but is 0 without triangles. The mesh() and source()
+/// views have an element for each place.
 ///
 /// In a scene, call set_pose() for each object of the model after a change, even with the same
-/// pose. Caches stay valid: after a change they only cost time.
+/// pose. Caches stay valid: after a change, queries ignore the gaps proven before it.
 ///
 /// Move-only; a move leaves the model's bytes in place. A live model that was moved from may only
 /// be destroyed or assigned to. Const members, and queries about model(), may run on any number of
@@ -71,19 +72,19 @@ public:
     [[nodiscard]] static Result<std::size_t> bytes(const Model& base,
                                                    const LiveLimits& limits = {});
 
-    /// Makes a live model of arrays or of another model, such as a baked one. `memory` must start
-    /// at a multiple of format::kSectionAlignment and stay in place while the live model lives.
-    /// `base` must not lie in it, and is not used afterwards. Allocates. Takes O(n) time; with
-    /// limits, O(n log n) time. Triangles spread over all places of a limit. So a limit of many
-    /// more triangles than will come makes queries take longer.
+    /// Makes a live model from arrays or from another model, such as a baked one. `memory` must
+    /// start at a multiple of format::kSectionAlignment and stay in place while the live model
+    /// lives. `base` must not lie in it, and is not used afterwards. Allocates. Takes O(n) time;
+    /// with limits, O(n log n) time. Triangles are spread over all places of the limit. So a limit
+    /// far above the number that comes makes queries slower.
     ///
-    /// Fails with `bad_argument` if `memory` is too small or misaligned. Also fails if a baked
-    /// `base` can tear or has vertices that a repair made. Fails if two of its vertices or
-    /// triangles have one number. Fails if it lacks, or was opened without, one of these sections:
-    /// triangles, source_triangle, source_vertex, bvh_nodes, bvh_leaves and positions. Without the
-    /// section components, the live model does not serve Ask::solid. Fails if limits are lower than
-    /// the counts of the base. Also fails if there are more than 1,431,655,764 places, of which a
-    /// ninth is free with limits.
+    /// Fails with `bad_argument` if `memory` is too small or misaligned. Also fails if `base` is a
+    /// Model that can tear or has vertices that a repair made. Fails if two of its vertices or
+    /// triangles have the same number. Fails if it lacks, or was opened without, one of these
+    /// sections: triangles, source_triangle, source_vertex, bvh_nodes, bvh_leaves and positions.
+    /// Without the section components, the live model does not serve Ask::solid. Fails if limits
+    /// are lower than the counts of the base, or only vertices are limited. Also fails if there
+    /// would be more than 1,431,655,764 places. With limits, a ninth of the places stays free.
     [[nodiscard]] static Result<LiveModel> in(std::span<std::byte> memory,
                                               const build::ModelArrays& base,
                                               const LiveLimits& limits = {});
@@ -116,8 +117,8 @@ public:
     /// models accept floats.
     ///
     /// A PairCache of this model stays valid. The content_hash of the header changes with the
-    /// positions, so a cache from before the refit only costs time. Takes O(n) time. Allocates only
-    /// on failure.
+    /// positions, so gaps proven before the refit are ignored. Takes O(n) time. Allocates only on
+    /// failure.
     Result<Done> refit(std::span<const format::Double3> positions,
                        ParallelFor parallel_for = serial_for);
     Result<Done> refit(std::span<const format::Float3> positions,
@@ -133,9 +134,9 @@ public:
     /// less than position_count() or, in a model that can tear, LiveLimits::vertices.
     ///
     /// Takes O(m log n) time for m triangles at these vertices, and looks at a bit for each leaf.
-    /// Takes O(n) in three cases. A vertex leaves the frame of the boxes, a cube of at least
+    /// Takes O(n) in three cases. A vertex leaves the frame of the boxes, a cube that was at least
     /// twice the model's size when chosen. Or the model has become much smaller than this cube. Or
-    /// the first or the last coordinate comes that is not a float.
+    /// the first coordinate that is not a float comes, or the last one goes.
     Result<Done> refit(std::span<const std::uint32_t> vertices,
                        std::span<const format::Double3> positions,
                        ParallelFor parallel_for = serial_for);
@@ -143,8 +144,9 @@ public:
                        std::span<const format::Float3> positions,
                        ParallelFor parallel_for = serial_for);
 
-    /// Adds triangles, whose vertices have numbers as in refit(). Returns the number of the first.
-    /// The others follow. Answers name a triangle by its number, which no other ever gets.
+    /// Adds triangles, whose vertices have numbers as in refit(). Returns the number of the first;
+    /// the others get the next numbers. Answers name a triangle by its number, which is never used
+    /// again.
     ///
     /// Fails with `bad_argument`, and then changes nothing, if the model cannot tear or would have
     /// more triangles than LiveLimits::triangles. Also fails if a vertex does not exist or has no
@@ -169,11 +171,11 @@ public:
     /// Returns how many there are; 0 for a model that cannot tear. Takes O(n log n) time.
     std::size_t triangles(std::span<LiveTriangle> room) const noexcept;
 
-    /// Distributes triangles anew where the boxes have grown, so that queries stay fast. A call
-    /// takes up to `most_triangles` triangles and returns how many it took. It takes whole subtrees
-    /// of up to 4,096 triangles, so a smaller budget does nothing for a larger model. Those come
-    /// first whose surface_cost() has grown most since their triangles were distributed. Begins
-    /// when one has grown by 40 %, and goes on in later calls until none has grown by 20 %.
+    /// Rebuilds subtrees whose boxes have grown, so that queries stay fast. A call takes up to
+    /// `most_triangles` triangles and returns how many it took. It takes whole subtrees of up to
+    /// 4,096 triangles, so a smaller budget may do nothing for a larger model. The subtree whose
+    /// surface cost has grown most since it was built comes first. Begins when one cost has grown
+    /// by 40 %, and goes on in later calls until none has by 20 %.
     ///
     /// Answers stay the same. Does not help if far triangles have come near each other: then
     /// surface_cost() stays high, and a new model helps. Takes O(nodes) time, and 100 ns or so for

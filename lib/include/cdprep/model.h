@@ -84,7 +84,7 @@ struct Refusal {
 ///     std::cout << model.triangle_count() << " triangles\n";
 class Model {
 public:
-    /// Maps or copies `path` and checks completely the sections that `options` names. The others
+    /// Maps or copies `path`, and completely checks the sections that `options` names. The others
     /// are not touched and give empty spans. Takes O(bytes of the sections) time, at memory speed.
     ///
     /// Fails with `unreadable` if the file cannot be read, is not a finished bake, or is damaged.
@@ -118,7 +118,7 @@ public:
 
     [[nodiscard]] std::uint32_t triangle_count() const noexcept;  ///< from the header
     [[nodiscard]] std::uint32_t vertex_count() const noexcept;    ///< from the header
-    /// Returns a bound of the numbers by which answers name triangles: all are less. It is
+    /// Returns a number that is greater than all triangle numbers in answers. It is
     /// triangle_count(), unless the model is a Window's or a LiveModel that can tear.
     [[nodiscard]] std::uint32_t triangle_number_bound() const noexcept;
 
@@ -132,10 +132,10 @@ public:
     [[nodiscard]] SectionSet sections() const noexcept;
 
     /// Reads a byte of each page of the open sections of `wanted`, and returns how many bytes these
-    /// sections have. Then the first query does not wait for the disk. Pages may still leave memory
-    /// again; to lock them there is the caller's work (mlock() on bytes()). A page has at least
-    /// format::kPageAlignment bytes. Takes as long as the disk needs for pages that are not in
-    /// memory, otherwise some nanoseconds a page. Needs no Ask. Never allocates.
+    /// sections have. Then the first query does not wait for the disk. Pages may be evicted later;
+    /// the caller may lock them (mlock() on bytes()). A page has at least format::kPageAlignment
+    /// bytes. Takes as long as the disk needs for pages that are not in memory, otherwise some
+    /// nanoseconds a page. Needs no Ask. Never allocates.
     std::size_t touch(SectionSet wanted = SectionSet::all()) const noexcept;
     /// The same for the sections that the queries of `asks` need or use.
     std::size_t touch(Ask asks) const noexcept;

@@ -24,16 +24,16 @@ public:
     /// own coordinates. The model turns the shorter way, by pi at most. Two turns by exactly pi
     /// are equally short. Then it takes one of them, always the same.
     ///
-    /// Fails with bad_argument if a number of `centre` is not finite. Also fails if the way of the
-    /// centre along an axis is longer than format::kMaxCoordinate. The same holds if a pose might
-    /// come beyond that. Allocates only then.
+    /// Fails with bad_argument if a number of `centre` is not finite. Also fails if the centre
+    /// moves farther than format::kMaxCoordinate along an axis, or if a pose might exceed it.
+    /// Allocates only on failure.
     [[nodiscard]] static Result<Motion> between(const Pose& start, const Pose& end,
                                                 const Double3& centre = {});
 
-    /// Makes the motion from velocities, as a solver has them. `shift` is the way of the centre
-    /// during the step, in model units. `turn` is a vector along the axis of the turn, in world
-    /// coordinates. Its length is the angle in radians, kMostTurn at most. So a model may turn
-    /// around more than once.
+    /// Makes the motion from velocities, as a solver has them. `shift` is the displacement of the
+    /// centre during the step, in model units. `turn` is a vector along the axis of the turn, in
+    /// world coordinates. Its length is the angle in radians, kMostTurn at most. So a model may
+    /// turn around more than once.
     ///
     /// Fails as between(), and if `shift` or `turn` is not finite or too long.
     [[nodiscard]] static Result<Motion> by_velocity(const Pose& start, const Double3& shift,
@@ -41,8 +41,8 @@ public:
                                                     const Double3& centre = {});
 
     /// Returns the pose at a time. At 0 and 1 it is the given start and end, bit for bit. Times
-    /// beyond are those of the ends; NaN counts as 0. Uses the sine and cosine of the C library.
-    /// So the last bits may differ between platforms.
+    /// outside [0, 1] count as the nearer end; NaN counts as 0. Uses the sine and cosine of the C
+    /// library. So the last bits may differ between platforms.
     [[nodiscard]] Pose at(double time) const noexcept;
 
     static constexpr double kMostTurn = 1000;  ///< radians

@@ -105,9 +105,9 @@ struct Collision {
 /// `unknown` with the generalised winding number, unless another component answers `yes`. For an
 /// open model, the answer is `unknown` whatever that number is.
 ///
-/// Boxes decide most cases: one vertex of each component is tested. If it is outside the other
-/// model's box, the component is outside, even if that model is open. Exact for balanced models, by
-/// a ray with symbolic perturbation (Feito and Torres 1997). Reads no options. Needs Ask::solid of
+/// One vertex of each component is tested. If it is outside the other model's box, the component is
+/// outside, even if that model is open. This decides most cases. Exact for balanced models, by a
+/// ray with symbolic perturbation (Feito and Torres 1997). Reads no options. Needs Ask::solid of
 /// both models. Takes O(components (log n + hits)) time, or O(n) per component against an open
 /// model. Never allocates.
 [[nodiscard]] Containment containment(const Pair& pair, Workspace& workspace) noexcept;

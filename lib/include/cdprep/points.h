@@ -96,7 +96,7 @@ struct RayOptions {
 /// Returns the first point where `ray` meets the surface, or nothing.
 ///
 /// Each hit is decided exactly for the given origin and direction, by the signs of tetrahedron
-/// volumes. Edges and vertices belong to a triangle, so no ray passes between two triangles that
+/// volumes. A triangle includes its edges and vertices, so no ray passes between two triangles that
 /// share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits where it
 /// enters.
 ///

@@ -10,7 +10,7 @@
 
 namespace cdprep {
 
-/// The space through which a deforming model passes during a step: boxes around the way of each of
+/// The space through which a deforming model passes during a step: boxes around the path of each of
 /// its triangles. Each vertex moves along a straight line, at constant speed. So a triangle that
 /// jumps over a thin object in one step is not lost.
 ///
@@ -23,8 +23,8 @@ namespace cdprep {
 ///     }
 ///
 /// Lives in the caller's memory and allocates nothing. Copies share that memory. Queries about it
-/// may run on any number of threads at once. None may run from begin() to the end of end(): the
-/// boxes are then of no step.
+/// may run on any number of threads at once. None may run from the call of begin() until end()
+/// returns: the boxes then belong to no step.
 class Sweep {
 public:
     /// Returns the number of bytes that in() takes: 24 per vertex and about 4 per triangle.
@@ -41,8 +41,8 @@ public:
     void begin() noexcept;
 
     /// Ends the step: the positions of the model are those at time 1. A triangle that was appended
-    /// within the step begins where its vertices were. Vertices without positions were at the
-    /// origin. Takes O(n) time.
+    /// within the step starts at its vertices' positions at time 0. Vertices that had none start at
+    /// the origin. Takes O(n) time.
     void end() noexcept;
 
     [[nodiscard]] const Model& model() const noexcept {
@@ -65,11 +65,11 @@ private:
 /// the deforming model are those of the world in which `motion` moves B.
 ///
 /// `false` is proven: no triangle of one touches a triangle of the other at any time of the step.
-/// `true` says that the convex hull of a triangle's way, seen from B, comes near a triangle of B.
-/// It does not say whether they touch, nor when. Nor does it say that one model is inside the
-/// other: collide() with Body::solid does. A hull ignores that its triangle is in one place at a
-/// time. So a step of less motion gives fewer false alarms. If B turns by more than a quarter of a
-/// radian, the step is tested in parts, 64 at most.
+/// `true` says that the convex hull of a triangle's path, relative to B, comes near a triangle of
+/// B. It does not say whether they touch, nor when. may_touch() does not test containment:
+/// collide() with Body::solid does. A hull ignores that its triangle is in one place at a time. So
+/// a step of less motion gives fewer false alarms. If B turns by more than a quarter of a radian,
+/// the step is tested in parts, 64 at most.
 ///
 /// Needs Ask::within of B. Takes as long as within() with a tolerance of half of B's motion. Each
 /// pair of triangles near each other takes about 1 us more for each part. Never allocates.

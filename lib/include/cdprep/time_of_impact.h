@@ -22,11 +22,11 @@ struct MovingPair {
 
 struct ImpactOptions {
     /// The search ends when no point moves farther than this between `lower` and `upper`, relative
-    /// to the other model. It ends after 32 steps that narrow them, too. It also ends when the
-    /// surfaces are this near, and no time of contact is found. Model units.
+    /// to the other model. It also ends after narrowing this interval 32 times. It also ends when
+    /// the surfaces are this near, and no time of contact is found. Model units.
     ///
-    /// A tolerance that rounding could exceed counts as a larger one: 2^-39 or so of the largest
-    /// coordinate. For many turns, and for poses whose R is off a rotation, it is more.
+    /// A tolerance close to rounding errors is raised to 2^-39 or so of the largest coordinate. It
+    /// is raised to more for many turns, and for poses whose R is not quite a rotation.
     double tolerance = 0;
     /// The search ends after so many distance queries that advance it.
     std::uint32_t most_steps = 256;
@@ -55,13 +55,14 @@ struct Impact {
 
 /// Returns when two moving models first touch: an interval of time that holds the first contact.
 ///
-/// Surfaces are those of Placement::world() of the poses that Motion::at() returns. At each time
-/// before `lower`, given as a double, they are apart. At `upper` they touch, as collide() finds. So
+/// The models are placed by Placement::world(), with the poses of Motion::at(). At each time before
+/// `lower`, given as a double, they are apart. At `upper` they touch, as collide() finds. So
 /// nothing passes through unseen, however fast or thin it is. If they touch at time 0, both bounds
 /// are 0. With Body::solid, a model inside the other also touches it at time 0.
 ///
-/// An end at the tolerance without a contact is `near`: the models may pass each other closely, or
-/// touch later. A solver treats it as an impact at `lower`. An empty model touches nothing.
+/// If the search ends at the tolerance without a contact, the kind is `near`. The models may then
+/// pass each other closely, or touch later. A solver treats it as an impact at `lower`. An empty
+/// model touches nothing.
 ///
 /// Conservative advancement (Mirtich 1996): no point moves faster than a bound, so a distance gives
 /// a time without contact. Where the surfaces are close, each pair of triangles has a bound of its

@@ -13,34 +13,35 @@
 
 namespace cdprep {
 
-/// The room of a window.
+/// The capacity of a window.
 struct WindowLimits {
     std::uint32_t leaves = 0;  ///< the most leaves of 8 triangles; at least 1
 };
 
 /// What a window holds.
 struct WindowFill {
-    /// Everything of A at most this far from B is in the window, model units. Less than was asked
-    /// if the room is too small. Negative if not even everything at distance 0 has room: then the
+    /// Everything of A at most this far from B is in the window, model units. Less than requested
+    /// if the window is too small. Negative if not even everything at distance 0 fits: then the
     /// window is empty.
     double radius = -1;
     std::uint32_t leaves = 0;  ///< in the window
 };
 
 /// The part of a large model A near a small one, the probe, copied into the caller's memory. A slow
-/// loop fills it. A fast loop queries it instead of A, such as that of a haptic device at 1 kHz.
+/// loop fills it. A fast loop, such as that of a haptic device at 1 kHz, queries it instead of A.
 ///
 /// model() is a model like any other, with the positions, boxes and triangle numbers of A. The fast
-/// loop reads nothing else of A, so that A may deform meanwhile. When the window was filled, all
-/// that it lacks was farther than the radius from the probe. A point of the probe has moved at most
-/// the longest way since then, relative to A. So what the window lacks is farther than margin(),
-/// the radius minus the longest way. An answer about anything within margin() is that about A.
+/// loop reads nothing else of A, so A may deform meanwhile. At the fill, everything of A outside
+/// the window was farther than the radius from the probe. margin() is this radius, minus the
+/// largest displacement of a point of the probe since then, relative to A. So everything outside is
+/// still farther than margin() from the probe. An answer about anything within margin() is that
+/// about A.
 ///
 /// The window counts as open and torn, because its surface has a rim. It serves collide, overlap,
-/// distance, within, ray, closest and touch, for surfaces. A query is complete if it is about what
-/// is at most margin() from the probe. So overlaps() and collide() are complete if margin() >= 0,
-/// within() and pairs_within() if margin() >= the tolerance. distance() of this class says so
-/// itself.
+/// distance, within, ray, closest and touch, for surfaces. A query is complete if nothing farther
+/// than margin() from the probe can change its answer. So overlaps() and collide() are complete if
+/// margin() >= 0, within() and pairs_within() if margin() >= the tolerance. distance() of this
+/// class reports whether it is complete.
 ///
 /// Each fill() copies O(leaves) bytes: 430 for a leaf, or 1,000 if A keeps doubles. The caller
 /// keeps two windows: the slow loop fills one while the fast loop reads the other, as in
@@ -63,9 +64,9 @@ public:
     [[nodiscard]] static Result<std::size_t> bytes(const WindowLimits& limits);
 
     /// Makes an empty window. `memory` must start at a multiple of format::kSectionAlignment and
-    /// stay in place while the window lives. Writes all of it, so that later fills meet no page for
-    /// the first time. Allocates. Fails with `bad_argument` if `memory` is too small or misaligned,
-    /// or if there are no leaves, or more than kMostWindowLeaves.
+    /// stay in place while the window lives. Writes all of it, so that no later fill is the first
+    /// to touch a page. Allocates. Fails with `bad_argument` if `memory` is too small or
+    /// misaligned, or if there are no leaves, or more than kMostWindowLeaves.
     [[nodiscard]] static Result<Window> in(std::span<std::byte> memory, const WindowLimits& limits);
 
     Window(Window&&) noexcept;
@@ -73,10 +74,10 @@ public:
     ~Window();
 
     /// Fills the window with the leaves of pair.a that may be at most `radius` from pair.b, in
-    /// model units. If they have no room, tries smaller radii: half as often as needed, then up to
-    /// four between. Infinity asks for all leaves. Gives an empty window for a negative radius or
-    /// NaN. pair.a may be baked or live, or the model of another window. Reads no other part of
-    /// the pair.
+    /// model units. If they do not fit, halves the radius until they do, then tries four radii
+    /// between the last two. After 20 halvings it tries 0. Infinity asks for all leaves. Gives an
+    /// empty window for a negative radius or NaN. pair.a may be baked or live, or the model of
+    /// another window. Reads no other part of the pair.
     ///
     /// Needs Ask::distance of both models. Takes O(log n + leaves log m) time for n triangles of A
     /// and m of B. Never allocates.
@@ -89,9 +90,9 @@ public:
     [[nodiscard]] const Model& model() const noexcept;
 
     /// Returns the distance from the probe within which the window has everything of A, in model
-    /// units. It is the radius, minus the longest way of a point of the probe's box since the fill,
-    /// minus all rounding. A point's way is affine in the point, and length is convex. So the
-    /// longest way is that of a corner of the box. Either placement may be of any kind.
+    /// units. It is the radius, minus the largest displacement of a point of the probe's box since
+    /// the fill, minus rounding. The displacement of a point is affine in the point, and length is
+    /// convex. So the largest is that of a corner of the box. Either placement may be of any kind.
     ///
     /// Negative if the probe has moved too far. Minus infinity for another probe, or one that has
     /// deformed since. Infinity if A or the probe is empty. O(1).
@@ -100,11 +101,12 @@ public:
     /// Returns the distance of A, as it was when the window was filled, and pair.b. Requires that
     /// pair.a is model(): otherwise the program stops with a message.
     ///
-    /// Complete if bounded_distance() of the window is, and it or max_distance is less than
-    /// margin(). Then it is the answer about A, bit for bit if no errors are permitted. But if
-    /// triangles touch, it may name another pair of them. Otherwise the bounds are those of the
-    /// window, with `lower` at most margin(). Reads the same options, and needs the same Ask. Takes
-    /// as long as bounded_distance() of the window. Never allocates.
+    /// Complete if bounded_distance() of the window is, and the distance or max_distance is less
+    /// than margin(). Also complete if triangles touch, but then the answer may name another pair
+    /// that touches. Apart from that, a complete answer is the answer about A, bit for bit if no
+    /// errors are permitted. Otherwise the bounds are those of the window, with `lower` at most
+    /// margin(). Reads the same options, and needs the same Ask. Takes as long as
+    /// bounded_distance() of the window. Never allocates.
     [[nodiscard]] BoundedDistance distance(const Pair& pair, Workspace& workspace,
                                            const DistanceOptions& options = {},
                                            const DistanceBudget& budget = {}) const noexcept;

@@ -58,7 +58,7 @@ struct ConvexDistance {
 /// 1e-14. Here, options.relative_error is a share of upper. Without permitted errors, the limit is
 /// 1e-12 of upper plus 1e-14 of the size of A - B (convex_distance_laws_test). A - B is the
 /// Minkowski difference. Its size is the largest difference between a point of A and a point of B
-/// along an axis.
+/// along a coordinate axis.
 [[nodiscard]] std::optional<ConvexDistance> convex_distance(const ConvexPoints& a,
                                                             const ConvexPoints& b,
                                                             const Placement& placement,

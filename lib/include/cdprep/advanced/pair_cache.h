@@ -15,10 +15,10 @@ namespace cdprep {
 /// lower bound of the distance of the surfaces there: the gap. Until the models have moved by the
 /// gap relative to each other, they do not touch.
 ///
-/// Use one cache for each pair of models and thread, for any queries. A cache that was filled by
-/// another pair, or by a LiveModel before it changed, only costs time. Make a new cache if anything
-/// but a LiveModel changed a model's memory in place. The members belong to the library; all zero
-/// is a new cache.
+/// Use one cache for each pair of models and thread, for any queries. A cache from another pair, or
+/// from before a LiveModel changed, is safe but may save no time. Make a new cache if anything but
+/// a LiveModel changed a model's memory in place. The members belong to the library; all zero is a
+/// new cache.
 struct PairCache {
     std::uint32_t holds = 0;                   ///< bits: 1 pair, 2 placement, 4 the pair touched
     std::uint32_t triangle_a = 0;              ///< of the pair, tree order

@@ -38,7 +38,7 @@
  *   and so does a broad phase. A scene serves one call that changes it, or any number that read it.
  *   Nothing else is shared: there is no global state.
  * - Callbacks must return: they must not throw or call longjmp(). A visitor may run queries with
- * another workspace. A visitor runs in the caller's floating-point environment. No floating-point
+ *   another workspace. A visitor runs in the caller's floating-point environment. No floating-point
  *   environment changes an answer.
  * - Null is refused, except where a comment allows it. An invalid pointer can crash a call, such as
  *   one to a closed model. So can a damaged file with CDPREP_MAP_TRUSTED, and a mapped file that is

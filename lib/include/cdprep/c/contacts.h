@@ -72,11 +72,13 @@ typedef struct cdprep_contact_options {
     uint32_t most;     /* 256: the maximum length of a list, 1 to 256 */
     /* 0: no limit; otherwise the maximum work. Each pair of near triangles counts 1. Each contact
      * counts 32 and, between two pieces, 1 for every 8 of their triangles. The search for near
-     * triangles takes at most half of the work, and the last contact may exceed it. If the work
-     * allows all contacts and `most` fewer than half of them, closer bounds of depths count 8. */
+     * triangles takes at most half of the work. The last contact may exceed the work. If the work
+     * allows all contacts, and `most` fewer than half of them, some depths are bounded more closely
+     * first. Each such bound counts 8. */
     uint64_t work;
-    /* 0: no clusters. Otherwise joins contacts that are linked by common pieces and whose normals
-     * differ by at most this, in radians. A joined contact has at most four points. */
+    /* 0: no clusters. Otherwise joins contacts that are linked by common pieces. Their normals
+     * differ from the normal of the deepest by at most this, in radians. A joined contact has at
+     * most four points. */
     double cluster_angle;
 } cdprep_contact_options;
 
@@ -93,7 +95,8 @@ CDPREP_API void cdprep_contact_options_init(cdprep_contact_options* options, siz
  * own. No such contact is made if any triangles of the two models touch. Moving B by -lower along
  * the normal frees the component, and no translation shorter than -upper does. The translation
  * leads out of convex hulls that enclose the other model. If that model serves CDPREP_ASK_HULLS,
- * these hulls are its parts or, without parts, its whole hull. Otherwise, the only one is its box.
+ * these hulls are its parts or, without parts, its whole hull. Otherwise, the only hull is its
+ * bounding box.
  * Uses body, degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Takes the time of cdprep_pairs_within(), plus 5 to 10 microseconds per contact that is computed.
  * CDPREP_SOLID adds the time of cdprep_containment().

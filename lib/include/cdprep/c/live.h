@@ -34,15 +34,16 @@ CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size
  * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_live_size() bytes.
  * With null memory of size 0, the allocator makes one allocation of that size. In addition, the
  * model takes about 1 KiB of the heap. Takes O(n) time, and O(n log n) with max_triangles. No later
- * call but cdprep_live_end() allocates or frees memory, except to report an error. Do not ask for
- * many more triangles than will come: they spread over all places, and queries take longer.
+ * call but cdprep_live_end() allocates or frees memory, except to report an error. Do not set
+ * max_triangles far above the number that comes: triangles are spread over all places, and queries
+ * get slower.
  *
  * Errors:
  * - CDPREP_WHY_NULL: no base.
  * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: the base does not serve CDPREP_ASK_OVERLAP.
  * - CDPREP_WHY_OUT_OF_RANGE: max_triangles or max_vertices is less than the base has, or too many.
- *   Or the base has vertices that a repair made, or two with one number. Or `memory` is not
- *   aligned.
+ *   Or the base has vertices that a repair made, or two vertices with the same number. Or `memory`
+ *   is not aligned.
  * - CDPREP_WHY_NO_MEANING: max_vertices without max_triangles, or an allocator in addition to
  *   memory.
  * - CDPREP_WHY_TOO_SMALL: `size` is less than cdprep_live_size() stores.
@@ -74,15 +75,15 @@ typedef struct cdprep_live_move {
 CDPREP_API void cdprep_live_move_init(cdprep_live_move* moved, size_t size);
 
 /* Moves vertices, which are numbered as in the mesh from which the base was made. Without
- * moved.vertices, all are moved. Then each number needs a position, up to the last one that has
- * one. Query results are then those of a model built from the new positions. They do not
- * depend on the number of lanes, which share the work. If a vertex is listed twice, the last
+ * moved.vertices, all are moved. Then every number up to that of the last vertex with a position
+ * needs a position. Query results are then those of a model built from the new positions. They do
+ * not depend on the number of lanes, which share the work. If a vertex is listed twice, the last
  * position counts. A pair cache of the model stays valid.
  *
  * With max_triangles, a vertex that no triangle uses may get its first position. Takes O(n) time;
  * with moved.vertices, O(m log n) for m triangles at these vertices. Takes O(n) then only in three
  * cases. A vertex leaves a cube of about twice the model's size. Or the model has become much
- * smaller than that cube. Or the first or last coordinate comes that is not a float.
+ * smaller than that cube. Or the first coordinate that is not a float comes, or the last one goes.
  *
  * On failure, nothing changes. Errors:
  * - CDPREP_WHY_NULL: no positions.
@@ -96,8 +97,8 @@ CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* move
                                  cdprep_workspace* workspace, cdprep_error* error);
 
 /* Adds `count` triangles: 3 vertices each, numbered as in cdprep_live_refit(). *first is the number
- * of the first; the others follow. Answers name a triangle by its number, which no other ever gets.
- * Takes O(m log^2 n) time for m triangles, amortised.
+ * of the first; the others get the next numbers. Answers name a triangle by its number, which is
+ * never used again. Takes O(m log^2 n) time for m triangles, amortised.
  *
  * On failure, nothing changes and *first is CDPREP_NONE. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.
@@ -118,9 +119,10 @@ CDPREP_API int cdprep_live_append(cdprep_live* live, const uint32_t* triangles, 
 CDPREP_API int cdprep_live_remove(cdprep_live* live, const uint32_t* numbers, size_t count,
                                   cdprep_error* error);
 
-/* Distributes triangles anew where the boxes have grown, so that queries stay fast. Takes up to
- * `most_triangles` of them, in groups of about 4,096. *taken is how many. Answers stay the same.
- * See LiveModel::rebuild(). Takes O(nodes) time, and 100 ns or so for each triangle taken.
+/* Rebuilds subtrees of the BVH whose boxes have grown, so that queries stay fast. Takes up to
+ * `most_triangles` triangles, in groups of about 4,096. *taken is the number taken. Answers stay
+ * the same. See LiveModel::rebuild(). Takes O(nodes) time, and 100 ns or so for each triangle
+ * taken.
  * Errors: CDPREP_WHY_BUSY: another call changes the live model. */
 CDPREP_API int cdprep_live_rebuild(cdprep_live* live, uint32_t most_triangles, uint32_t* taken,
                                    cdprep_error* error);

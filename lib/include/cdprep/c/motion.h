@@ -16,7 +16,7 @@ enum {
  * centre, moves along a straight line at constant speed. The model turns about it, about a fixed
  * axis at constant speed. The centre of mass is a good centre for a free body. The joint is one for
  * a part that turns about it. A centre far outside the model makes the query slow.
- * cdprep_moving_pair_init() makes motions without motion, to be filled in. */
+ * cdprep_moving_pair_init() makes motions that stay at the identity, to be filled in. */
 typedef struct cdprep_motion {
     cdprep_pose start;
     cdprep_pose end;  /* used only by CDPREP_MOTION_POSES; otherwise the identity */
@@ -42,7 +42,7 @@ typedef struct cdprep_moving_pair {
     uint32_t most_steps; /* 256: the search ends after so many distance queries */
     /* 0. The search ends when no point moves farther than this between `lower` and `upper`,
      * relative to the other model. It also ends when the surfaces are this near and no time of
-     * contact is found. Model units; less than the rounding of coordinates counts as that. */
+     * contact is found. Model units. A tolerance close to rounding errors is raised. */
     double tolerance;
     cdprep_motion motion_a, motion_b; /* no motion, at the identity */
 } cdprep_moving_pair;
@@ -71,8 +71,8 @@ typedef struct cdprep_impact {
  * unseen, however fast or thin it is. If the models touch at time 0, both are 0. A solid inside the
  * other also touches it then. On failure, `kind` is CDPREP_IMPACT_UNKNOWN.
  *
- * An end at the tolerance without a contact is CDPREP_IMPACT_NEAR: the models may pass each other
- * closely, or touch later. A solver treats it as an impact at `lower`.
+ * If the search ends at the tolerance without a contact, `kind` is CDPREP_IMPACT_NEAR. The models
+ * may then pass each other closely, or touch later. A solver treats it as an impact at `lower`.
  *
  * Takes a distance query for each step. Models that pass at a distance take 2 or 3 steps, an impact
  * takes 10 or so. Never allocates.
@@ -81,12 +81,12 @@ typedef struct cdprep_impact {
 CDPREP_API int cdprep_time_of_impact(const cdprep_moving_pair* pair, cdprep_workspace* workspace,
                                      cdprep_impact* impact, cdprep_error* error);
 
-/* The space through which a deforming model passes during a step: boxes around the way of each of
+/* The space through which a deforming model passes during a step: boxes around the path of each of
  * its triangles. Each vertex moves along a straight line, at constant speed. So a triangle that
  * jumps over a thin object in one step is not lost. Call cdprep_sweep_start_step(), move the model,
- * call cdprep_sweep_finish_step(), then ask. While one of these calls runs, the others fail with
- * CDPREP_WHY_BUSY. No query about the sweep may run from the first to the end of the second: this
- * is not checked. */
+ * call cdprep_sweep_finish_step(), then query. While one of these calls runs, the others fail with
+ * CDPREP_WHY_BUSY. No query about the sweep may run from the first call until the second returns:
+ * this is not checked. */
 typedef struct cdprep_sweep cdprep_sweep;
 
 /* Stores the number of bytes that cdprep_sweep_make() needs: 24 per vertex and about 4
@@ -113,8 +113,8 @@ CDPREP_API void cdprep_sweep_end(cdprep_sweep* sweep);
 CDPREP_API int cdprep_sweep_start_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Completes the step: the positions of the model are those at time 1. A triangle that was appended
- * within the step begins where its vertices were. Vertices without positions were at the origin.
- * Takes O(n) time. */
+ * within the step starts at its vertices' positions at time 0. Vertices that had none start at the
+ * origin. Takes O(n) time. */
 CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Both functions find the pairs of triangles that may touch during the step. Triangle `a` is of the
@@ -123,10 +123,10 @@ CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error
  * the order of (a, b). If there is too little room, it keeps the smallest pairs.
  *
  * CDPREP_NO is proven: no triangles touch at any time of the step. CDPREP_YES says that the convex
- * hull of a triangle's way comes near a triangle of the other model. The way is seen from that
- * model. It does not say whether they touch, nor when, nor that one model is inside the other. A
- * step of less motion gives fewer false alarms. If the other model turns by more than a quarter of
- * a radian, the step is tested in parts. There are 64 at most.
+ * hull of a triangle's path comes near a triangle of the other model. The path is relative to that
+ * model. It is not known whether they touch, or when. Containment is not tested. A step of less
+ * motion gives fewer false alarms. If the other model turns by more than a quarter of a radian, the
+ * step is tested in parts. There are 64 at most.
  *
  * Takes as long as cdprep_within() with a tolerance of half of the motion. Each pair of triangles
  * near each other takes about 1 us more for each part. Never allocates.

@@ -283,8 +283,9 @@ CDPREP_API void cdprep_self_query_init(cdprep_self_query* query, size_t size);
  * Both are triangles of the model, a < b. If there are more pairs than `room`, the list keeps the
  * smallest pairs. Exact, for the model's own positions.
  * Triangles share a vertex if they use one vertex number of the model. A bake merges vertices with
- * equal positions. Vertices of a live model that come to one position later stay two, and triangles
- * at them touch. A model built or baked for CDPREP_ASK_OVERLAP alone may lack these numbers.
+ * equal positions. Two vertices of a live model may come to one position later. They stay two, so
+ * triangles at them then touch. A model built or baked for CDPREP_ASK_OVERLAP alone may lack these
+ * numbers.
  * Takes O(n + pairs) time for typical meshes, O(n^2) in the worst case.
  * Needs: CDPREP_ASK_OVERLAP, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_self_overlaps(const cdprep_self_query* query, cdprep_workspace* workspace,

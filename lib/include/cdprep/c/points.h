@@ -81,7 +81,7 @@ typedef struct cdprep_ray_hit_list {
 typedef int (*cdprep_ray_visitor)(void* context, const cdprep_ray_hit* hit);
 
 /* Stores the first hit of each ray; `hits` must have room for `count` results. Each hit is decided
- * exactly. Edges and vertices belong to a triangle, so no ray passes between two triangles that
+ * exactly. A triangle includes its edges and vertices, so no ray passes between two triangles that
  * share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits where it
  * enters. t is rounded. So either of two hits with nearly equal t may be the first. A hit near
  * max_t may be accepted or rejected. Takes O(log n) time for most rays.

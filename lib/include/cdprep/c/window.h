@@ -49,7 +49,7 @@ CDPREP_API void cdprep_window_end(cdprep_window* window);
 /* Returns the model to query; null of null. It is the same object after each fill, and lives as
  * long as the window: do not close it. It serves CDPREP_ASK_COLLIDE, _OVERLAP, _DISTANCE, _WITHIN,
  * _RAY, _CLOSEST and _TOUCH. Its triangles have the numbers of the large model. A query is complete
- * if it is about what is at most cdprep_window_margin() from the probe. */
+ * if nothing farther than cdprep_window_margin() from the probe can change its answer. */
 CDPREP_API const cdprep_model* cdprep_window_model(const cdprep_window* window);
 
 typedef struct cdprep_window_info {
@@ -59,7 +59,7 @@ typedef struct cdprep_window_info {
 } cdprep_window_info;
 
 /* Fills a window with the leaves of pair.a that may be at most `radius` from pair.b, the probe. If
- * they have no room, the radius is smaller. `radius` must be at least 0; infinity asks for all
+ * they do not fit, the radius is smaller. `radius` must be at least 0; infinity asks for all
  * leaves, and is then stored as 2^1000. Uses only the models and their placement.
  * Takes O(log n + leaves log m) time for n triangles of A and m of B.
  * On failure, the window is as before, and *info is all 0. Errors: those of cdprep_distance().
@@ -69,10 +69,10 @@ CDPREP_API int cdprep_window_fill(cdprep_window* window, const cdprep_pair* pair
                                   cdprep_window_info* info, cdprep_error* error);
 
 /* Stores the distance from pair.b within which a window has everything of the large model. pair.a
- * is the window's model. The margin is the radius, minus the longest way of a point of the probe
- * since the fill, minus rounding. It is negative if the probe has moved too far. It is -2^1000 if
- * pair.b is another probe than that of the last fill, or has deformed since. It is 2^1000 if
- * nothing can be missing. O(1).
+ * is the window's model. The margin is the radius, minus the largest displacement of a point of the
+ * probe since the fill, minus rounding. It is negative if the probe has moved too far. It is
+ * -2^1000 if pair.b is another probe than that of the last fill, or has deformed since. It is
+ * 2^1000 if nothing can be missing. O(1).
  * Errors: those of cdprep_distance(). CDPREP_WHY_OUT_OF_RANGE: pair.a is no window's model.
  * CDPREP_WHY_BUSY: the window is being filled.
  * Needs: CDPREP_ASK_DISTANCE */
@@ -80,9 +80,9 @@ CDPREP_API int cdprep_window_margin(const cdprep_pair* pair, double* margin, cdp
 
 /* Stores the distance of pair.b from the large model, as that was when the window was filled.
  * pair.a is the window's model. Does what cdprep_distance_bounded() does. But the answer is
- * complete only if the distance is less than the margin. Then it is the answer about the large
- * model, but may name another pair of triangles that touch. Otherwise `lower` is at most the
- * margin.
+ * complete only if the distance or max_distance is less than the margin, or triangles touch. Then
+ * it is the answer about the large model, but may name another pair of triangles that touch.
+ * Otherwise `lower` is at most the margin.
  * Errors: those of cdprep_distance_bounded() and cdprep_window_margin().
  * Needs: CDPREP_ASK_DISTANCE */
 CDPREP_API int cdprep_window_distance(const cdprep_pair* pair,
