@@ -222,6 +222,11 @@ static_assert(CDPREP_ASK_COLLIDE == static_cast<unsigned>(cdprep::Ask::collide) 
               CDPREP_ASK_WITHIN == static_cast<unsigned>(cdprep::Ask::within) &&
               CDPREP_ASK_CONTACTS == static_cast<unsigned>(cdprep::Ask::contacts) &&
               CDPREP_ASK_RESPONSE == static_cast<unsigned>(cdprep::Ask::response) &&
+              CDPREP_ASK_CONTINUOUS == static_cast<unsigned>(cdprep::Ask::continuous) &&
+              CDPREP_ASK_SELF == static_cast<unsigned>(cdprep::Ask::self) &&
+              CDPREP_ASK_DEFORM == static_cast<unsigned>(cdprep::Ask::deform) &&
+              CDPREP_ASK_TEAR == static_cast<unsigned>(cdprep::Ask::tear) &&
+              CDPREP_ASK_HAPTIC == static_cast<unsigned>(cdprep::Ask::haptic) &&
               CDPREP_ASK_INSIDE == static_cast<unsigned>(cdprep::Ask::inside) &&
               CDPREP_ASK_RAY == static_cast<unsigned>(cdprep::Ask::ray) &&
               CDPREP_ASK_CLOSEST == static_cast<unsigned>(cdprep::Ask::closest) &&

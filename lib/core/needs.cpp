@@ -28,6 +28,9 @@ constexpr SectionSet kSource = {
 constexpr SectionSet kBvh = {SectionId::bvh_nodes};
 constexpr SectionSet kPair = {SectionId::bvh_nodes, SectionId::bvh_leaves};
 constexpr SectionSet kNumbered = {SectionId::source_triangle};
+/// The sections from which a live model starts.
+constexpr SectionSet kLive = {SectionId::bvh_nodes, SectionId::bvh_leaves, SectionId::triangles,
+                              SectionId::source_triangle, SectionId::source_vertex};
 
 constexpr SectionSet kOctree = {SectionId::octree_grid, SectionId::octree_nodes,
                                 SectionId::octree_references};
@@ -54,7 +57,7 @@ constexpr SectionSet kContacts = {SectionId::piece_adjacency, SectionId::edge_co
 
 // Queries that return triangles require source numbers: a number in tree order would be a wrong
 // answer.
-constexpr std::array<Needs, 19> kNeeds = {{
+constexpr std::array<Needs, 24> kNeeds = {{
     {Ask::collide, "collide", "--effects collide", kPair, Vertices::corners,
      with(with(kGeometry, kTighter), {SectionId::components})},
     {Ask::overlap, "overlap", "--effects overlap", with(kPair, kNumbered), Vertices::corners,
@@ -73,6 +76,16 @@ constexpr std::array<Needs, 19> kNeeds = {{
      {SectionId::mass_properties},
      Vertices::none,
      {}},
+    {Ask::continuous, "continuous", "--effects continuous", with(kPair, kNumbered),
+     Vertices::corners, with(with(kGeometry, kTighter), kSource)},
+    {Ask::self, "self", "--effects self", with(with(kPair, kNumbered), {SectionId::triangles}),
+     Vertices::positions, with(with(kGeometry, kTighter), kSource)},
+    {Ask::deform, "deform", "--effects deform", kLive, Vertices::positions,
+     with(kGeometry, {SectionId::components})},
+    {Ask::tear, "tear", "--effects tear", kLive, Vertices::positions,
+     with(kGeometry, {SectionId::components})},
+    {Ask::haptic, "haptic", "--effects haptic", with(kPair, kNumbered), Vertices::corners,
+     with(with(kGeometry, kTighter), kSource)},
     {Ask::inside, "inside", "--effects inside", kBvh, Vertices::corners,
      with(kGeometry, {SectionId::components})},
     {Ask::ray, "ray", "--effects ray", with(kBvh, kNumbered), Vertices::corners,

@@ -11,8 +11,8 @@
 namespace cdprep {
 
 /// The features of a model, one bit each. A feature is a query, another effect, or a structure that
-/// a query may use. Values are never reused. Bits 6 to 10, 19 and 24 to 29 are reserved for effects
-/// that are not built yet.
+/// a query may use. Values are never reused. Bits 19 and 24 to 29 are reserved for what is not
+/// built yet.
 enum class Ask : std::uint32_t {
     nothing = 0,
     collide = 1U << 0,
@@ -20,7 +20,12 @@ enum class Ask : std::uint32_t {
     distance = 1U << 2,
     within = 1U << 3,
     contacts = 1U << 4,
-    response = 1U << 5,  ///< mass properties
+    response = 1U << 5,    ///< mass properties
+    continuous = 1U << 6,  ///< the time of impact of two models that move
+    self = 1U << 7,        ///< overlaps of a model with itself
+    deform = 1U << 8,      ///< to become a LiveModel
+    tear = 1U << 9,        ///< to become a LiveModel that can tear
+    haptic = 1U << 10,     ///< distances within a limit of work
     inside = 1U << 11,
     ray = 1U << 12,
     closest = 1U << 13,

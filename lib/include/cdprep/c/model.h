@@ -17,7 +17,11 @@ enum {
     CDPREP_ASK_WITHIN = 1 << 3,
     CDPREP_ASK_CONTACTS = 1 << 4,
     CDPREP_ASK_RESPONSE = 1 << 5, /* mass properties */
-    /* 6 to 10: scenes and live models; this version refuses them */
+    CDPREP_ASK_CONTINUOUS = 1 << 6, /* the time of impact of two models that move */
+    CDPREP_ASK_SELF = 1 << 7,       /* overlaps of a model with itself */
+    CDPREP_ASK_DEFORM = 1 << 8,     /* to become a live model */
+    CDPREP_ASK_TEAR = 1 << 9,       /* to become a live model that can tear */
+    CDPREP_ASK_HAPTIC = 1 << 10,    /* distances within a limit of work */
     CDPREP_ASK_INSIDE = 1 << 11,
     CDPREP_ASK_RAY = 1 << 12,
     CDPREP_ASK_CLOSEST = 1 << 13,
