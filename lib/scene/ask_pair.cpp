@@ -1,15 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include "scene/ask_pair.h"
 
+#include <array>
 #include <optional>
+
+#include "cdprep/self.h"
+#include "scene/object_box.h"
 
 namespace cdprep {
 namespace {
 
+/// Runs a query and adds its time to those of its effect.
+template <class Query>
+void timed(const ListWriters& lists, Ask effect, const Query& query) noexcept {
+    if (lists.clock == nullptr) return query();
+    const std::uint64_t begin = lists.clock();
+    query();
+    lists.ticks[effect_number(effect)] += lists.clock() - begin;
+}
+
+/// The way of an object, or nothing if it is too long to compute.
+std::optional<Motion> motion_of(const Model& model, const Pose& start, const Pose& end) noexcept {
+    const Result<Motion> motion = Motion::between(start, end, middle_of(model));
+    return motion ? std::optional(*motion) : std::nullopt;
+}
+
 class PairQueries {
 public:
     PairQueries(const PairQuestion& question, Workspace& workspace, PairAnswer& answer) noexcept
-        : pair_(question.pair), asks_(question.asks), workspace_(workspace), answer_(answer) {}
+        : question_(question),
+          pair_(question.pair),
+          asks_(question.asks),
+          workspace_(workspace),
+          answer_(answer) {}
 
     // The later ones use what the earlier ones have found.
     void overlap(ListPages<TrianglePair>::Writer& list) noexcept {
@@ -66,6 +89,32 @@ public:
         hold(Ask::contacts, answer_.contacts.count > 0);
     }
 
+    void continuous() noexcept {
+        call(Ask::continuous);
+        const Model &a = pair_.a, &b = pair_.b;
+        const auto motion_a = motion_of(a, question_.last_a, pair_.placement.pose_a());
+        const auto motion_b = motion_of(b, question_.last_b, pair_.placement.pose_b());
+        Impact& impact = answer_.impact;
+        if (motion_a && motion_b) {
+            impact =
+                time_of_impact({a, b, *motion_a, *motion_b, asks_.body}, workspace_, asks_.impact);
+        } else {
+            impact.kind = ImpactKind::unfinished;  // nothing is proved
+            impact.lower = 0;
+        }
+        hold(Ask::continuous, impact.kind != ImpactKind::none);
+    }
+
+    void haptic() noexcept {
+        call(Ask::haptic);
+        HapticRecord& record = *question_.haptic;
+        Pair cached = pair_;
+        cached.cache = &record.cache;
+        record.found = bounded_distance(cached, workspace_, {.max_distance = asks_.max_distance},
+                                        {.work = asks_.work, .last = &record.last});
+        hold(Ask::haptic, record.found.lower <= asks_.max_distance);
+    }
+
 private:
     void call(Ask effect) noexcept {
         answer_.called = answer_.called | effect;
@@ -107,6 +156,7 @@ private:
         return is_near ? std::optional(true) : std::nullopt;
     }
 
+    const PairQuestion& question_;
     const Pair& pair_;
     const LayerPair& asks_;
     Workspace& workspace_;
@@ -121,11 +171,31 @@ PairAnswer ask_pair(const PairQuestion& question, Workspace& workspace,
     PairAnswer answer;
     answer.touched = question.touched;
     PairQueries queries(question, workspace, answer);
-    if (contains(effects, Ask::overlap)) queries.overlap(*lists.triangle_pairs);
-    if (contains(effects, Ask::distance)) queries.distance();
-    if (contains(effects, Ask::collide)) queries.collide();
-    if (contains(effects, Ask::within)) queries.within();
-    if (contains(effects, Ask::contacts)) queries.contacts(lists);
+    const auto ask = [&](Ask effect, const auto& query) {
+        if (contains(effects, effect)) timed(lists, effect, query);
+    };
+    ask(Ask::overlap, [&] { queries.overlap(*lists.triangle_pairs); });
+    ask(Ask::distance, [&] { queries.distance(); });
+    ask(Ask::collide, [&] { queries.collide(); });
+    ask(Ask::within, [&] { queries.within(); });
+    ask(Ask::contacts, [&] { queries.contacts(lists); });
+    ask(Ask::continuous, [&] { queries.continuous(); });
+    ask(Ask::haptic, [&] { queries.haptic(); });
+    return answer;
+}
+
+PairAnswer ask_self(const Model& model, Workspace& workspace, const ListWriters& lists) noexcept {
+    PairAnswer answer;
+    answer.called = Ask::self;
+    timed(lists, Ask::self, [&] {
+        const auto add = [&](const TrianglePair& found) {
+            lists.triangle_pairs->add(found);
+            ++answer.overlapping;
+            return true;
+        };
+        visit_self_overlaps(model, workspace, add);
+    });
+    if (answer.overlapping > 0) answer.holds = Ask::self;
     return answer;
 }
 

@@ -6,17 +6,20 @@
 
 #include "cdprep/contacts.h"
 #include "cdprep/pairs.h"
-#include "cdprep/plan.h"
+#include "cdprep/scene.h"
 #include "scene/list_pages.h"
+#include "scene/scene_records.h"
 #include "walk/find_contact.h"
 
 namespace cdprep {
 
-/// Where one thread writes its lists.
+/// Where one thread writes its lists and its times.
 struct ListWriters {
     ListPages<TrianglePair>::Writer* triangle_pairs;  ///< null: nothing asks for them
     ListPages<Contact>::Writer* contacts;             ///< null: as above
     std::span<Contact> contact_room;                  ///< for the contacts of two objects
+    SceneClock clock;                                 ///< null: no times
+    std::uint64_t* ticks;                             ///< by effect
 };
 
 /// What is asked of two objects.
@@ -24,7 +27,10 @@ struct PairQuestion {
     const Pair& pair;
     const LayerPair& asks;  ///< the options of the effects
     Ask effects;
-    TreePair touched;  ///< triangles that touched in the last step, or kNoPair
+    TreePair touched;    ///< triangles that touched in the last step, or kNoPair
+    const Pose& last_a;  ///< the poses at the begin of the step, of `continuous`
+    const Pose& last_b;
+    HapticRecord* haptic;  ///< of `haptic`, otherwise null
 };
 
 /// What is known of two objects.
@@ -33,12 +39,17 @@ struct PairAnswer {
     Ask called = Ask::nothing;  ///< effects whose query was called; others followed from these
     Collision collision;
     Distance distance{};            ///< if `distance` holds
+    Impact impact{};                ///< of `continuous`
     ContactsVerdict contacts{};     ///< of the list of contacts
     std::uint64_t overlapping = 0;  ///< triangle pairs in the list
     TreePair touched = kNoPair;     ///< triangles found to touch
 };
 
 [[nodiscard]] PairAnswer ask_pair(const PairQuestion& question, Workspace& workspace,
+                                  const ListWriters& lists) noexcept;
+
+/// Finds the triangles of one object that overlap each other.
+[[nodiscard]] PairAnswer ask_self(const Model& model, Workspace& workspace,
                                   const ListWriters& lists) noexcept;
 
 }  // namespace cdprep

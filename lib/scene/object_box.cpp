@@ -37,33 +37,78 @@ float rounded_up(double x) noexcept {
 constexpr double kSlack = 0x1p-37;
 constexpr double kLeast = std::numeric_limits<double>::min();
 
-RootBox placed_box(const Model& model, const Pose& world_from_model, double reach) noexcept {
-    const auto& nodes = model.bvh().nodes;
-    RootBox root{};
-    root.half = {-1, -1, -1};
-    if (nodes.empty()) return root;
+namespace {
+
+struct Extent {
+    double middle;
+    double half;
+};
+
+/// The extent of the root node along an axis, in the model's coordinates.
+Extent root_extent(const Model& model, std::size_t axis) noexcept {
+    const auto& root = model.bvh().nodes[0];
     const format::FileHeader& header = model.header();
     const std::array<double, 3> origin = {header.frame_origin.x, header.frame_origin.y,
                                           header.frame_origin.z};
+    float lower = kLargest, upper = -kLargest;
+    for (std::size_t box = 0; box < format::kBvhWidth; ++box) {
+        if (root.lower[axis][box] > root.upper[axis][box]) continue;
+        lower = std::min(lower, root.lower[axis][box]);
+        upper = std::max(upper, root.upper[axis][box]);
+    }
+    const auto in_model = [&](double x) { return std::ldexp(x, -header.frame_exponent); };
+    return {origin[axis] + in_model((double{lower} + upper) / 2),
+            in_model((double{upper} - lower) / 2)};
+}
+
+}  // namespace
+
+RootBox placed_box(const Model& model, const Pose& world_from_model, double reach) noexcept {
+    RootBox root{};
+    root.half = {-1, -1, -1};
+    if (model.bvh().nodes.empty()) return root;
+    const format::Double3& origin = model.header().frame_origin;
     const Double3& t = world_from_model.translation();
     root.axes = world_from_model.rotation();
     root.middle = {t.x, t.y, t.z};
     root.size = std::abs(t.x) + std::abs(t.y) + std::abs(t.z) + reach;
+    root.size += std::abs(origin.x) + std::abs(origin.y) + std::abs(origin.z);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        float lower = kLargest, upper = -kLargest;
-        for (std::size_t box = 0; box < format::kBvhWidth; ++box) {
-            if (nodes[0].lower[axis][box] > nodes[0].upper[axis][box]) continue;
-            lower = std::min(lower, nodes[0].lower[axis][box]);
-            upper = std::max(upper, nodes[0].upper[axis][box]);
+        const Extent extent = root_extent(model, axis);
+        root.half[axis] = extent.half + reach;
+        root.size += std::abs(extent.middle) + root.half[axis];
+        for (std::size_t k = 0; k < 3; ++k) {
+            root.middle[k] += root.axes[3 * k + axis] * extent.middle;
         }
-        const auto in_model = [&](double x) { return std::ldexp(x, -header.frame_exponent); };
-        const double middle = origin[axis] + in_model((double{lower} + upper) / 2);
-        root.half[axis] = in_model((double{upper} - lower) / 2) + reach;
-        root.size += std::abs(origin[axis]) + std::abs(middle) + root.half[axis];
-        for (std::size_t k = 0; k < 3; ++k) root.middle[k] += root.axes[3 * k + axis] * middle;
     }
     for (double& half : root.half) half += kSlack * root.size + kLeast;
     return root;
+}
+
+Double3 middle_of(const Model& model) noexcept {
+    if (model.bvh().nodes.empty()) return {};
+    return {root_extent(model, 0).middle, root_extent(model, 1).middle,
+            root_extent(model, 2).middle};
+}
+
+// The model stays in a ball about its middle. Its middle is computed with an error that the slack
+// covers, as above.
+RootBox swept_box(const RootBox& start, const RootBox& end) noexcept {
+    if (start.half[0] < 0 || end.half[0] < 0) return end;
+    const auto radius = [](const RootBox& box) {
+        return std::hypot(box.half[0], box.half[1], box.half[2]);
+    };
+    const double most = std::max(radius(start), radius(end));
+    RootBox swept{};
+    swept.axes = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    swept.size = start.size + end.size + most;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double from = start.middle[axis], to = end.middle[axis];
+        swept.middle[axis] = from / 2 + to / 2;
+        swept.half[axis] = std::abs(to - from) / 2 + most;
+    }
+    for (double& half : swept.half) half += kSlack * swept.size + kLeast;
+    return swept;
 }
 
 WorldBox box_around(const RootBox& root, const Double3& origin) noexcept {

@@ -9,6 +9,7 @@
 #include "cdprep/format/float_environment.h"
 #include "core/layer_names.h"
 #include "core/number_text.h"
+#include "scene/scene_records.h"
 
 namespace cdprep {
 namespace {
@@ -21,8 +22,9 @@ bool has_any(Ask asks, Ask some) noexcept {
     return (asks & some) != Ask::nothing;
 }
 
-constexpr Ask kReadsBody = Ask::collide | Ask::distance | Ask::contacts;
+constexpr Ask kReadsBody = Ask::collide | Ask::distance | Ask::contacts | Ask::continuous;
 constexpr Ask kReadsOverlap = Ask::collide | Ask::overlap;
+constexpr Ask kReadsMaxDistance = Ask::distance | Ask::haptic;
 
 /// The name of an effect, or its bit if it has none.
 std::string name_of(Ask one) {
@@ -49,10 +51,12 @@ void for_each_bit(Ask asks, const Visit& visit) {
     }
 }
 
-/// What a pair of layers asks of the models: its effects, and Ask::solid for solid bodies.
+/// What a pair of layers asks of the models: its effects, and Ask::solid for solid bodies. Not all
+/// models of a layer whose models may change do change.
 Ask asks_of_models(const LayerPair& pair) noexcept {
-    const bool is_solid = pair.body == Body::solid && has_any(pair.effects, kReadsBody);
-    return is_solid ? pair.effects | Ask::solid : pair.effects;
+    const Ask effects = without(pair.effects, kSceneChanges);
+    const bool is_solid = pair.body == Body::solid && has_any(effects, kReadsBody);
+    return is_solid ? effects | Ask::solid : effects;
 }
 
 /// Collects the reasons why there is no plan.
@@ -106,20 +110,71 @@ private:
                 " are also those of pair " + std::to_string(other) + ".");
         }
         for_each_bit(pair.effects, [&](Ask one) {
+            if (contains(kSceneChanges, one)) return;
             if (std::find(kSceneEffects.begin(), kSceneEffects.end(), one) != kSceneEffects.end())
                 return;
             add(place + unbuilt_effect(name_of(one)));
         });
+        check_together(place, pair);
         check_number(place, "tolerance", pair.tolerance, has(pair.effects, Ask::within), "within");
-        check_number(place, "max_distance", pair.max_distance, has(pair.effects, Ask::distance),
-                     "distance");
+        check_number(place, "max_distance", pair.max_distance,
+                     has_any(pair.effects, kReadsMaxDistance), "distance or haptic");
         if (pair.body != Body::surface && !has_any(pair.effects, kReadsBody)) {
-            add(place + "body has no meaning without collide, distance or contacts.");
+            add(place + "body has no meaning without collide, distance, contacts or continuous.");
         }
         if (pair.overlap != Overlap::closed && !has_any(pair.effects, kReadsOverlap)) {
             add(place + "overlap has no meaning without collide or overlap.");
         }
         check_contacts(place, pair);
+        check_impact(place, pair);
+        check_work(place, pair);
+    }
+
+    /// Refuses effects that are not built together.
+    void check_together(const std::string& place, const LayerPair& pair) {
+        if (has_any(pair.effects, kSceneChanges)) {
+            if (has(pair.effects, Ask::contacts)) {
+                add(place +
+                    "contacts of models that deform or tear are not built: pieces do not "
+                    "follow the surface. Ask for overlap, within or distance.");
+            }
+            if (has(pair.effects, Ask::continuous)) {
+                add(place +
+                    "continuous is not built for models that deform or tear. Ask for "
+                    "within, or use a Sweep.");
+            }
+        }
+        if (has(pair.effects, Ask::self) && pair.a != pair.b) {
+            add(place +
+                "self is about single objects. Ask for it in a pair of one layer with "
+                "itself.");
+        }
+        if (!has(pair.effects, Ask::haptic)) return;
+        if (has(pair.effects, Ask::distance)) {
+            add(place +
+                "haptic is a distance within a limit of work. Ask for haptic or for "
+                "distance.");
+        }
+        if (pair.body == Body::solid) {
+            add(place + "haptic is about surfaces. Ask for distance of solids.");
+        }
+    }
+
+    void check_impact(const std::string& place, const LayerPair& pair) {
+        const bool is_read = has(pair.effects, Ask::continuous);
+        check_number(place, "impact.tolerance", pair.impact.tolerance, is_read, "continuous");
+        if (is_read && pair.impact.most_steps == 0) {
+            add(place + "impact.most_steps is 0; it must be at least 1.");
+        }
+        if (!is_read && pair.impact.most_steps != ImpactOptions().most_steps) {
+            add(place + "impact.most_steps has no meaning without continuous.");
+        }
+    }
+
+    void check_work(const std::string& place, const LayerPair& pair) {
+        const bool is_read = has(pair.effects, Ask::haptic);
+        if (is_read && pair.work == 0) add(place + "work is 0; haptic needs at least 1.");
+        if (!is_read && pair.work != 0) add(place + "work has no meaning without haptic.");
     }
 
     void check_contacts(const std::string& place, const LayerPair& pair) {
@@ -207,6 +262,12 @@ std::string effects_text(const LayerPair& pair) {
     const std::string proper = pair.overlap == Overlap::proper ? ", proper" : "";
     const bool has_overlap = has(pair.effects, Ask::overlap);
     const bool has_distance = has(pair.effects, Ask::distance);
+    if (has(pair.effects, Ask::tear)) {
+        add("models may tear" + std::string(solid.empty() ? "" : ", and are then no solids"));
+    } else if (has(pair.effects, Ask::deform)) {
+        add("models may deform");
+    }
+    if (has(pair.effects, Ask::self)) add("self (each object)");
     if (has(pair.effects, Ask::collide)) {
         add("collide" + solid + proper + source_of(pair));
     }
@@ -224,6 +285,13 @@ std::string effects_text(const LayerPair& pair) {
             (pair.contacts.cluster_angle == 0
                  ? ""
                  : ", clusters of " + number_text(pair.contacts.cluster_angle) + " radians"));
+    }
+    if (has(pair.effects, Ask::continuous)) {
+        add("continuous" + solid + " with tolerance " + number_text(pair.impact.tolerance));
+    }
+    if (has(pair.effects, Ask::haptic)) {
+        add("haptic up to " + number_text(pair.max_distance) + ", work " +
+            std::to_string(pair.work));
     }
     if (pair.lists_stays) add("events for what goes on");
     return effects;
@@ -275,9 +343,18 @@ Ask Plan::asks_of(std::uint32_t layer) const noexcept {
 BoxFilter Plan::filter_of(std::uint32_t layer) const noexcept {
     BoxFilter filter = {.layers = layer < kLayers ? 1U << layer : 0, .accepts = 0};
     for (std::uint32_t other = 0; other < kLayers; ++other) {
-        if (find_pair(layer, other)) filter.accepts |= 1U << other;
+        const auto pair = find_pair(layer, other);
+        if (pair && effects_between(pairs_[*pair]) != Ask::nothing) filter.accepts |= 1U << other;
     }
     return filter;
+}
+
+std::uint32_t Plan::layers_of(Ask effects) const noexcept {
+    std::uint32_t layers = 0;
+    for (const LayerPair& pair : pairs_) {
+        if (has_any(pair.effects, effects)) layers |= 1U << pair.a | 1U << pair.b;
+    }
+    return layers;
 }
 
 // Two boxes that each reach half the distance beyond their objects meet if the objects are near. No
@@ -286,7 +363,8 @@ double Plan::reach_of(std::uint32_t layer) const noexcept {
     double most = 0;
     for (const LayerPair& pair : pairs_) {
         if (pair.a == layer || pair.b == layer) {
-            most = std::max({most, pair.tolerance, pair.max_distance, pair.contacts.tolerance});
+            most = std::max({most, pair.tolerance, pair.max_distance, pair.contacts.tolerance,
+                             pair.impact.tolerance});
         }
     }
     return std::min(most / 2, 16 * format::kMaxCoordinate);
@@ -314,7 +392,8 @@ std::string Plan::describe() const {
     std::string apart;
     for (std::uint32_t a = 0; a < kLayers; ++a) {
         for (std::uint32_t b = a; b < kLayers; ++b) {
-            if ((layers >> a & layers >> b & 1) == 0 || find_pair(a, b)) continue;
+            if ((layers >> a & layers >> b & 1) == 0) continue;
+            if ((filter_of(a).accepts >> b & 1) != 0) continue;
             apart += (apart.empty() ? "" : ", ") + layers_text(layer_names_, a, b);
         }
     }

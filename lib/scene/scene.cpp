@@ -125,6 +125,7 @@ std::optional<ObjectId> Scene::add(const SceneObject& object) noexcept {
     place.model = object.model;
     place.pose = object.world_from_model;
     place.layer = place.last_layer = object.layer;
+    if (state.last_poses != nullptr) state.last_poses[slot] = object.world_from_model;
     if (++place.generation == 0) place.generation = 1;
     state.change(slot);
     ++state.object_count;
@@ -150,6 +151,12 @@ bool Scene::set_pose(ObjectId object, const Pose& world_from_model) noexcept {
     return true;
 }
 
+bool Scene::put(ObjectId object, const Pose& world_from_model) noexcept {
+    if (!set_pose(object, world_from_model)) return false;
+    if (state_->last_poses != nullptr) state_->last_poses[object.slot] = world_from_model;
+    return true;
+}
+
 bool Scene::set_layer(ObjectId object, std::uint32_t layer) noexcept {
     ObjectSlot* const found = state_->find(object);
     if (found == nullptr) return false;
@@ -163,6 +170,10 @@ bool Scene::set_layer(ObjectId object, std::uint32_t layer) noexcept {
 
 void Scene::set_paused(Ask effects) noexcept {
     state_->paused = effects & state_->planned;
+}
+
+void Scene::set_clock(SceneClock clock) noexcept {
+    state_->clock = clock;
 }
 
 SceneStep Scene::step(std::span<Workspace> workspaces, ParallelFor parallel_for) noexcept {
@@ -193,6 +204,15 @@ std::span<const SceneOverlaps> Scene::overlaps() const noexcept {
 std::span<const SceneContacts> Scene::contacts() const noexcept {
     return {state_->contacts, state_->contact_count};
 }
+std::span<const SceneSelfOverlaps> Scene::self_overlaps() const noexcept {
+    return {state_->self_overlaps, state_->self_overlap_count};
+}
+std::span<const SceneImpact> Scene::impacts() const noexcept {
+    return {state_->impacts, state_->impact_count};
+}
+std::span<const SceneBoundedDistance> Scene::bounded_distances() const noexcept {
+    return {state_->bounded_distances, state_->bounded_distance_count};
+}
 std::span<const SceneEvent> Scene::events() const noexcept {
     return {state_->events, state_->event_count};
 }
@@ -213,8 +233,8 @@ ObjectId Scene::object_at(std::uint32_t slot) const noexcept {
 }
 
 std::uint64_t SceneCounts::calls_of(Ask effect) const noexcept {
-    const auto at = std::find(kSceneEffects.begin(), kSceneEffects.end(), effect);
-    return at == kSceneEffects.end() ? 0 : calls[at - kSceneEffects.begin()];
+    const std::size_t number = effect_number(effect);
+    return number == kSceneEffects.size() ? 0 : calls[number];
 }
 
 std::uint64_t Scene::state_hash() const noexcept {
@@ -239,6 +259,26 @@ std::uint64_t Scene::state_hash() const noexcept {
         hash.add(std::uint64_t{found.triangles.size()});
         for (const TrianglePair& pair : found.triangles) hash.add(pair.a, pair.b);
     });
+    const auto add_own = [&](const SceneSelfOverlaps& found) {
+        hash.add(found.object);
+        hash.add(std::uint64_t{found.triangles.size()});
+        for (const TrianglePair& pair : found.triangles) hash.add(pair.a, pair.b);
+    };
+    for (const SceneSelfOverlaps& found : self_overlaps()) add_own(found);
+    for (const SceneImpact& found : impacts()) {
+        hash.add(found.a);
+        hash.add(found.b);
+        hash.add(static_cast<std::uint64_t>(found.impact.kind));
+        hash.add(found.impact.lower);
+        hash.add(found.impact.upper);
+    }
+    for (const SceneBoundedDistance& found : bounded_distances()) {
+        hash.add(found.a);
+        hash.add(found.b);
+        hash.add(std::uint64_t{found.distance.is_complete ? 1U : 0U});
+        hash.add(found.distance.lower);
+        hash.add(found.distance.upper);
+    }
     add_stream(distances(), [&](const SceneDistance& found) {
         hash.add(found.distance.lower);
         hash.add(found.distance.upper);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
+#include "cdprep/advanced/pair_cache.h"
+#include "cdprep/bounded_distance.h"
 #include "cdprep/broad_phase.h"
 #include "cdprep/contacts.h"
 #include "cdprep/pairs.h"
@@ -13,6 +16,24 @@
 
 namespace cdprep {
 
+/// The effects of a pair of layers that two objects are asked for.
+inline Ask effects_between(const LayerPair& pair) noexcept {
+    return without(pair.effects, Ask::self | kSceneChanges);
+}
+
+/// The place of an effect among kSceneEffects.
+inline std::size_t effect_number(Ask effect) noexcept {
+    const auto* const at = std::find(kSceneEffects.begin(), kSceneEffects.end(), effect);
+    return static_cast<std::size_t>(at - kSceneEffects.begin());
+}
+
+/// What `haptic` knows of two objects.
+struct HapticRecord {
+    BoundedDistance found;
+    LastDistance last;
+    PairCache cache;
+};
+
 /// The items of one record among those of all records.
 struct RecordList {
     std::size_t source = 0;   ///< of the first, where the step has it from
@@ -20,7 +41,7 @@ struct RecordList {
     std::uint32_t count = 0;
 };
 
-/// What is known of two objects whose boxes meet.
+/// What is known of two objects whose boxes meet, or of one object that is asked about itself.
 struct Record {
     ObjectId a;
     ObjectId b;
@@ -35,6 +56,9 @@ struct Record {
     bool is_new = false;    ///< looked at in this step
     bool is_apart = false;  ///< by the root boxes: nothing is asked
 
+    [[nodiscard]] bool is_of_one() const noexcept {
+        return a.slot == b.slot;
+    }
     [[nodiscard]] BoxPair slots() const noexcept {
         return {a.slot, b.slot};
     }
@@ -51,7 +75,9 @@ struct Records {
         const SceneLimits& limits = plan.limits();
         const Ask effects = plan.effects();
         if (contains(effects, Ask::distance)) distance = carver.take<Distance>(limits.pairs);
-        if (contains(effects, Ask::overlap)) {
+        if (contains(effects, Ask::continuous)) impact = carver.take<Impact>(limits.pairs);
+        if (contains(effects, Ask::haptic)) haptic = carver.take<HapticRecord>(limits.pairs);
+        if ((effects & (Ask::overlap | Ask::self)) != Ask::nothing) {
             triangle_pairs = carver.take<TrianglePair>(limits.triangle_pairs);
         }
         if (contains(effects, Ask::contacts)) {
@@ -63,6 +89,8 @@ struct Records {
     std::uint32_t count = 0;
     Record* record;
     Distance* distance = nullptr;        ///< by record
+    Impact* impact = nullptr;            ///< by record
+    HapticRecord* haptic = nullptr;      ///< by record
     ContactsVerdict* verdict = nullptr;  ///< by record
     TrianglePair* triangle_pairs = nullptr;
     Contact* contacts = nullptr;

@@ -21,6 +21,20 @@ void Scene::State::change(std::uint32_t slot) noexcept {
     if (!std::exchange(objects[slot].is_changed, true)) changed[changed_count++] = slot;
 }
 
+bool Scene::State::has_way(std::uint32_t slot) const noexcept {
+    const ObjectSlot& object = objects[slot];
+    if (last_poses == nullptr || (continuous_layers >> object.layer & 1) == 0) return false;
+    const Pose& last_pose = last_poses[slot];
+    return object.pose.rotation() != last_pose.rotation() ||
+           object.pose.translation() != last_pose.translation();
+}
+
+/// Whether the model has changed since the last step. An object that was added may have the model
+/// of the one that was in its slot.
+bool Scene::State::has_new_shape(std::uint32_t slot) const noexcept {
+    return shapes != nullptr && objects[slot].model->header().content_hash != shapes[slot];
+}
+
 /// Brings the box and the filter of a slot up to date.
 void Scene::State::place(std::uint32_t slot) noexcept {
     const ObjectSlot& object = objects[slot];
@@ -28,7 +42,12 @@ void Scene::State::place(std::uint32_t slot) noexcept {
         boxes[slot] = {{1, 1, 1}, {-1, -1, -1}};
         filters[slot] = {0, 0};
     } else {
-        roots[slot] = placed_box(*object.model, object.pose, plan->reach_of(object.layer));
+        const double reach = plan->reach_of(object.layer);
+        roots[slot] = placed_box(*object.model, object.pose, reach);
+        if (has_way(slot)) {
+            roots[slot] =
+                swept_box(placed_box(*object.model, last_poses[slot], reach), roots[slot]);
+        }
         boxes[slot] = box_around(roots[slot], plan->origin());
         filters[slot] = plan->filter_of(object.layer);
     }
@@ -36,17 +55,24 @@ void Scene::State::place(std::uint32_t slot) noexcept {
 
 void Scene::State::place_changed() noexcept {
     const format::FloatEnvironment environment;
+    for (std::uint32_t slot = 0; changing_layers != 0 && slot < plan->limits().objects; ++slot) {
+        const ObjectSlot& object = objects[slot];
+        if (object.model == nullptr || (changing_layers >> object.layer & 1) == 0) continue;
+        if (has_new_shape(slot)) change(slot);
+    }
     for (std::uint32_t i = 0; i < changed_count; ++i) place(changed[i]);
 }
 
 // Candidates --------------------------------------------------------------------------------------
 
 bool Scene::State::is_changed(const Record& record) const noexcept {
+    if (record.is_of_one()) return has_new_shape(record.a.slot);
     return objects[record.a.slot].is_changed || objects[record.b.slot].is_changed;
 }
 
 void Scene::State::add_candidate(BoxPair slots) noexcept {
     const ObjectSlot &a = objects[slots.a], &b = objects[slots.b];
+    if (next.haptic != nullptr) next.haptic[next.count] = HapticRecord();
     Record& record = next.record[next.count++];
     record = Record{.a = {slots.a, a.generation},
                     .b = {slots.b, b.generation},
@@ -57,14 +83,47 @@ void Scene::State::add_candidate(BoxPair slots) noexcept {
                     .is_new = true};
 }
 
+/// Returns the first slot from this one on whose object is asked about itself, or the number of
+/// slots.
+std::uint32_t Scene::State::next_self(std::uint32_t slot) const noexcept {
+    const std::uint32_t count = plan->limits().objects;
+    if (self_layers == 0) return count;
+    const auto is_asked = [&](const ObjectSlot& object) {
+        return object.model != nullptr && (self_layers >> object.layer & 1) != 0;
+    };
+    return static_cast<std::uint32_t>(std::find_if(objects + slot, objects + count, is_asked) -
+                                      objects);
+}
+
+std::uint64_t Scene::State::self_count() const noexcept {
+    std::uint64_t count = 0;
+    const std::uint32_t end = plan->limits().objects;
+    for (std::uint32_t slot = next_self(0); slot < end; slot = next_self(slot + 1)) ++count;
+    return count;
+}
+
+/// Fills `next` with records of these pairs and of the objects that are asked about themselves, in
+/// the order of slots. Returns how many there are. If they do not fit, there are none.
+std::uint64_t Scene::State::list_candidates(std::span<const BoxPair> candidates) noexcept {
+    next.count = 0;
+    const std::uint64_t count = candidates.size() + self_count();
+    if (count > plan->limits().pairs) return count;
+    std::uint32_t slot = next_self(0);
+    for (const BoxPair pair : candidates) {
+        for (; slot <= pair.a; slot = next_self(slot + 1)) add_candidate({slot, slot});
+        add_candidate(pair);
+    }
+    for (; slot < plan->limits().objects; slot = next_self(slot + 1)) add_candidate({slot, slot});
+    return count;
+}
+
 /// Whether the slots have objects of paired layers whose boxes meet.
 bool Scene::State::is_candidate(BoxPair slots) const noexcept {
     const std::uint32_t most = plan->limits().objects;
     if (slots.a >= slots.b || slots.b >= most) return false;
     const ObjectSlot &a = objects[slots.a], &b = objects[slots.b];
-    if (a.model == nullptr || b.model == nullptr || !plan->find_pair(a.layer, b.layer)) {
-        return false;
-    }
+    if (a.model == nullptr || b.model == nullptr) return false;
+    if ((filters[slots.a].accepts & filters[slots.b].layers) == 0) return false;
     const WorldBox &x = boxes[slots.a], &y = boxes[slots.b];
     for (int axis = 0; axis < 3; ++axis) {
         if (x.lower[axis] > y.upper[axis] || y.lower[axis] > x.upper[axis]) return false;
@@ -82,7 +141,12 @@ std::uint64_t Scene::State::list_given(std::span<const BoxPair> candidates) noex
         if (!is_candidate(slots)) continue;
         if (count++ < plan->limits().pairs) add_candidate(slots);
     }
+    count += self_count();
     if (count > plan->limits().pairs) return count;
+    const std::uint32_t most = plan->limits().objects;
+    for (std::uint32_t slot = next_self(0); slot < most; slot = next_self(slot + 1)) {
+        add_candidate({slot, slot});
+    }
     const auto end = next.record + next.count;
     const auto is_before = [](const Record& x, const Record& y) { return x.slots() < y.slots(); };
     const auto is_equal = [](const Record& x, const Record& y) { return x.slots() == y.slots(); };
@@ -100,11 +164,12 @@ void Scene::State::keep(std::uint32_t old, std::uint32_t now) noexcept {
     record.asked = record.asked & effects_of(record);
     record.holds = record.holds & record.asked;
     if (!contains(record.asked, Ask::collide)) record.collision = {};
-    if (!contains(record.asked, Ask::overlap)) record.triangle_pairs = {};
+    if ((record.asked & (Ask::overlap | Ask::self)) == Ask::nothing) record.triangle_pairs = {};
     if (!contains(record.asked, Ask::contacts)) record.contacts = {};
     record.triangle_pairs.source = record.triangle_pairs.place;
     record.contacts.source = record.contacts.place;
     if (next.distance) next.distance[now] = last.distance[old];
+    if (next.impact) next.impact[now] = last.impact[old];
     if (next.verdict) next.verdict[now] = last.verdict[old];
 }
 
@@ -118,6 +183,7 @@ void Scene::State::keep_known() noexcept {
         const bool is_known = contains(before.asked, effects_of(record));
         if (is_known && !is_changed(record)) keep(old, now);
         record.touched = before.touched;
+        if (next.haptic != nullptr) next.haptic[now] = last.haptic[old];
     });
     asked_count = 0;
     for (std::uint32_t i = 0; i < next.count; ++i) {
@@ -129,6 +195,8 @@ void Scene::State::keep_known() noexcept {
 
 ListWriters Scene::State::start_lists(std::size_t worker) noexcept {
     ListWriters lists{};
+    lists.clock = clock;
+    lists.ticks = ticks[worker].data();
     if (triangle_pairs) lists.triangle_pairs = &triangle_pairs->writer(worker);
     if (contact_pages) {
         lists.contacts = &contact_pages->writer(worker);
@@ -137,25 +205,37 @@ ListWriters Scene::State::start_lists(std::size_t worker) noexcept {
     return lists;
 }
 
+PairAnswer Scene::State::ask_two(std::uint32_t number, const ObjectSlot& a, const ObjectSlot& b,
+                                 Workspace& workspace, const ListWriters& lists) noexcept {
+    const Record& record = next.record[number];
+    const LayerPair& asks = plan->pairs()[record.pair];
+    const Pair pair{*a.model,
+                    *b.model,
+                    Placement::world(a.pose, b.pose),
+                    {.body = asks.body, .overlap = asks.overlap}};
+    const bool has_ways = last_poses != nullptr;
+    return ask_pair(
+        {pair, asks, record.asked, record.touched, has_ways ? last_poses[record.a.slot] : a.pose,
+         has_ways ? last_poses[record.b.slot] : b.pose,
+         next.haptic != nullptr ? next.haptic + number : nullptr},
+        workspace, lists);
+}
+
 /// Asks what the plan asks for.
 void Scene::State::ask(std::uint32_t number, Workspace& workspace,
                        const ListWriters& lists) noexcept {
     const format::FloatEnvironment environment;
     Record& record = next.record[number];
     record.asked = effects_of(record);
-    record.is_apart =
-        record.asked != Ask::nothing && !boxes_may_meet(roots[record.a.slot], roots[record.b.slot]);
-    if (record.is_apart || record.asked == Ask::nothing) return;
-    const LayerPair& asks = plan->pairs()[record.pair];
+    if (record.asked == Ask::nothing) return;
     const ObjectSlot &a = objects[record.a.slot], &b = objects[record.b.slot];
-    const Pair pair{*a.model,
-                    *b.model,
-                    Placement::world(a.pose, b.pose),
-                    {.body = asks.body, .overlap = asks.overlap}};
+    record.is_apart =
+        !record.is_of_one() && !boxes_may_meet(roots[record.a.slot], roots[record.b.slot]);
+    if (record.is_apart) return;
     if (lists.triangle_pairs) record.triangle_pairs.source = lists.triangle_pairs->begin_list();
     if (lists.contacts) record.contacts.source = lists.contacts->begin_list();
-    const PairAnswer answer =
-        ask_pair({pair, asks, record.asked, record.touched}, workspace, lists);
+    const PairAnswer answer = record.is_of_one() ? ask_self(*a.model, workspace, lists)
+                                                 : ask_two(number, a, b, workspace, lists);
     record.holds = answer.holds;
     record.called = answer.called;
     record.touched = answer.touched;
@@ -164,6 +244,7 @@ void Scene::State::ask(std::uint32_t number, Workspace& workspace,
     record.triangle_pairs.count = static_cast<std::uint32_t>(answer.overlapping);
     record.contacts.count = static_cast<std::uint32_t>(answer.contacts.count);
     if (next.distance) next.distance[number] = answer.distance;
+    if (next.impact) next.impact[number] = answer.impact;
     if (next.verdict) next.verdict[number] = answer.contacts;
 }
 
@@ -171,9 +252,12 @@ void Scene::State::ask_all(std::span<Workspace> workspaces, ParallelFor parallel
     const std::size_t threads = std::min<std::size_t>(workspaces.size(), plan->limits().threads);
     if (triangle_pairs) triangle_pairs->start();
     if (contact_pages) contact_pages->start();
+    std::fill_n(ticks, plan->limits().threads, EffectTicks{});
+    const std::uint64_t begin = now();
     share_jobs(asked_count, threads, parallel_for, [&](std::size_t job, std::size_t worker) {
         ask(asked[job], workspaces[worker], start_lists(worker));
     });
+    query_ticks = now() - begin;
 }
 
 // Lists -------------------------------------------------------------------------------------------
@@ -244,6 +328,11 @@ void Scene::State::count_calls() noexcept {
             counts.calls[effect] += contains(record.called, kSceneEffects[effect]) ? 1 : 0;
         }
     }
+    for (std::uint32_t worker = 0; worker < plan->limits().threads; ++worker) {
+        for (std::size_t i = 0; i < counts.ticks.size(); ++i) counts.ticks[i] += ticks[worker][i];
+    }
+    counts.box_ticks = box_ticks;
+    counts.query_ticks = query_ticks;
 }
 
 EventReason Scene::State::reason_of(const Record& record, Ask effect,
@@ -284,8 +373,32 @@ void Scene::State::list_events() noexcept {
     });
 }
 
+/// Lists what is known of two objects, or of one, for which an effect holds.
+void Scene::State::list_lists_of(std::uint32_t number) noexcept {
+    const Record& record = last.record[number];
+    const auto holds = [&](Ask effect) { return contains(record.holds, effect); };
+    const std::span<const TrianglePair> triangles = {
+        last.triangle_pairs + record.triangle_pairs.place, record.triangle_pairs.count};
+    if (holds(Ask::distance)) {
+        distances[distance_count++] = {record.a, record.b, record.pair, last.distance[number]};
+    }
+    if (holds(Ask::overlap)) {
+        overlaps[overlap_count++] = {record.a, record.b, record.pair, triangles};
+    }
+    if (holds(Ask::self)) self_overlaps[self_overlap_count++] = {record.a, record.pair, triangles};
+    if (holds(Ask::continuous)) {
+        impacts[impact_count++] = {record.a, record.b, record.pair, last.impact[number]};
+    }
+    if (holds(Ask::haptic)) {
+        const HapticRecord& haptic = last.haptic[number];
+        bounded_distances[bounded_distance_count++] = {record.a, record.b, record.pair,
+                                                       haptic.found, haptic.last};
+    }
+}
+
 void Scene::State::list_results() noexcept {
     hit_count = distance_count = overlap_count = contact_count = 0;
+    self_overlap_count = impact_count = bounded_distance_count = 0;
     for (std::uint32_t i = 0; i < last.count; ++i) {
         const Record& record = last.record[i];
         if (contains(record.asked, Ask::contacts) && !record.is_apart &&
@@ -299,26 +412,36 @@ void Scene::State::list_results() noexcept {
         }
         if (record.holds == Ask::nothing && record.collision.hit == Answer::no) continue;
         hits[hit_count++] = {record.a, record.b, record.pair, record.holds, record.collision};
-        if (contains(record.holds, Ask::distance)) {
-            distances[distance_count++] = {record.a, record.b, record.pair, last.distance[i]};
-        }
-        if (contains(record.holds, Ask::overlap)) {
-            overlaps[overlap_count++] = {
-                record.a,
-                record.b,
-                record.pair,
-                {last.triangle_pairs + record.triangle_pairs.place, record.triangle_pairs.count}};
-        }
+        list_lists_of(i);
     }
 }
 
 // A step ------------------------------------------------------------------------------------------
+
+/// Forgets what has changed. An object that has come to the end of its way is asked again in the
+/// next step, where it has none.
+void Scene::State::accept_changes() noexcept {
+    std::uint32_t left = 0;
+    for (std::uint32_t i = 0; i < changed_count; ++i) {
+        const std::uint32_t slot = changed[i];
+        ObjectSlot& object = objects[slot];
+        object.is_changed = object.model != nullptr && has_way(slot);
+        object.last_layer = object.layer;
+        if (object.is_changed) changed[left++] = slot;
+        if (object.model == nullptr) continue;
+        if (last_poses != nullptr) last_poses[slot] = object.pose;
+        if (shapes != nullptr) shapes[slot] = object.model->header().content_hash;
+    }
+    changed_count = left;
+    last_paused = paused;
+}
 
 /// Computes a step from the candidates in `next`.
 SceneStep Scene::State::compute(std::span<Workspace> workspaces,
                                 ParallelFor parallel_for) noexcept {
     keep_known();
     ask_all(workspaces, parallel_for);
+    const std::uint64_t begin = now();
     const SceneStep step = place_lists();
     if (!step.complete) return step;
     fill_lists(std::min<std::size_t>(workspaces.size(), plan->limits().threads), parallel_for);
@@ -326,17 +449,13 @@ SceneStep Scene::State::compute(std::span<Workspace> workspaces,
     list_events();
     std::swap(last, next);
     list_results();
-    for (std::uint32_t i = 0; i < changed_count; ++i) {
-        ObjectSlot& object = objects[changed[i]];
-        object.is_changed = false;
-        object.last_layer = object.layer;
-    }
-    changed_count = 0;
-    last_paused = paused;
+    accept_changes();
+    counts.list_ticks = now() - begin;
     return step;
 }
 
 SceneStep Scene::State::step(std::span<Workspace> workspaces, ParallelFor parallel_for) noexcept {
+    const std::uint64_t begin = now();
     place_changed();
     const std::size_t size = plan->limits().objects;
     const BroadPhaseUpdate candidates =
@@ -345,18 +464,23 @@ SceneStep Scene::State::step(std::span<Workspace> workspaces, ParallelFor parall
                                                         {changed, changed_count}, parallel_for);
     assert(!candidates.refused);  // boxes of valid poses are numbers
     broad_phase_is_late = false;
-    if (!candidates.complete) return {.complete = false, .needed_pairs = candidates.needed};
-    next.count = 0;
-    for (const BoxPair slots : candidates.pairs) add_candidate(slots);
+    if (!candidates.complete) {
+        return {.complete = false, .needed_pairs = candidates.needed + self_count()};
+    }
+    const std::uint64_t count = list_candidates(candidates.pairs);
+    if (count > plan->limits().pairs) return {.complete = false, .needed_pairs = count};
+    box_ticks = now() - begin;
     return compute(workspaces, parallel_for);
 }
 
 SceneStep Scene::State::step_with(std::span<const BoxPair> candidates,
                                   std::span<Workspace> workspaces,
                                   ParallelFor parallel_for) noexcept {
+    const std::uint64_t begin = now();
     place_changed();
     const std::uint64_t count = list_given(candidates);
     if (count > plan->limits().pairs) return {.complete = false, .needed_pairs = count};
+    box_ticks = now() - begin;
     const SceneStep step = compute(workspaces, parallel_for);
     broad_phase_is_late = true;
     return step;

@@ -14,6 +14,7 @@
 #include "cdprep/broad_phase.h"
 #include "cdprep/contacts.h"
 #include "cdprep/pairs.h"
+#include "cdprep/time_of_impact.h"
 
 namespace cdprep {
 
@@ -21,22 +22,35 @@ namespace cdprep {
 inline constexpr std::uint32_t kLayers = 32;
 
 /// The effects that a scene computes.
-inline constexpr std::array kSceneEffects = {Ask::collide, Ask::overlap, Ask::within, Ask::distance,
-                                             Ask::contacts};
+inline constexpr std::array kSceneEffects = {Ask::collide,  Ask::overlap,  Ask::within,
+                                             Ask::distance, Ask::contacts, Ask::continuous,
+                                             Ask::self,     Ask::haptic};
 
-/// What the objects of two layers are asked about each other. The two may be the same layer.
+/// What a pair of layers says of its models: between two steps, they may change as a LiveModel
+/// does. A scene then looks for changes in each step. Ask::tear includes Ask::deform.
+inline constexpr Ask kSceneChanges = Ask::deform | Ask::tear;
+
+/// The effects for pairs of objects of two layers. The two may be the same layer.
+///
+/// `self` is about each object of one layer, and its own surface: a and b are that layer.
+/// `continuous` tells when two objects touch on the way from their last poses to the present ones.
+/// `haptic` is a distance within a limit of work. Contacts, and `continuous`, are refused together
+/// with Ask::deform and Ask::tear: pieces and motions do not follow a surface that changes.
 struct LayerPair {
     std::uint32_t a = 0;  ///< a layer, below kLayers
     std::uint32_t b = 0;
-    /// Any of kSceneEffects; others are refused. Nothing: the pair is dropped.
+    /// Any of kSceneEffects and kSceneChanges; others are refused. Nothing: the pair is dropped.
     Ask effects = Ask::nothing;
     double tolerance = 0;  ///< of `within`, in units of the models; finite, at least 0
-    /// Of `distance`: farther objects have none. In units of the models; finite, at least 0.
+    /// Of `distance` and `haptic`: farther objects have none. In units of the models; finite, at
+    /// least 0.
     double max_distance = 0;
-    Body body = Body::surface;          ///< of `collide`, `distance` and `contacts`
+    Body body = Body::surface;          ///< of `collide`, `distance`, `contacts` and `continuous`
     Overlap overlap = Overlap::closed;  ///< of `collide` and `overlap`
     /// Of `contacts`: the tolerance is finite, and `most` is at least 1.
     ContactOptions contacts = {.most = 16};
+    ImpactOptions impact = {};  ///< of `continuous`
+    std::uint64_t work = 0;     ///< of `haptic`: DistanceBudget::work, at least 1
     /// Also lists an event in each step for an effect that goes on.
     bool lists_stays = false;
 };
@@ -50,10 +64,12 @@ struct ModelUse {
 
 struct SceneLimits {
     std::uint32_t objects = 0;
-    std::uint32_t pairs = 0;    ///< whose boxes meet at a time, as BroadPhaseLimits::pairs
+    /// Pairs of objects whose boxes meet at a time, as BroadPhaseLimits::pairs. An object that is
+    /// asked about itself counts as a pair.
+    std::uint32_t pairs = 0;
     std::uint32_t threads = 1;  ///< tasks that a step runs at a time; at least one
-    /// Of `overlap` and `contacts`: how many all lists hold together. Takes memory only if a pair
-    /// of layers asks for the effect.
+    /// Of `overlap` with `self`, and of `contacts`: the maximum length of all lists together. Takes
+    /// memory only if a pair of layers asks for the effect.
     std::uint32_t triangle_pairs = 0;
     std::uint32_t contacts = 0;
 };
@@ -71,7 +87,8 @@ struct PlanOptions {
     std::span<const std::string_view> layer_names = {};
 };
 
-/// Returns the reason why an effect with this name is refused: that it is not built, and which are.
+/// Returns the reason why an effect with this name is refused: it is not built. Lists the built
+/// ones.
 [[nodiscard]] std::string unbuilt_effect(std::string_view name);
 
 /// What a scene computes, and nothing else: compiled once from the effects of pairs of layers.
@@ -103,10 +120,14 @@ public:
                                                          std::uint32_t b) const noexcept;
     /// Returns what the objects of a layer are asked for: open their models for this.
     [[nodiscard]] Ask asks_of(std::uint32_t layer) const noexcept;
-    /// Returns the layers with which a layer is paired.
+    /// Returns the layers with which a layer is paired. A pair that asks for nothing but `self`
+    /// counts as none.
     [[nodiscard]] BoxFilter filter_of(std::uint32_t layer) const noexcept;
-    /// Returns how far the boxes of a layer's objects reach beyond them, in units of the models.
+    /// Returns the margin by which the boxes of a layer's objects are enlarged, in units of the
+    /// models.
     [[nodiscard]] double reach_of(std::uint32_t layer) const noexcept;
+    /// Returns the layers whose pairs ask for any of these effects: bit i for layer i.
+    [[nodiscard]] std::uint32_t layers_of(Ask effects) const noexcept;
     /// Returns all effects of all pairs.
     [[nodiscard]] Ask effects() const noexcept;
 

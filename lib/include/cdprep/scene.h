@@ -10,16 +10,18 @@
 #include <span>
 
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/bounded_distance.h"
 #include "cdprep/contacts.h"
 #include "cdprep/model.h"
 #include "cdprep/pairs.h"
 #include "cdprep/plan.h"
 #include "cdprep/pose.h"
+#include "cdprep/time_of_impact.h"
 #include "cdprep/workspace.h"
 
 namespace cdprep {
 
-/// An object of a scene. A slot that is used again has another generation; generation 0 is no
+/// An object of a scene. A slot that is used again gets a new generation; generation 0 means no
 /// object.
 struct ObjectId {
     std::uint32_t slot = 0;
@@ -27,23 +29,25 @@ struct ObjectId {
     auto operator<=>(const ObjectId&) const = default;
 };
 
-/// An object to add. The model must outlive it, and serve Plan::asks_of(layer). After a change of a
-/// LiveModel, call set_pose() for each object of the model, even with the same pose.
+/// An object to add. The model must outlive it, and serve Plan::asks_of(layer). A change of a
+/// LiveModel is found by the next step if its layer asks for Ask::deform or Ask::tear. In other
+/// layers, call set_pose() for each object of the model after a change, even with the same pose.
 struct SceneObject {
     const Model* model = nullptr;
     std::uint32_t layer = 0;
     Pose world_from_model;
 };
 
-/// Two objects for which an effect holds: a.slot < b.slot.
+/// Two objects for which an effect holds: a.slot < b.slot. Of `self`, a and b are the same object.
 struct SceneHit {
     ObjectId a;
     ObjectId b;
     std::uint32_t pair;  ///< of layers: its number in Plan::pairs()
-    /// The effects that hold: `distance` if the distance is at most max_distance, `overlap` and
-    /// `contacts` if their list has items.
+    /// The effects that hold: `distance` if the distance is at most max_distance, `overlap`, `self`
+    /// and `contacts` if their list has items. `continuous` if ImpactKind is not `none`. `haptic`
+    /// if the distance is not proven to exceed max_distance.
     Ask holds;
-    /// Of `collide`. If it is not known whether they collide, the two are listed without a hit.
+    /// Of `collide`. If it is unknown whether they collide, the pair is listed but is no hit.
     Collision collision;
 };
 
@@ -61,6 +65,30 @@ struct SceneOverlaps {
     ObjectId b;
     std::uint32_t pair;
     std::span<const TrianglePair> triangles;  ///< A is the object with the lower slot
+};
+
+/// The triangles of one object that overlap each other, as self_overlaps() finds them.
+struct SceneSelfOverlaps {
+    ObjectId object;
+    std::uint32_t pair;
+    std::span<const TrianglePair> triangles;
+};
+
+/// When two objects touch on the way from their poses in the last step to the present ones.
+struct SceneImpact {
+    ObjectId a;
+    ObjectId b;
+    std::uint32_t pair;
+    Impact impact;  ///< times from 0 to 1; its nearest points are in the world
+};
+
+/// The distance of two objects, as far as the work of their pair of layers allows.
+struct SceneBoundedDistance {
+    ObjectId a;
+    ObjectId b;
+    std::uint32_t pair;
+    BoundedDistance distance;
+    LastDistance last;  ///< the last complete answer; the same one, if this one is complete
 };
 
 /// The contacts of two objects, in the world. Normals point from the object with the lower slot to
@@ -92,23 +120,36 @@ enum class EventReason : std::uint32_t {
 /// end before the next begin of the same objects and effect.
 struct SceneEvent {
     ObjectId a;
-    ObjectId b;
+    ObjectId b;          ///< of `self`, the same object as a
     std::uint32_t pair;  ///< of layers, when it began
     Ask effect;          ///< one of kSceneEffects
     EventKind kind;
     EventReason reason;
 };
 
+/// A clock of the caller's, for SceneCounts. It must be safe to call on any thread.
+using SceneClock = std::uint64_t (*)() noexcept;
+
 /// The work of a step. A query is not called if its answer follows from another one. For surfaces,
 /// collide() follows from overlaps(), and mostly from distance(), as within() does.
 struct SceneCounts {
-    std::uint64_t moved = 0;       ///< objects that moved, were added, removed or relayered
-    std::uint64_t candidates = 0;  ///< pairs whose boxes meet
-    std::uint64_t kept = 0;        ///< candidates of which neither object moved: not asked again
-    std::uint64_t apart = 0;       ///< candidates whose root boxes are apart: nothing is asked
+    /// Objects that moved, changed, were added, removed or relayered. With `continuous`, an object
+    /// also counts in the step after its last motion.
+    std::uint64_t moved = 0;
+    /// Pairs whose boxes meet, and objects that are asked about themselves.
+    std::uint64_t candidates = 0;
+    std::uint64_t kept = 0;   ///< candidates of which neither object moved: not asked again
+    std::uint64_t apart = 0;  ///< candidates whose root boxes are apart: nothing is asked
     std::array<std::uint64_t, kSceneEffects.size()> calls{};  ///< by effect
-    std::uint64_t triangle_pairs = 0;                         ///< in all lists of overlaps()
-    std::uint64_t contacts = 0;                               ///< in all lists of contacts()
+    /// In all lists of overlaps() and self_overlaps().
+    std::uint64_t triangle_pairs = 0;
+    std::uint64_t contacts = 0;  ///< in all lists of contacts()
+
+    /// With Scene::set_clock(), the ticks of the queries of each effect, summed over all threads.
+    std::array<std::uint64_t, kSceneEffects.size()> ticks{};
+    std::uint64_t box_ticks = 0;    ///< of boxes and the broad phase, likewise
+    std::uint64_t query_ticks = 0;  ///< from the first query to the end of the last
+    std::uint64_t list_ticks = 0;   ///< of lists and events
 
     /// Returns the calls of one effect; 0 if it is none of kSceneEffects.
     [[nodiscard]] std::uint64_t calls_of(Ask effect) const noexcept;
@@ -140,8 +181,8 @@ public:
     explicit Scene(const Plan& plan);
     explicit Scene(Plan&& plan) = delete;
 
-    /// Makes one in the caller's memory, which must outlive it, as the plan must. Returns nothing
-    /// if the memory is smaller than size() or not aligned to alignment().
+    /// Makes a scene in the caller's memory. The memory and the plan must outlive it. Returns
+    /// nothing if the memory is smaller than size() or not aligned to alignment().
     [[nodiscard]] static std::optional<Scene> in_memory(std::span<std::byte> memory,
                                                         const Plan& plan) noexcept;
     static std::optional<Scene> in_memory(std::span<std::byte> memory, Plan&& plan) = delete;
@@ -158,8 +199,13 @@ public:
     /// Removes an object. The next step ends its events. Returns false if there is none with this
     /// id.
     bool remove(ObjectId object) noexcept;
-    /// Moves an object. Returns false if there is none with this id.
+    /// Moves an object. Returns false if there is none with this id. For `continuous`, it moves
+    /// from its pose in the last step to this one, as Motion::between() does. The centre is that of
+    /// the model's box.
     bool set_pose(ObjectId object, const Pose& world_from_model) noexcept;
+    /// Puts an object at a pose, without a way for `continuous`. Returns false if there is none
+    /// with this id.
+    bool put(ObjectId object, const Pose& world_from_model) noexcept;
     /// Changes the layer of an object. Returns false if there is none with this id. Stops the
     /// program as add() does.
     bool set_layer(ObjectId object, std::uint32_t layer) noexcept;
@@ -167,6 +213,9 @@ public:
     /// Pauses these effects from the next step on, and resumes all others. Paused effects are not
     /// computed, and their events end. Effects that the plan does not ask for stay as they are.
     void set_paused(Ask effects) noexcept;
+
+    /// Sets the clock for the ticks of SceneCounts. Null, as at first: no clock is read.
+    void set_clock(SceneClock clock) noexcept;
 
     /// Computes the effects of all objects as they are now. Uses as many workspaces as
     /// limits.threads allows; there must be at least one. Calls `parallel_for` at most five times.
@@ -185,7 +234,10 @@ public:
     [[nodiscard]] std::span<const SceneHit> hits() const noexcept;
     [[nodiscard]] std::span<const SceneOverlaps> overlaps() const noexcept;
     [[nodiscard]] std::span<const SceneDistance> distances() const noexcept;
-    /// Two objects whose search for contacts options.work ended early are listed without contacts.
+    [[nodiscard]] std::span<const SceneSelfOverlaps> self_overlaps() const noexcept;
+    [[nodiscard]] std::span<const SceneImpact> impacts() const noexcept;
+    [[nodiscard]] std::span<const SceneBoundedDistance> bounded_distances() const noexcept;
+    /// If options.work ended the search for two objects, they are listed without contacts.
     [[nodiscard]] std::span<const SceneContacts> contacts() const noexcept;
     /// The events of the last step that was complete, in the order of hits. For the same objects,
     /// first what ends, then what stays, then what begins.
@@ -196,9 +248,10 @@ public:
     [[nodiscard]] const Model* model_of(ObjectId object) const noexcept;
     /// Returns the object in a slot, or the id of no object if there is none.
     [[nodiscard]] ObjectId object_at(std::uint32_t slot) const noexcept;
-    /// Returns a hash of all hits, overlaps, distances, contacts and events. It leaves out witness
+    /// Returns a hash of all hits, lists, distances, impacts and events. It leaves out witness
     /// points, features and the points of manifolds. It is equal for any number of threads and any
-    /// instruction set.
+    /// instruction set. Answers of `haptic` may differ between instruction sets, as their work
+    /// does.
     [[nodiscard]] std::uint64_t state_hash() const noexcept;
 
 private:
