@@ -59,16 +59,6 @@ int read_moving_pair(Call& call, const cdprep_moving_pair* from, AskedMotion& as
     return check_serves(call, name.of("b"), *given.b, needs);
 }
 
-static_assert(CDPREP_IMPACT_NONE == static_cast<int>(ImpactKind::none) &&
-              CDPREP_IMPACT_TOUCHING == static_cast<int>(ImpactKind::touching) &&
-              CDPREP_IMPACT_NEAR == static_cast<int>(ImpactKind::near) &&
-              CDPREP_IMPACT_UNFINISHED == static_cast<int>(ImpactKind::unfinished));
-
-cdprep_impact impact_in_c(const Impact& impact) noexcept {
-    return {static_cast<std::uint32_t>(impact.kind), impact.steps, impact.lower, impact.upper,
-            in_c(impact.nearest)};
-}
-
 }  // namespace
 
 const InputType Input<cdprep_moving_pair>::type = {"cdprep_moving_pair", 0xcd500014U,
@@ -117,7 +107,7 @@ int cdprep_time_of_impact(const cdprep_moving_pair* pair, cdprep_workspace* work
         const cdprep::MovingPair moving = {
             asked.given.a->model, asked.given.b->model, asked.a, asked.b,
             asked.given.body == CDPREP_SOLID ? cdprep::Body::solid : cdprep::Body::surface};
-        *impact = cdprep::c::impact_in_c(time_of_impact(
+        *impact = cdprep::c::in_c(time_of_impact(
             moving, workspace->lanes[0],
             {.tolerance = asked.given.tolerance, .most_steps = asked.given.most_steps}));
         return CDPREP_OK;

@@ -24,7 +24,9 @@ template <>
 struct Input<cdprep_layer_pair> {
     static const InputType type;
     static cdprep_layer_pair defaults() noexcept {
-        return {};
+        cdprep_layer_pair pair{};
+        pair.impact_steps = ImpactOptions{}.most_steps;
+        return pair;
     }
 };
 
@@ -56,6 +58,8 @@ constexpr std::array kPairFields = {
     Field{"lists_stays", offsetof(cdprep_layer_pair, lists_stays), Holds::choice, CDPREP_YES},
     Field{"tolerance", offsetof(cdprep_layer_pair, tolerance), Holds::length},
     Field{"max_distance", offsetof(cdprep_layer_pair, max_distance), Holds::length},
+    Field{"impact_tolerance", offsetof(cdprep_layer_pair, impact_tolerance), Holds::length},
+    Field{"reserved", offsetof(cdprep_layer_pair, reserved), Holds::reserved},
 };
 
 constexpr std::array kOptionsFields = {
@@ -137,11 +141,12 @@ struct Asked {
 };
 
 constexpr std::uint32_t kEffects = [] {
-    std::uint32_t all = 0;
+    auto all = static_cast<std::uint32_t>(kSceneChanges);
     for (const Ask one : kSceneEffects) all |= static_cast<std::uint32_t>(one);
     return all;
 }();
-constexpr std::uint32_t kReadBody = CDPREP_ASK_COLLIDE | CDPREP_ASK_DISTANCE | CDPREP_ASK_CONTACTS;
+constexpr std::uint32_t kReadBody =
+    CDPREP_ASK_COLLIDE | CDPREP_ASK_DISTANCE | CDPREP_ASK_CONTACTS | CDPREP_ASK_CONTINUOUS;
 
 int refuse_unused(Call& call, const Name& name, const char* effects) noexcept {
     return call.refuse(CDPREP_WHY_NO_MEANING, name,
@@ -152,7 +157,8 @@ int refuse_unused(Call& call, const Name& name, const char* effects) noexcept {
 int check_meaning(Call& call, const Name& name, const cdprep_layer_pair& pair) noexcept {
     const auto has = [&](std::uint32_t asks) { return (pair.effects & asks) != 0; };
     if (pair.body != CDPREP_SURFACE && !has(kReadBody)) {
-        return refuse_unused(call, name.of("body"), "CDPREP_ASK_COLLIDE, _DISTANCE or _CONTACTS");
+        return refuse_unused(call, name.of("body"),
+                             "CDPREP_ASK_COLLIDE, _DISTANCE, _CONTACTS or _CONTINUOUS");
     }
     if (pair.overlap != CDPREP_CLOSED && !has(CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP)) {
         return refuse_unused(call, name.of("overlap"), "CDPREP_ASK_COLLIDE or _OVERLAP");
@@ -160,8 +166,17 @@ int check_meaning(Call& call, const Name& name, const cdprep_layer_pair& pair) n
     if (pair.tolerance > 0 && !has(CDPREP_ASK_WITHIN)) {
         return refuse_unused(call, name.of("tolerance"), "CDPREP_ASK_WITHIN");
     }
-    if (pair.max_distance > 0 && !has(CDPREP_ASK_DISTANCE)) {
-        return refuse_unused(call, name.of("max_distance"), "CDPREP_ASK_DISTANCE");
+    if (pair.max_distance > 0 && !has(CDPREP_ASK_DISTANCE | CDPREP_ASK_HAPTIC)) {
+        return refuse_unused(call, name.of("max_distance"), "CDPREP_ASK_DISTANCE or _HAPTIC");
+    }
+    if (pair.impact_tolerance > 0 && !has(CDPREP_ASK_CONTINUOUS)) {
+        return refuse_unused(call, name.of("impact_tolerance"), "CDPREP_ASK_CONTINUOUS");
+    }
+    if (pair.impact_steps != ImpactOptions{}.most_steps && !has(CDPREP_ASK_CONTINUOUS)) {
+        return refuse_unused(call, name.of("impact_steps"), "CDPREP_ASK_CONTINUOUS");
+    }
+    if (pair.work > 0 && !has(CDPREP_ASK_HAPTIC)) {
+        return refuse_unused(call, name.of("work"), "CDPREP_ASK_HAPTIC");
     }
     if (pair.contacts != nullptr && !has(CDPREP_ASK_CONTACTS)) {
         return refuse_unused(call, name.of("contacts"), "CDPREP_ASK_CONTACTS");
@@ -192,6 +207,8 @@ LayerPair in_cpp(const cdprep_layer_pair& pair, const ContactOptions& contacts) 
             .body = pair.body == CDPREP_SOLID ? Body::solid : Body::surface,
             .overlap = pair.overlap == CDPREP_PROPER ? Overlap::proper : Overlap::closed,
             .contacts = contacts,
+            .impact = {.tolerance = pair.impact_tolerance, .most_steps = pair.impact_steps},
+            .work = pair.work,
             .lists_stays = pair.lists_stays == CDPREP_YES};
 }
 

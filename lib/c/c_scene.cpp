@@ -50,7 +50,13 @@ struct Layout {
           contact_items(contacts +
                         aligned(results_of(plan, Ask::contacts) * sizeof(cdprep_scene_contact))),
           events(contact_items + aligned(contacts_of(plan) * sizeof(cdprep_contact))),
-          scene(events + aligned(events_of(plan) * sizeof(cdprep_event))),
+          self_overlaps(events + aligned(events_of(plan) * sizeof(cdprep_event))),
+          impacts(self_overlaps +
+                  aligned(results_of(plan, Ask::self) * sizeof(cdprep_scene_self_overlap))),
+          bounded_distances(
+              impacts + aligned(results_of(plan, Ask::continuous) * sizeof(cdprep_scene_impact))),
+          scene(bounded_distances +
+                aligned(results_of(plan, Ask::haptic) * sizeof(cdprep_scene_bounded))),
           scene_size(aligned(Scene::size(plan))),
           size(scene + scene_size) {}
 
@@ -62,7 +68,7 @@ struct Layout {
     }
     /// All effects of the last step end, and as many begin.
     static std::size_t events_of(const Plan& plan) noexcept {
-        const auto effects = static_cast<std::uint32_t>(plan.effects());
+        const auto effects = static_cast<std::uint32_t>(without(plan.effects(), kSceneChanges));
         return 2 * static_cast<std::size_t>(std::popcount(effects)) * plan.limits().pairs;
     }
 
@@ -72,6 +78,9 @@ struct Layout {
     std::size_t contacts;
     std::size_t contact_items;
     std::size_t events;
+    std::size_t self_overlaps;
+    std::size_t impacts;
+    std::size_t bounded_distances;
     std::size_t scene;
     std::size_t scene_size;
     std::size_t size;
@@ -99,7 +108,10 @@ int make(Call& call, cdprep_plan& plan, const Given& given, cdprep_scene** to) n
                                   array_at<cdprep_scene_distance>(block, layout.distances),
                                   array_at<cdprep_scene_contact>(block, layout.contacts),
                                   array_at<cdprep_contact>(block, layout.contact_items),
-                                  array_at<cdprep_event>(block, layout.events)};
+                                  array_at<cdprep_event>(block, layout.events),
+                                  array_at<cdprep_scene_self_overlap>(block, layout.self_overlaps),
+                                  array_at<cdprep_scene_impact>(block, layout.impacts),
+                                  array_at<cdprep_scene_bounded>(block, layout.bounded_distances)};
     *to = new (block) cdprep_scene{std::move(*scene), &plan, results, own.take()};
     plan.users.fetch_add(1, std::memory_order_relaxed);
     return CDPREP_OK;
@@ -239,6 +251,24 @@ int change_scene(cdprep_scene* scene, cdprep_error* error, Change&& change) noex
     });
 }
 
+/// Sets the poses of objects by a function of the scene.
+int set_poses(cdprep_scene* scene, const cdprep_object* ids, const cdprep_pose* poses,
+              std::size_t count, cdprep_error* error,
+              bool (Scene::*set)(ObjectId, const Pose&) noexcept) noexcept {
+    return change_scene(scene, error, [&](Call& call) -> int {
+        if (const int code = check_arrays(call, count, "ids", ids, "poses", poses)) return code;
+        if (const int code = check_objects(call, *scene, ids, count)) return code;
+        if (const int code = check_poses(call, poses, count)) return code;
+        Call again(nullptr);
+        for (std::size_t i = 0; i < count; ++i) {
+            Pose pose;
+            if (read_pose(again, {"poses", i}, poses + i, pose) != CDPREP_OK) return CDPREP_OK;
+            static_cast<void>((scene->scene.*set)(in_cpp(ids[i]), pose));
+        }
+        return CDPREP_OK;
+    });
+}
+
 /// Runs a step. `check(call)` checks what else the caller gave; `run(threads)` computes.
 template <class Check, class Run>
 int step_scene(cdprep_scene* scene, cdprep_workspace* workspace, cdprep_step* step,
@@ -351,25 +381,18 @@ int cdprep_scene_set_layer(cdprep_scene* scene, cdprep_object id, uint32_t layer
 
 int cdprep_scene_set_poses(cdprep_scene* scene, const cdprep_object* ids, const cdprep_pose* poses,
                            size_t count, cdprep_error* error) {
-    return cdprep::c::change_scene(scene, error, [&](Call& call) -> int {
-        if (const int code = cdprep::c::check_arrays(call, count, "ids", ids, "poses", poses)) {
-            return code;
-        }
-        if (const int code = cdprep::c::check_objects(call, *scene, ids, count)) return code;
-        if (const int code = cdprep::c::check_poses(call, poses, count)) return code;
-        Call again(nullptr);
-        for (size_t i = 0; i < count; ++i) {
-            cdprep::Pose pose;
-            if (read_pose(again, {"poses", i}, poses + i, pose) != CDPREP_OK) return CDPREP_OK;
-            static_cast<void>(scene->scene.set_pose(cdprep::c::in_cpp(ids[i]), pose));
-        }
-        return CDPREP_OK;
-    });
+    return cdprep::c::set_poses(scene, ids, poses, count, error, &cdprep::Scene::set_pose);
+}
+
+int cdprep_scene_put(cdprep_scene* scene, const cdprep_object* ids, const cdprep_pose* poses,
+                     size_t count, cdprep_error* error) {
+    return cdprep::c::set_poses(scene, ids, poses, count, error, &cdprep::Scene::put);
 }
 
 int cdprep_scene_set_paused(cdprep_scene* scene, uint32_t effects, cdprep_error* error) {
     return cdprep::c::change_scene(scene, error, [&](Call& call) -> int {
-        const auto planned = static_cast<uint32_t>(scene->plan->plan.effects());
+        const cdprep::Ask effects_of_plan = scene->plan->plan.effects();
+        const auto planned = static_cast<uint32_t>(without(effects_of_plan, cdprep::kSceneChanges));
         if ((effects & ~planned) != 0) {
             return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"effects"},
                                "is 0x%x; the plan computes only the bits 0x%x.", effects, planned);

@@ -25,8 +25,12 @@ struct SceneResults {
     cdprep_scene_contact* contacts = nullptr;    ///< likewise
     cdprep_contact* contact_items = nullptr;     ///< of all lists of contacts
     cdprep_event* events = nullptr;
+    cdprep_scene_self_overlap* self_overlaps = nullptr;  ///< without room if none are asked for
+    cdprep_scene_impact* impacts = nullptr;              ///< likewise
+    cdprep_scene_bounded* bounded_distances = nullptr;   ///< likewise
     std::size_t hit_count = 0, overlap_count = 0, distance_count = 0, contact_count = 0;
-    std::size_t event_count = 0;
+    std::size_t event_count = 0, self_overlap_count = 0, impact_count = 0;
+    std::size_t bounded_distance_count = 0;
 };
 
 /// Copies the results of a step.

@@ -7,6 +7,7 @@
 #include "c/c_scene.h"
 #include "c/c_workspace.h"
 #include "c/pair_answers.h"
+#include "c/pose_input.h"
 
 namespace cdprep::c {
 namespace {
@@ -30,22 +31,46 @@ cdprep_scene_distance as_c(const SceneDistance& found, std::uint32_t layer_pair)
     return {as_c(found.a), as_c(found.b), layer_pair, 0, in_c(std::optional(found.distance))};
 }
 
+cdprep_scene_impact as_c(const SceneImpact& found, std::uint32_t layer_pair) noexcept {
+    return {as_c(found.a), as_c(found.b), layer_pair, 0, in_c(found.impact)};
+}
+
+cdprep_scene_bounded as_c(const SceneBoundedDistance& found, std::uint32_t layer_pair) noexcept {
+    const LastDistance& last = found.last;
+    cdprep_scene_bounded to = {as_c(found.a),
+                               as_c(found.b),
+                               layer_pair,
+                               word(last.is_known),
+                               last.late,
+                               in_c(found.distance),
+                               in_c(last.distance),
+                               {},
+                               {}};
+    to.last_pose_a = stored(last.placement.pose_a());
+    to.last_pose_b = stored(last.placement.pose_b());
+    return to;
+}
+
 std::uint32_t as_c(EventKind kind) noexcept {
     if (kind == EventKind::begins) return CDPREP_EVENT_BEGIN;
     return kind == EventKind::stays ? CDPREP_EVENT_STAY : CDPREP_EVENT_END;
 }
 
-cdprep_scene_overlap as_c(const SceneOverlaps& found, std::uint32_t layer_pair) noexcept {
+const cdprep_overlap* as_c(std::span<const TrianglePair> triangles) noexcept {
     // The two types have the same members.
     static_assert(sizeof(TrianglePair) == sizeof(cdprep_overlap) &&
                   offsetof(TrianglePair, a) == offsetof(cdprep_overlap, a) &&
                   offsetof(TrianglePair, b) == offsetof(cdprep_overlap, b));
-    return {as_c(found.a),
-            as_c(found.b),
-            layer_pair,
-            0,
-            reinterpret_cast<const cdprep_overlap*>(found.triangles.data()),
-            found.triangles.size()};
+    return reinterpret_cast<const cdprep_overlap*>(triangles.data());
+}
+
+cdprep_scene_overlap as_c(const SceneOverlaps& found, std::uint32_t layer_pair) noexcept {
+    return {as_c(found.a),         as_c(found.b),         layer_pair, 0,
+            as_c(found.triangles), found.triangles.size()};
+}
+
+cdprep_scene_self_overlap as_c(const SceneSelfOverlaps& found, std::uint32_t layer_pair) noexcept {
+    return {as_c(found.object), layer_pair, 0, as_c(found.triangles), found.triangles.size()};
 }
 
 /// `items` is where the contacts are.
@@ -114,6 +139,11 @@ void store_results(cdprep_scene& scene) noexcept {
     results.contact_count = store_contacts(*scene.plan, scene.scene.contacts(), results.contacts,
                                            results.contact_items);
     results.event_count = store(*scene.plan, scene.scene.events(), results.events);
+    results.self_overlap_count =
+        store(*scene.plan, scene.scene.self_overlaps(), results.self_overlaps);
+    results.impact_count = store(*scene.plan, scene.scene.impacts(), results.impacts);
+    results.bounded_distance_count =
+        store(*scene.plan, scene.scene.bounded_distances(), results.bounded_distances);
 }
 
 }  // namespace cdprep::c
@@ -152,6 +182,26 @@ int cdprep_scene_events(const cdprep_scene* scene, const cdprep_event** events, 
                        &SceneResults::event_count);
 }
 
+int cdprep_scene_self_overlaps(const cdprep_scene* scene,
+                               const cdprep_scene_self_overlap** overlaps, size_t* count,
+                               cdprep_error* error) {
+    return read_stream(scene, "overlaps", overlaps, count, error, &SceneResults::self_overlaps,
+                       &SceneResults::self_overlap_count);
+}
+
+int cdprep_scene_impacts(const cdprep_scene* scene, const cdprep_scene_impact** impacts,
+                         size_t* count, cdprep_error* error) {
+    return read_stream(scene, "impacts", impacts, count, error, &SceneResults::impacts,
+                       &SceneResults::impact_count);
+}
+
+int cdprep_scene_bounded_distances(const cdprep_scene* scene,
+                                   const cdprep_scene_bounded** distances, size_t* count,
+                                   cdprep_error* error) {
+    return read_stream(scene, "distances", distances, count, error,
+                       &SceneResults::bounded_distances, &SceneResults::bounded_distance_count);
+}
+
 int cdprep_scene_hash(const cdprep_scene* scene, uint64_t* hash, cdprep_error* error) {
     Call call(error);
     if (hash != nullptr) *hash = 0;
@@ -181,5 +231,8 @@ int cdprep_scene_counts(const cdprep_scene* scene, cdprep_counts* counts, cdprep
     counts->n[CDPREP_SCENE_TRIANGLE_PAIRS] = all.triangle_pairs;
     counts->n[CDPREP_SCENE_CONTACTS] = all.calls_of(cdprep::Ask::contacts);
     counts->n[CDPREP_SCENE_LISTED_CONTACTS] = all.contacts;
+    counts->n[CDPREP_SCENE_CONTINUOUS] = all.calls_of(cdprep::Ask::continuous);
+    counts->n[CDPREP_SCENE_SELF] = all.calls_of(cdprep::Ask::self);
+    counts->n[CDPREP_SCENE_HAPTIC] = all.calls_of(cdprep::Ask::haptic);
     return CDPREP_OK;
 }

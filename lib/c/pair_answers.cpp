@@ -24,6 +24,11 @@ int check_words(Call& call, const Name& bits_name, const Name& words_name,
                        words_for(model));
 }
 
+static_assert(CDPREP_IMPACT_NONE == static_cast<int>(ImpactKind::none) &&
+              CDPREP_IMPACT_TOUCHING == static_cast<int>(ImpactKind::touching) &&
+              CDPREP_IMPACT_NEAR == static_cast<int>(ImpactKind::near) &&
+              CDPREP_IMPACT_UNFINISHED == static_cast<int>(ImpactKind::unfinished));
+
 }  // namespace
 
 cdprep_collision in_c(bool hit, const Containment& containment) noexcept {
@@ -49,6 +54,11 @@ cdprep_nearest in_c(const std::optional<Distance>& found) noexcept {
 cdprep_bounded in_c(const BoundedDistance& found) noexcept {
     const double lower = std::min(found.lower, format::kMaxCoordinate);
     return {word(found.is_complete), 0, found.work, lower, in_c(found.nearest)};
+}
+
+cdprep_impact in_c(const Impact& impact) noexcept {
+    return {static_cast<std::uint32_t>(impact.kind), impact.steps, impact.lower, impact.upper,
+            in_c(impact.nearest)};
 }
 
 DistanceOptions in_cpp(const cdprep_distance_options& options) noexcept {

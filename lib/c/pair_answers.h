@@ -6,6 +6,8 @@
 
 #include "c/c_pairs.h"
 #include "cdprep/bounded_distance.h"
+#include "cdprep/c/motion.h"
+#include "cdprep/time_of_impact.h"
 
 // Queries about two models that exist both singly and in batches. Each takes a checked pair and a
 // workspace.
@@ -15,6 +17,7 @@ namespace cdprep::c {
 [[nodiscard]] cdprep_collision in_c(bool hit, const Containment& containment) noexcept;
 [[nodiscard]] cdprep_nearest in_c(const std::optional<Distance>& found) noexcept;
 [[nodiscard]] cdprep_bounded in_c(const BoundedDistance& found) noexcept;
+[[nodiscard]] cdprep_impact in_c(const Impact& impact) noexcept;
 [[nodiscard]] DistanceOptions in_cpp(const cdprep_distance_options& options) noexcept;
 
 [[nodiscard]] cdprep_collision collision_of(const AskedPair& asked, Workspace& workspace) noexcept;

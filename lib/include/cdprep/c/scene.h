@@ -3,6 +3,7 @@
 #define CDPREP_C_SCENE_H
 
 #include "cdprep/c/contacts.h"
+#include "cdprep/c/motion.h"
 
 /* Many objects that move, and the broad phase.
  *
@@ -13,20 +14,33 @@
 
 enum { CDPREP_LAYERS = 32 }; /* the number of layers of a scene; an object is in one of them */
 
-/* The effects of two layers: what their objects are asked about each other. Both may be the same
- * layer. Two layers form at most one pair. */
+/* The effects for pairs of objects of two layers. Both may be the same layer. Two layers form at
+ * most one pair.
+ *
+ * CDPREP_ASK_SELF is about each object of one layer, and its own surface: a and b are that layer.
+ * CDPREP_ASK_CONTINUOUS tells when two objects touch on the way from their last poses to the
+ * present ones. CDPREP_ASK_HAPTIC is a distance within a limit of work. CDPREP_ASK_DEFORM and
+ * CDPREP_ASK_TEAR compute nothing. They say that models of the layers may change between two steps,
+ * so that each step looks for changes. Contacts and continuous are not built together with them,
+ * nor is haptic with distance. */
 typedef struct cdprep_layer_pair {
     cdprep_head head;
     uint32_t a, b; /* 0: below CDPREP_LAYERS */
-    /* 0: nothing is computed. Bits: CDPREP_ASK_COLLIDE, _OVERLAP, _WITHIN, _DISTANCE, _CONTACTS */
+    /* 0: nothing is computed. Bits: CDPREP_ASK_COLLIDE, _OVERLAP, _WITHIN, _DISTANCE, _CONTACTS,
+     * _CONTINUOUS, _SELF, _HAPTIC, _DEFORM, _TEAR */
     uint32_t effects;
-    uint32_t body;        /* CDPREP_SURFACE; of collide, distance and contacts */
+    uint32_t body;        /* CDPREP_SURFACE; of collide, distance, contacts and continuous */
     uint32_t overlap;     /* CDPREP_CLOSED; of collide and overlap */
     uint32_t lists_stays; /* CDPREP_NO; CDPREP_YES: also an event in each step for what goes on */
     double tolerance;     /* 0: of within, model units */
-    double max_distance;  /* 0: of distance, model units: larger distances are not found */
+    /* 0: of distance and haptic, model units: larger distances are not found */
+    double max_distance;
     /* Null: of contacts, the defaults with `most` 16. Read only during the call. */
     const cdprep_contact_options* contacts;
+    double impact_tolerance; /* 0: of continuous: cdprep_moving_pair.tolerance */
+    uint64_t work;           /* 0: of haptic, which needs at least 1: cdprep_distance_bounded() */
+    uint32_t impact_steps;   /* 256: of continuous: cdprep_moving_pair.most_steps */
+    uint32_t reserved;       /* 0 */
 } cdprep_layer_pair;
 
 CDPREP_API void cdprep_layer_pair_init(cdprep_layer_pair* pair, size_t size);
@@ -55,10 +69,11 @@ typedef struct cdprep_plan_options {
     uint32_t model_count;      /* 0 */
     uint32_t layer_name_count; /* 0: at most CDPREP_LAYERS */
     uint32_t max_objects;      /* 0: objects of a scene, at most 2^29 */
-    /* 0: pairs of objects whose boxes meet at a time. Room for twice as many is faster. */
+    /* 0: pairs of objects whose boxes meet at a time, and objects that are asked about themselves.
+     * Room for twice as many is faster. */
     uint32_t max_pairs;
     uint32_t lanes; /* 1: at most 256; a step uses at most as many lanes of its workspace */
-    uint32_t max_triangle_pairs;       /* 0: of overlap: in all lists of a step together */
+    uint32_t max_triangle_pairs;       /* 0: of overlap and self: in all lists of a step together */
     uint32_t max_contacts;             /* 0: of contacts, likewise */
     const cdprep_allocator* allocator; /* null: the heap; copied; also of scenes with this plan */
     /* 0: a point near the objects. Their boxes are relative to it, so that they stay tight in
@@ -178,6 +193,11 @@ CDPREP_API int cdprep_scene_set_layer(cdprep_scene* scene, cdprep_object id, uin
 CDPREP_API int cdprep_scene_set_poses(cdprep_scene* scene, const cdprep_object* ids,
                                       const cdprep_pose* poses, size_t count, cdprep_error* error);
 
+/* Does the same, but without a way for CDPREP_ASK_CONTINUOUS: the objects do not pass from their
+ * last poses to these. Errors: those of cdprep_scene_set_poses(). */
+CDPREP_API int cdprep_scene_put(cdprep_scene* scene, const cdprep_object* ids,
+                                const cdprep_pose* poses, size_t count, cdprep_error* error);
+
 /* Pauses these effects from the next step on, and resumes all others. Paused effects are not
  * computed, and their events end.
  * Errors: CDPREP_WHY_OUT_OF_RANGE for an effect that the plan does not ask for; CDPREP_WHY_BUSY. */
@@ -198,7 +218,7 @@ typedef struct cdprep_step {
 CDPREP_API int cdprep_scene_step(cdprep_scene* scene, cdprep_workspace* workspace,
                                  cdprep_step* step, cdprep_error* error);
 
-/* Two objects for which an effect holds: a.slot < b.slot. */
+/* Two objects for which an effect holds: a.slot < b.slot. Of self, a and b are the same object. */
 typedef struct cdprep_scene_hit {
     cdprep_object a, b;
     uint32_t layer_pair; /* index into cdprep_plan_options.layer_pairs */
@@ -224,6 +244,36 @@ typedef struct cdprep_scene_distance {
     uint32_t reserved;      /* 0 */
     cdprep_nearest nearest; /* points are in the world */
 } cdprep_scene_distance;
+
+/* The triangles of one object that overlap each other. */
+typedef struct cdprep_scene_self_overlap {
+    cdprep_object id;
+    uint32_t layer_pair;
+    uint32_t reserved;           /* 0 */
+    const cdprep_overlap* items; /* belongs to the scene; in the order of (a, b) */
+    size_t count;
+} cdprep_scene_self_overlap;
+
+/* When two objects touch on the way from their poses in the last step to the present ones: a.slot <
+ * b.slot. */
+typedef struct cdprep_scene_impact {
+    cdprep_object a, b;
+    uint32_t layer_pair;
+    uint32_t reserved;    /* 0 */
+    cdprep_impact impact; /* times from 0 to 1; points are in the world */
+} cdprep_scene_impact;
+
+/* The distance of two objects that are not proven to be farther than max_distance: a.slot < b.slot.
+ */
+typedef struct cdprep_scene_bounded {
+    cdprep_object a, b;
+    uint32_t layer_pair;
+    uint32_t has_last;                    /* CDPREP_YES: there was a complete answer */
+    uint64_t late;                        /* late answers since then */
+    cdprep_bounded bounded;               /* points are in the world */
+    cdprep_bounded last;                  /* the last complete answer, with CDPREP_YES */
+    cdprep_pose last_pose_a, last_pose_b; /* the poses of that answer */
+} cdprep_scene_bounded;
 
 /* The contacts of two objects: a.slot < b.slot. A is the object with the lower slot; points and
  * normals are in the world. The items and numbers are those of a cdprep_contact_list. Two objects
@@ -254,19 +304,22 @@ enum {
     CDPREP_REASON_UNCHANGED = 4  /* of CDPREP_EVENT_STAY: neither object moved */
 };
 
-/* An effect that begins, goes on or ceases to hold for two objects: a.slot < b.slot. */
+/* An effect that begins, goes on or ceases to hold for two objects: a.slot < b.slot. Of self, a and
+ * b are the same object. */
 typedef struct cdprep_event {
     cdprep_object a, b;
     uint32_t layer_pair; /* when the effect began */
-    uint32_t effect;     /* one bit: CDPREP_ASK_COLLIDE, _OVERLAP, _WITHIN, _DISTANCE, _CONTACTS */
-    uint32_t kind;       /* CDPREP_EVENT_BEGIN, _STAY, _END */
-    uint32_t reason;     /* CDPREP_REASON_ */
+    /* One bit: CDPREP_ASK_COLLIDE, _OVERLAP, _WITHIN, _DISTANCE, _CONTACTS, _CONTINUOUS, _SELF,
+     * _HAPTIC. */
+    uint32_t effect;
+    uint32_t kind;   /* CDPREP_EVENT_BEGIN, _STAY, _END */
+    uint32_t reason; /* CDPREP_REASON_ */
 } cdprep_event;
 
 /* Each function stores the address of an array, and the number of its elements. The array belongs
  * to the scene. It is that of the last complete step, and stays until the next one or the end of
- * the scene. Before the first step it is empty. Each stream has a function of its own: a result
- * struct never changes, so later streams come as new functions. */
+ * the scene. Before the first step it is empty. Each kind of result has a function of its own. A
+ * result struct never changes, so later kinds come as new functions. */
 CDPREP_API int cdprep_scene_hits(const cdprep_scene* scene, const cdprep_scene_hit** hits,
                                  size_t* count, cdprep_error* error);
 CDPREP_API int cdprep_scene_overlaps(const cdprep_scene* scene,
@@ -278,6 +331,14 @@ CDPREP_API int cdprep_scene_distances(const cdprep_scene* scene,
 CDPREP_API int cdprep_scene_contacts(const cdprep_scene* scene,
                                      const cdprep_scene_contact** contacts, size_t* count,
                                      cdprep_error* error);
+CDPREP_API int cdprep_scene_self_overlaps(const cdprep_scene* scene,
+                                          const cdprep_scene_self_overlap** overlaps, size_t* count,
+                                          cdprep_error* error);
+CDPREP_API int cdprep_scene_impacts(const cdprep_scene* scene, const cdprep_scene_impact** impacts,
+                                    size_t* count, cdprep_error* error);
+CDPREP_API int cdprep_scene_bounded_distances(const cdprep_scene* scene,
+                                              const cdprep_scene_bounded** distances, size_t* count,
+                                              cdprep_error* error);
 /* Events are in the order of hits. */
 CDPREP_API int cdprep_scene_events(const cdprep_scene* scene, const cdprep_event** events,
                                    size_t* count, cdprep_error* error);
@@ -291,16 +352,19 @@ CDPREP_API int cdprep_scene_hash(const cdprep_scene* scene, uint64_t* hash, cdpr
 enum {
     CDPREP_SCENE_OBJECTS = 0,    /* objects in the scene now */
     CDPREP_SCENE_MOVED = 1,      /* objects that moved, were added, removed or relayered */
-    CDPREP_SCENE_CANDIDATES = 2, /* pairs of objects whose boxes meet */
+    CDPREP_SCENE_CANDIDATES = 2, /* pairs of objects whose boxes meet, and objects of self */
     CDPREP_SCENE_KEPT = 3,       /* of the candidates: neither object moved, so none is asked */
     CDPREP_SCENE_APART = 4,      /* of the candidates: turned boxes are apart, so none is asked */
     CDPREP_SCENE_COLLIDE = 5,    /* collide queries */
     CDPREP_SCENE_WITHIN = 6,     /* within queries */
     CDPREP_SCENE_DISTANCE = 7,   /* distance queries */
     CDPREP_SCENE_OVERLAP = 8,    /* overlap queries */
-    CDPREP_SCENE_TRIANGLE_PAIRS = 9,  /* in all lists of overlaps */
-    CDPREP_SCENE_CONTACTS = 10,       /* contact queries */
-    CDPREP_SCENE_LISTED_CONTACTS = 11 /* in all lists of contacts */
+    CDPREP_SCENE_TRIANGLE_PAIRS = 9,   /* in all lists of overlaps and self overlaps */
+    CDPREP_SCENE_CONTACTS = 10,        /* contact queries */
+    CDPREP_SCENE_LISTED_CONTACTS = 11, /* in all lists of contacts */
+    CDPREP_SCENE_CONTINUOUS = 12,      /* queries for times of impact */
+    CDPREP_SCENE_SELF = 13,            /* queries about single objects */
+    CDPREP_SCENE_HAPTIC = 14           /* bounded distance queries */
 };
 
 /* Stores the work of the last step, for tuning. The rest of counts->n is 0. */

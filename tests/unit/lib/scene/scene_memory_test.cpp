@@ -48,5 +48,33 @@ TEST(SceneMemory, NothingIsAllocatedAfterConstruction) {
     EXPECT_GT(events, 100U);
 }
 
+TEST(SceneMemory, NothingIsAllocatedForMotions) {
+    const test::OpenModel ball = test::open_tiny(test::icosphere(2));
+    const std::vector<LayerPair> pairs = {
+        {.effects = Ask::continuous | Ask::self | Ask::haptic, .max_distance = 0.5, .work = 200}};
+    const Plan plan =
+        *Plan::compile(
+             {.pairs = pairs, .limits = {.objects = 12, .pairs = 200, .triangle_pairs = 1000}})
+             .plan;
+    Scene scene(plan);
+    std::vector<Workspace> workspaces(1);
+    std::mt19937 random(3);
+    std::vector<ObjectId> objects;
+    for (int i = 0; i < 12; ++i) {
+        objects.push_back(*scene.add({&ball.model, 0, test::random_pose(random, 3)}));
+    }
+    std::size_t impacts = 0;
+    const std::size_t before = test::most = test::used;
+    for (int step = 0; step < 10; ++step) {
+        for (const ObjectId object : objects) {
+            static_cast<void>(scene.set_pose(object, test::random_pose(random, 3)));
+        }
+        if (!scene.step(workspaces).complete) FAIL();
+        impacts += scene.impacts().size();
+    }
+    EXPECT_EQ(test::most, before);
+    EXPECT_GT(impacts, 10U);
+}
+
 }  // namespace
 }  // namespace cdprep

@@ -54,7 +54,8 @@ void for_each_plan(const Visit& visit) {
             if ((set >> i & 1) != 0) pair.effects = pair.effects | kSceneEffects[i];
         }
         if (contains(pair.effects, Ask::within)) pair.tolerance = 0.1;
-        if (contains(pair.effects, Ask::distance)) pair.max_distance = 0.5;
+        if ((pair.effects & (Ask::distance | Ask::haptic)) != Ask::nothing) pair.max_distance = 0.5;
+        if (contains(pair.effects, Ask::haptic)) pair.work = 300;
         for (const Body body : {Body::surface, Body::solid}) {
             pair.body = body;
             const std::vector<LayerPair> pairs = {pair};
@@ -81,7 +82,9 @@ TEST(ScenePages, EachPlanReadsOnlyWhatItNeeds) {
             << plan.describe();
         ++plans;
     });
-    EXPECT_EQ(plans, 31 + 28);  // overlap and within read no body
+    // Of surfaces, all sets but those of haptic and distance. Of solids, those without haptic that
+    // read the body: overlap, within and self do not.
+    EXPECT_EQ(plans, (255 - 64) + (127 - 7));
 }
 
 // The test above would notice: a section that is needed and closed ends the program.

@@ -306,7 +306,10 @@ TEST(Scene, EqualsSingleQueriesAndTheirDifferences) {
     EXPECT_GT(kept, 100U);
     EXPECT_GT(apart, 10U);
     EXPECT_GT(stays, 100U);
-    for (const Ask one : kSceneEffects) EXPECT_GT(begun_of[one], 20U) << find_needs(one)->name;
+    for (const Ask one : kSceneEffects) {
+        if (!contains(plan_for(1, 1).effects(), one)) continue;
+        EXPECT_GT(begun_of[one], 20U) << find_needs(one)->name;
+    }
 }
 
 TEST(Scene, ThreadsGiveTheSame) {
