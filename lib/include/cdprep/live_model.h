@@ -47,8 +47,9 @@ struct LiveTriangle {
 /// model().triangle_count() counts places, but is 0 without triangles. The mesh() and source()
 /// views have an element for each place.
 ///
-/// In a scene, call set_pose() for each object of the model after a change, even with the same
-/// pose. Caches stay valid: after a change, queries ignore the gaps proven before it.
+/// A scene finds changes itself if the layers ask for Ask::deform or Ask::tear. Otherwise call
+/// set_pose() for each object of the model after a change. Caches stay valid: after a change,
+/// queries ignore the gaps proven before it.
 ///
 /// Move-only; a move leaves the model's bytes in place. A live model that was moved from may only
 /// be destroyed or assigned to. Const members, and queries about model(), may run on any number of

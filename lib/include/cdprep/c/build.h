@@ -43,9 +43,10 @@ CDPREP_API int cdprep_model_build_size(const cdprep_build_options* options, size
                                        cdprep_error* error);
 
 /* Builds a model. It answers every query that it serves exactly as a bake of the same arrays does.
- * A build can serve CDPREP_ASK_COLLIDE, _OVERLAP, _DISTANCE, _WITHIN, _INSIDE, _RAY, _CLOSEST,
- * _TOUCH, _CORNERS and _SOLID. All other queries are refused with CDPREP_WHY_NOT_BAKED. Close the
- * model with cdprep_model_close(). On failure *model is null.
+ * A build can serve CDPREP_ASK_COLLIDE, _OVERLAP, _DISTANCE, _WITHIN, _CONTINUOUS, _SELF, _DEFORM,
+ * _TEAR, _HAPTIC, _INSIDE, _RAY, _CLOSEST, _TOUCH, _CORNERS and _SOLID. All other queries are
+ * refused with CDPREP_WHY_NOT_BAKED. Close the model with cdprep_model_close(). On failure *model
+ * is null.
  *
  * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_model_build_size()
  * bytes. The model lives there: do not touch this memory before cdprep_model_close(). Afterwards it

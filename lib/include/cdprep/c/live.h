@@ -8,7 +8,8 @@
 
 /* A live model. It is queried through cdprep_live_model(). While one call changes it, all other
  * calls of this header fail with CDPREP_WHY_BUSY. No query about its model may run then: this is
- * not checked. In a scene, set the pose of each object of the model after a change. */
+ * not checked. A scene finds changes if the layers ask for CDPREP_ASK_DEFORM or _TEAR. Otherwise
+ * set the pose of each object of the model after a change. */
 typedef struct cdprep_live cdprep_live;
 
 typedef struct cdprep_live_options {
@@ -56,7 +57,8 @@ CDPREP_API void cdprep_live_end(cdprep_live* live);
 
 /* Returns the model to query; null of null. It is the same object after each change, and lives as
  * long as the live model: do not close it. It serves CDPREP_ASK_COLLIDE, _OVERLAP, _DISTANCE,
- * _WITHIN, _INSIDE, _RAY, _CLOSEST, _TOUCH, _CORNERS and _SOLID.
+ * _WITHIN, _CONTINUOUS, _SELF, _DEFORM, _TEAR, _HAPTIC, _INSIDE, _RAY, _CLOSEST, _TOUCH, _CORNERS
+ * and _SOLID.
  *
  * After cdprep_live_append() or cdprep_live_remove(), it counts as open and without components.
  * Queries about solids then store CDPREP_UNKNOWN, unless boxes or surfaces decide. All numbers of

@@ -22,7 +22,8 @@ namespace {
 constexpr std::uint32_t kBuildable = CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP | CDPREP_ASK_DISTANCE |
                                      CDPREP_ASK_WITHIN | CDPREP_ASK_INSIDE | CDPREP_ASK_RAY |
                                      CDPREP_ASK_CLOSEST | CDPREP_ASK_TOUCH | CDPREP_ASK_CORNERS |
-                                     CDPREP_ASK_SOLID;
+                                     CDPREP_ASK_SOLID | CDPREP_ASK_CONTINUOUS | CDPREP_ASK_SELF |
+                                     CDPREP_ASK_DEFORM | CDPREP_ASK_TEAR | CDPREP_ASK_HAPTIC;
 
 /// All that a model holds: equal models have equal bytes.
 std::string contents(const cdprep_model* model) {

@@ -25,7 +25,8 @@ namespace {
 constexpr std::uint32_t kServed = CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP | CDPREP_ASK_DISTANCE |
                                   CDPREP_ASK_WITHIN | CDPREP_ASK_INSIDE | CDPREP_ASK_RAY |
                                   CDPREP_ASK_CLOSEST | CDPREP_ASK_TOUCH | CDPREP_ASK_CORNERS |
-                                  CDPREP_ASK_SOLID;
+                                  CDPREP_ASK_SOLID | CDPREP_ASK_CONTINUOUS | CDPREP_ASK_SELF |
+                                  CDPREP_ASK_DEFORM | CDPREP_ASK_TEAR | CDPREP_ASK_HAPTIC;
 
 cdprep_live_options options_for(const cdprep_model* base, std::uint32_t triangles = 0,
                                 std::uint32_t vertices = 0) {

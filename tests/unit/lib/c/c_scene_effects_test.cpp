@@ -192,7 +192,7 @@ TEST(CSceneEffects, RefusesOptionsThatNothingReads) {
     EXPECT_EQ(why_of([&] { pair.impact_tolerance = 1; }), CDPREP_WHY_NO_MEANING);
     EXPECT_EQ(why_of([&] { pair.impact_steps = 7; }), CDPREP_WHY_NO_MEANING);
     EXPECT_EQ(why_of([&] { pair.work = 7; }), CDPREP_WHY_NO_MEANING);
-    EXPECT_EQ(why_of([&] { pair.reserved = 1; }), CDPREP_WHY_OUT_OF_RANGE);
+    EXPECT_EQ(why_of([&] { pair.reserved = 1; }), CDPREP_WHY_NEWER_FIELD);
     EXPECT_EQ(why_of([&] { pair.effects = CDPREP_ASK_HAPTIC; }), CDPREP_WHY_OUT_OF_RANGE);
     EXPECT_EQ(why_of([&] {
                   pair.effects = CDPREP_ASK_SELF;

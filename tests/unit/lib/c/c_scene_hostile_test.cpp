@@ -147,7 +147,7 @@ TEST_F(CSceneHostile, LayerPairsAreCheckedFieldByField) {
     using P = cdprep_layer_pair;
     std::vector<Mistake<P>> all = struct_mistakes<P>("options.layer_pairs[0]");
     const auto word = [&](const char* name, std::uint32_t P::*field, std::uint32_t least) {
-        for (const std::uint32_t value : {least, 77U, UINT32_MAX}) {
+        for (const std::uint32_t value : {least, least | 1U, UINT32_MAX}) {
             all.push_back({name, [=](P& p) { p.*field = value; }, CDPREP_WHY_OUT_OF_RANGE, name});
         }
     };
@@ -236,7 +236,7 @@ TEST_F(CSceneHostile, ModelUsesAreCheckedFieldByField) {
     const char* const kModel = "options.models[0].model";
     const char* const kServes = "options.models[0].serves";
     all.push_back({"serves", [](U& u) { u.serves = 1; }, CDPREP_WHY_NO_MEANING, kServes});
-    all.push_back({"no bit", [](U& u) { u.serves = 1 << 7; }, CDPREP_WHY_OUT_OF_RANGE, kServes});
+    all.push_back({"no bit", [](U& u) { u.serves = 1 << 19; }, CDPREP_WHY_OUT_OF_RANGE, kServes});
     all.push_back(
         {"name", [](U& u) { u.name = "cube"; }, CDPREP_WHY_NO_MEANING, "options.models[0].name"});
     all.push_back(
@@ -329,7 +329,7 @@ TEST_F(CSceneHostile, APlanTellsEveryReason) {
     EXPECT_EQ(told.sentences[1],
               "options.layer_pairs[2] is of layers 1 and 0, and so is options.layer_pairs[0].");
     EXPECT_EQ(told.sentences[2],
-              "options.layer_pairs[3].effects is 0x1000; a scene computes only the bits 0x1f.");
+              "options.layer_pairs[3].effects is 0x1000; a scene computes only the bits 0x7df.");
     EXPECT_EQ(told.sentences[4],
               "options.models[2].serves is 0x0, but its layers ask for collide. Bake bolt.cdp.h5 "
               "with --effects collide.");
@@ -365,7 +365,8 @@ TEST_F(CSceneHostile, MessagesAndTextsNameTheLayers) {
     EXPECT_STREQ(text.data(),
                  "layers 'floor' and 2: collide\n"
                  "layers 'crates' and 'floor': collide\n"
-                 "not computed, for no pair of layers asks: overlap, within, distance, contacts\n"
+                 "not computed, for no pair of layers asks: overlap, within, distance, contacts, "
+                 "continuous, self, haptic\n"
                  "layers that are never looked at together: 'floor' and 'floor', 'crates' and "
                  "'crates', 'crates' and 2, 2 and 2\n");
     cdprep_plan_end(plan);

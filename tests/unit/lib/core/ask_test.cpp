@@ -85,7 +85,8 @@ TEST(Needs, ExactLeavesServeForCorners) {
 // A complete tiny bake has a BVH, numbers and components, but no pieces, octrees or hulls.
 TEST(Asks, OfATinyBakeAreThoseOfItsSections) {
     const Ask all = Ask::collide | Ask::overlap | Ask::distance | Ask::within | Ask::inside |
-                    Ask::ray | Ask::closest | Ask::touch | Ask::corners | Ask::solid;
+                    Ask::ray | Ask::closest | Ask::touch | Ask::corners | Ask::solid |
+                    Ask::continuous | Ask::self | Ask::deform | Ask::tear | Ask::haptic;
     EXPECT_EQ(asks_of(baked_cube()), all);
     EXPECT_EQ(asks_of(baked_cube({}, true)), all);
     EXPECT_EQ(asks_of(baked_cube({SectionId::components})), without(all, Ask::solid));

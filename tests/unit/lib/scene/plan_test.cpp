@@ -44,14 +44,15 @@ TEST(Plan, DropsWhatNobodyAsksFor) {
     EXPECT_EQ(plan.reach_of(1), 1);
     EXPECT_FALSE(plan.filter_of(0).allows(plan.filter_of(3)));
     EXPECT_TRUE(plan.filter_of(3).allows(plan.filter_of(1)));
-    EXPECT_EQ(plan.describe(),
-              "layers 0 and 1: collide\n"
-              "layers 3 and 1: within 0.5 (mostly from distance), distance up to 2\n"
-              "not computed, for no pair of layers asks: overlap, contacts\n"
-              "layers that are never looked at together: 0 and 0, 0 and 3, 1 and 1, 3 and 3\n");
     EXPECT_EQ(
-        compiled({}).plan->describe(),
-        "not computed, for no pair of layers asks: collide, overlap, within, distance, contacts\n");
+        plan.describe(),
+        "layers 0 and 1: collide\n"
+        "layers 3 and 1: within 0.5 (mostly from distance), distance up to 2\n"
+        "not computed, for no pair of layers asks: overlap, contacts, continuous, self, haptic\n"
+        "layers that are never looked at together: 0 and 0, 0 and 3, 1 and 1, 3 and 3\n");
+    EXPECT_EQ(compiled({}).plan->describe(),
+              "not computed, for no pair of layers asks: collide, overlap, within, distance, "
+              "contacts, continuous, self, haptic\n");
 }
 
 TEST(Plan, RefusesAnOriginThatIsNoPoint) {
@@ -78,10 +79,11 @@ TEST(Plan, DescribesListsAndTheirLimits) {
     const auto made = compiled({{.effects = Ask::collide | Ask::overlap | Ask::contacts,
                                  .overlap = Overlap::proper,
                                  .contacts = {.tolerance = 0.25, .most = 8, .work = 1000}}});
-    EXPECT_EQ(made.plan->describe(),
-              "layers 0 and 0: collide, proper (from overlap), overlap, proper, contacts within "
-              "0.25, at most 8, work 1000\n"
-              "not computed, for no pair of layers asks: within, distance\n");
+    EXPECT_EQ(
+        made.plan->describe(),
+        "layers 0 and 0: collide, proper (from overlap), overlap, proper, contacts within "
+        "0.25, at most 8, work 1000\n"
+        "not computed, for no pair of layers asks: within, distance, continuous, self, haptic\n");
     EXPECT_EQ(made.plan->reach_of(0), 0.125);
 }
 
@@ -163,7 +165,8 @@ TEST(Plan, NamesLayers) {
     EXPECT_EQ(made.plan->describe(),
               "layers 'floor' and 'crates': collide\n"
               "layers 'crates' and 2: within 0.5\n"
-              "not computed, for no pair of layers asks: overlap, distance, contacts\n"
+              "not computed, for no pair of layers asks: overlap, distance, contacts, continuous, "
+              "self, haptic\n"
               "layers that are never looked at together: 'floor' and 'floor', 'floor' and 2, "
               "'crates' and 'crates', 2 and 2\n");
     const std::vector<LayerPair> wrong = {{.a = 0, .b = 1, .effects = Ask::collide},

@@ -24,10 +24,10 @@
 namespace cdprep {
 namespace {
 
-constexpr SceneLimits kLimits = {
+constexpr SceneLimits kEffectLimits = {
     .objects = 16, .pairs = 200, .threads = 2, .triangle_pairs = 20000, .contacts = 100};
 
-Plan plan_of(const std::vector<LayerPair>& pairs, const SceneLimits& limits = kLimits) {
+Plan effects_plan(const std::vector<LayerPair>& pairs, const SceneLimits& limits = kEffectLimits) {
     Plan::Compiled compiled = Plan::compile({.pairs = pairs, .limits = limits});
     for (const std::string& refusal : compiled.refusals) ADD_FAILURE() << refusal;
     return std::move(*compiled.plan);
@@ -147,7 +147,7 @@ const std::vector<LayerPair> kContinuous = {
     {.effects = Ask::continuous | Ask::collide, .impact = {.tolerance = 0.01}}};
 
 TEST(SceneContinuous, EqualsSingleQueriesOverWholeWays) {
-    const Plan plan = plan_of(kContinuous);
+    const Plan plan = effects_plan(kContinuous);
     std::size_t impacts = 0;
     for (std::uint32_t seed = 0; seed < (test::asks_all() ? 40U : 3U); ++seed) {
         Movers movers(seed, plan);
@@ -162,10 +162,10 @@ TEST(SceneContinuous, EqualsSingleQueriesOverWholeWays) {
 }
 
 TEST(SceneContinuous, ThreadsGiveTheSame) {
-    SceneLimits limits = kLimits;
-    const Plan two = plan_of(kContinuous, limits);
+    SceneLimits limits = kEffectLimits;
+    const Plan two = effects_plan(kContinuous, limits);
     limits.threads = 8;
-    const Plan eight = plan_of(kContinuous, limits);
+    const Plan eight = effects_plan(kContinuous, limits);
     Movers a(7, two), b(7, eight);
     for (int step = 0; step < 5; ++step) {
         a.step();
@@ -184,7 +184,7 @@ TEST(SceneContinuous, AFastObjectDoesNotPassThroughUnseen) {
         test::open_tiny(test::turned(test::moved_by(test::unit_cube(), 1, {0, 0, 0}), 0));
     const std::vector<LayerPair> pairs = {
         {.effects = Ask::continuous | Ask::collide | Ask::within}};
-    const Plan plan = plan_of(pairs);
+    const Plan plan = effects_plan(pairs);
     Scene scene(plan);
     std::vector<Workspace> workspaces(1);
     const ObjectId fixed = *scene.add({&plate.model, 0, shifted(0, 0, 0)});
@@ -214,7 +214,7 @@ TEST(SceneSelf, EqualsASingleQueryAndIsKeptWhileTheShapeIs) {
     Live sheet(test::grid_sheet(12, 12));
     const std::vector<LayerPair> pairs = {
         {.effects = Ask::self | Ask::deform | Ask::collide, .lists_stays = true}};
-    const Plan plan = plan_of(pairs);
+    const Plan plan = effects_plan(pairs);
     Scene scene(plan);
     std::vector<Workspace> workspaces(1);
     Workspace workspace;
@@ -271,8 +271,8 @@ TEST(SceneSelf, SaysHowMuchRoomItNeeds) {
     const std::vector<LayerPair> pairs = {{.effects = Ask::self}};
     std::vector<Workspace> workspaces(1);
     const auto step = [&](std::uint32_t most_pairs, std::uint32_t most_triangles) {
-        const Plan plan =
-            plan_of(pairs, {.objects = 3, .pairs = most_pairs, .triangle_pairs = most_triangles});
+        const Plan plan = effects_plan(
+            pairs, {.objects = 3, .pairs = most_pairs, .triangle_pairs = most_triangles});
         Scene scene(plan);
         for (int i = 0; i < 3; ++i) static_cast<void>(scene.add({&model.model, 0, Pose()}));
         const SceneStep done = scene.step(workspaces);
@@ -288,7 +288,7 @@ TEST(SceneSelf, SaysHowMuchRoomItNeeds) {
 TEST(SceneDeform, AChangeIsFoundWithoutACall) {
     const std::vector<LayerPair> told = {{.effects = Ask::collide | Ask::overlap}};
     const std::vector<LayerPair> found = {{.effects = Ask::collide | Ask::overlap | Ask::tear}};
-    const Plan told_plan = plan_of(told), found_plan = plan_of(found);
+    const Plan told_plan = effects_plan(told), found_plan = effects_plan(found);
     Live sheet(test::grid_sheet(10, 10), {.triangles = 400, .vertices = 200});
     const test::OpenModel ball = test::open_tiny(test::icosphere(2));
     Scene a(told_plan), b(found_plan);
@@ -333,7 +333,7 @@ TEST(SceneHaptic, BoundsHoldAndTheLastAnswerStays) {
         {.effects = Ask::haptic, .max_distance = 3, .work = 40}};
     const std::vector<LayerPair> free = {
         {.effects = Ask::haptic, .max_distance = 3, .work = 100'000'000}};
-    const Plan bounded_plan = plan_of(bounded), free_plan = plan_of(free);
+    const Plan bounded_plan = effects_plan(bounded), free_plan = effects_plan(free);
     const test::OpenModel organ = test::open_tiny(test::torus(2, 0.7, 80, 40));
     const test::OpenModel probe =
         test::open_tiny(test::moved_by(test::icosphere(3), 0.2, {0, 0, 0}));
@@ -373,7 +373,7 @@ TEST(SceneEffects, GivenCandidatesGiveTheSame) {
         {.effects = Ask::continuous | Ask::self | Ask::collide},
         {.a = 0, .b = 1, .effects = Ask::haptic, .max_distance = 1, .work = 300},
         {.a = 1, .b = 1, .effects = Ask::self}};
-    const Plan plan = plan_of(pairs);
+    const Plan plan = effects_plan(pairs);
     const test::OpenModel ball = test::open_tiny(
         test::joined(test::icosphere(1), test::moved_by(test::icosphere(1), 1, {0.5, 0, 0})));
     Scene own(plan), given(plan);
@@ -413,7 +413,7 @@ std::uint64_t tick() noexcept {
 
 TEST(SceneEffects, AClockOfTheCallersTellsWhatEffectsTake) {
     const std::vector<LayerPair> pairs = {{.effects = Ask::collide | Ask::overlap | Ask::self}};
-    const Plan plan = plan_of(pairs);
+    const Plan plan = effects_plan(pairs);
     const test::OpenModel ball = test::open_tiny(test::icosphere(1));
     Scene scene(plan);
     std::vector<Workspace> workspaces(1);
