@@ -263,7 +263,8 @@ std::string effects_text(const LayerPair& pair) {
     const bool has_overlap = has(pair.effects, Ask::overlap);
     const bool has_distance = has(pair.effects, Ask::distance);
     if (has(pair.effects, Ask::tear)) {
-        add("models may tear" + std::string(solid.empty() ? "" : ", and are then no solids"));
+        add("models may tear" +
+            std::string(solid.empty() ? "" : ", and whether solids touch may then be unknown"));
     } else if (has(pair.effects, Ask::deform)) {
         add("models may deform");
     }

@@ -79,40 +79,154 @@ TEST(Plan, DescribesListsAndTheirLimits) {
     const auto made = compiled({{.effects = Ask::collide | Ask::overlap | Ask::contacts,
                                  .overlap = Overlap::proper,
                                  .contacts = {.tolerance = 0.25, .most = 8, .work = 1000}}});
-    EXPECT_EQ(
-        made.plan->describe(),
-        "layers 0 and 0: collide, proper (from overlap), overlap, proper, contacts within "
-        "0.25, at most 8, work 1000\n"
-        "not computed, for no pair of layers asks: within, distance, continuous, self, haptic\n");
+    EXPECT_EQ(made.plan->describe(),
+              "layers 0 and 0: collide, proper (from overlap), overlap, proper, contacts within "
+              "0.25, at most 8, work 1000\n"
+              "not computed, for no pair of layers asks: within, distance, continuous, self, "
+              "haptic\n");
     EXPECT_EQ(made.plan->reach_of(0), 0.125);
 }
 
-// Each set of the five effects is built, and each other effect is refused by its name.
-TEST(Plan, DecidesEveryEffect) {
-    constexpr std::array kBuilt = {Ask::collide, Ask::overlap, Ask::within, Ask::distance,
-                                   Ask::contacts};
-    Ask all = Ask::nothing;
-    for (unsigned set = 0; set < 32; ++set) {
-        Ask effects = Ask::nothing;
-        for (std::size_t i = 0; i < 5; ++i) {
-            if ((set >> i & 1) != 0) effects = effects | kBuilt[i];
+constexpr const char* kChangingContacts =
+    "Pair 0 of layers: contacts of models that deform or tear are not built: pieces do not follow "
+    "the surface. Ask for overlap, within or distance.";
+constexpr const char* kChangingContinuous =
+    "Pair 0 of layers: continuous is not built for models that deform or tear. Ask for within, or "
+    "use a Sweep.";
+constexpr const char* kSelfOfTwo =
+    "Pair 0 of layers: self is about single objects. Ask for it in a pair of one layer with "
+    "itself.";
+constexpr const char* kTwoDistances =
+    "Pair 0 of layers: haptic is a distance within a limit of work. Ask for haptic or for "
+    "distance.";
+constexpr const char* kSolidHaptic =
+    "Pair 0 of layers: haptic is about surfaces. Ask for distance of solids.";
+
+/// The refusals of a pair of layers, as the header tells them.
+Sentences refusals_of(const LayerPair& pair) {
+    const auto asks = [&](Ask some) { return (pair.effects & some) != Ask::nothing; };
+    const bool changes = asks(Ask::deform | Ask::tear);
+    Sentences sentences;
+    if (changes && asks(Ask::contacts)) sentences.emplace_back(kChangingContacts);
+    if (changes && asks(Ask::continuous)) sentences.emplace_back(kChangingContinuous);
+    if (asks(Ask::self) && pair.a != pair.b) sentences.emplace_back(kSelfOfTwo);
+    if (asks(Ask::haptic) && asks(Ask::distance)) sentences.emplace_back(kTwoDistances);
+    if (asks(Ask::haptic) && pair.body == Body::solid) sentences.emplace_back(kSolidHaptic);
+    return sentences;
+}
+
+// All sets of the ten effects that a scene knows, of one layer and of two, of surfaces and solids.
+TEST(Plan, DecidesEverySetOfEffects) {
+    constexpr std::array kKnown = {Ask::collide,  Ask::overlap,    Ask::within, Ask::distance,
+                                   Ask::contacts, Ask::continuous, Ask::self,   Ask::haptic,
+                                   Ask::deform,   Ask::tear};
+    constexpr Ask kOfBodies = Ask::collide | Ask::distance | Ask::contacts | Ask::continuous;
+    int built = 0, refused = 0;
+    for (unsigned set = 0; set < 1U << (kKnown.size() + 2); ++set) {
+        LayerPair pair = {.a = 4, .b = (set & 1) != 0 ? 7U : 4U};
+        for (std::size_t i = 0; i < kKnown.size(); ++i) {
+            if ((set >> (i + 2) & 1) != 0) pair.effects = pair.effects | kKnown[i];
         }
-        const auto made = compiled({{.a = 4, .b = 7, .effects = effects}});
-        ASSERT_TRUE(made.plan);
-        EXPECT_EQ(made.plan->effects(), effects);
-        all = all | effects;
+        if (contains(pair.effects, Ask::haptic)) pair.work = 1;
+        if ((set & 2) != 0) {
+            if ((pair.effects & kOfBodies) == Ask::nothing) continue;
+            pair.body = Body::solid;
+        }
+        const auto made = compiled({pair});
+        const Sentences expected = refusals_of(pair);
+        ASSERT_EQ(made.refusals, expected) << set;
+        ASSERT_EQ(made.plan.has_value(), expected.empty());
+        (expected.empty() ? built : refused)++;
+        if (expected.empty()) {
+            ASSERT_EQ(made.plan->effects(), pair.effects);
+        }
     }
+    // By hand. Of one layer, without and with a change: (3/4 * 256, of haptic and distance) and 3
+    // times as many without contacts and continuous. Half of them, without self, of two layers.
+    // Solids: without haptic, 128 sets, of which 120 read the body; with a change 32 and 24.
+    EXPECT_EQ(built, 192 + 3 * 48 + 96 + 3 * 24 + 120 + 3 * 24 + 60 + 3 * 12);
+    EXPECT_GT(refused, 1000);
+}
+
+TEST(Plan, RefusesEachOtherEffectByItsName) {
+    int others = 0;
     for (int bit = 0; bit < 32; ++bit) {
         const auto one = static_cast<Ask>(1U << bit);
-        if (contains(all, one)) continue;
+        if ((one & (Ask::collide | Ask::overlap | Ask::within | Ask::distance | Ask::contacts |
+                    Ask::continuous | Ask::self | Ask::haptic | Ask::deform | Ask::tear)) !=
+            Ask::nothing) {
+            continue;
+        }
         const Needs* needs = find_needs(one);
         const std::string name =
             needs ? std::string(needs->name) : "effect bit " + std::to_string(bit);
         EXPECT_EQ(compiled({{.effects = one}}).refusals,
                   Sentences({"Pair 0 of layers: " + name +
-                             " is not built in a scene. Built are "
-                             "collide, overlap, within, distance and contacts."}));
+                             " is not built in a scene. Built are collide, overlap, within, "
+                             "distance, contacts, continuous, self and haptic."}));
+        ++others;
     }
+    EXPECT_EQ(others, 22);
+}
+
+TEST(Plan, DescribesMotionsChangesAndSingleObjects) {
+    const auto made =
+        compiled({{.effects = Ask::self | Ask::deform},
+                  {.a = 0, .b = 1, .effects = Ask::collide | Ask::tear, .body = Body::solid},
+                  {.a = 1, .b = 1, .effects = Ask::overlap | Ask::tear},
+                  {.a = 2,
+                   .b = 2,
+                   .effects = Ask::continuous,
+                   .body = Body::solid,
+                   .impact = {.tolerance = 0.5}},
+                  {.a = 2, .b = 3, .effects = Ask::haptic, .max_distance = 4, .work = 300}});
+    ASSERT_TRUE(made.plan);
+    EXPECT_EQ(made.plan->describe(),
+              "layers 0 and 0: models may deform, self (each object)\n"
+              "layers 0 and 1: models may tear, and whether solids touch may then be unknown, "
+              "collide of solids\n"
+              "layers 1 and 1: models may tear, overlap\n"
+              "layers 2 and 2: continuous of solids with tolerance 0.5\n"
+              "layers 2 and 3: haptic up to 4, work 300\n"
+              "not computed, for no pair of layers asks: within, distance, contacts\n"
+              "layers that are never looked at together: 0 and 0, 0 and 2, 0 and 3, 1 and 2, 1 "
+              "and 3, 3 and 3\n");
+    const Plan& plan = *made.plan;
+    EXPECT_EQ(plan.effects(), Ask::self | Ask::deform | Ask::tear | Ask::collide | Ask::overlap |
+                                  Ask::continuous | Ask::haptic);
+    // A rigid partner of a model that tears need not serve that.
+    EXPECT_EQ(plan.asks_of(0), Ask::self | Ask::collide | Ask::solid);
+    EXPECT_EQ(plan.asks_of(2), Ask::continuous | Ask::solid | Ask::haptic);
+    EXPECT_EQ(plan.layers_of(Ask::deform | Ask::tear), 3U);
+    EXPECT_EQ(plan.layers_of(Ask::self), 1U);
+    EXPECT_EQ(plan.reach_of(2), 2);
+    // A pair that asks for nothing of two objects: not even their boxes are looked at.
+    EXPECT_FALSE(plan.filter_of(0).allows(plan.filter_of(0)));
+    EXPECT_TRUE(plan.filter_of(0).allows(plan.filter_of(1)));
+    EXPECT_TRUE(plan.filter_of(3).allows(plan.filter_of(2)));
+}
+
+TEST(Plan, RefusesOptionsOfMotionsThatNoEffectReads) {
+    EXPECT_EQ(compiled({{.a = 0,
+                         .effects = Ask::collide,
+                         .impact = {.tolerance = 1, .most_steps = 3},
+                         .work = 5},
+                        {.a = 1, .effects = Ask::haptic, .max_distance = -1},
+                        {.a = 2,
+                         .effects = Ask::continuous,
+                         .max_distance = 1,
+                         .impact = {.tolerance = HUGE_VAL, .most_steps = 0}}})
+                  .refusals,
+              Sentences({"Pair 0 of layers: impact.tolerance has no meaning without continuous.",
+                         "Pair 0 of layers: impact.most_steps has no meaning without continuous.",
+                         "Pair 0 of layers: work has no meaning without haptic.",
+                         "Pair 1 of layers: max_distance is -1; it must be finite and at least 0.",
+                         "Pair 1 of layers: work is 0; haptic needs at least 1.",
+                         "Pair 2 of layers: max_distance has no meaning without distance or "
+                         "haptic.",
+                         "Pair 2 of layers: impact.tolerance is inf; it must be finite and at "
+                         "least 0.",
+                         "Pair 2 of layers: impact.most_steps is 0; it must be at least 1."}));
 }
 
 TEST(Plan, NamesEveryRefusal) {
@@ -140,8 +254,8 @@ TEST(Plan, NamesEveryRefusal) {
                          "Pair 1 of layers: tolerance has no meaning without within.",
                          "Pair 2 of layers: layers 2 and 1 are also those of pair 1.",
                          "Pair 2 of layers: tolerance is -1; it must be finite and at least 0.",
-                         "Pair 2 of layers: body has no meaning without collide, distance or "
-                         "contacts.",
+                         "Pair 2 of layers: body has no meaning without collide, distance, "
+                         "contacts or continuous.",
                          "Pair 3 of layers: max_distance is nan; it must be finite and at least 0.",
                          "Pair 3 of layers: overlap has no meaning without collide or overlap.",
                          "Pair 3 of layers: contacts.tolerance has no meaning without contacts.",
