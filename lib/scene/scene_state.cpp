@@ -350,6 +350,7 @@ EventReason Scene::State::reason_of(const Record& record, Ask effect,
 }
 
 void Scene::State::add_events(const Record& record, Ask effects, EventKind kind) noexcept {
+    if (effects == Ask::nothing) return;  // so it is for most records
     for (const Ask effect : kSceneEffects) {
         if (!contains(effects, effect)) continue;
         events[event_count++] = {record.a, record.b, record.pair,
