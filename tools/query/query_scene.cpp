@@ -89,6 +89,13 @@ private:
         scenes::SceneReading reading = scenes::read_scene(arguments_.scene);
         if (!reading.scene) return fail_all(reading.errors, ErrorCode::unreadable);
         scene_ = std::move(*reading.scene);
+        for (const scenes::FileObject& object : scene_.objects) {
+            if (object.change == scenes::kUnchanged) continue;
+            return fail("query", {ErrorCode::bad_argument,
+                                  scene_.name + ": object '" + object.name +
+                                      "' deforms or tears, and query --scene asks about models at "
+                                      "rest. Use cdprep simulate."});
+        }
         return std::nullopt;
     }
 

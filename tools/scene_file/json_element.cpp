@@ -111,6 +111,12 @@ std::optional<double> JsonElement::number(Range range) const {
     return std::nullopt;
 }
 
+std::optional<bool> JsonElement::boolean() const {
+    if (value_->is_boolean()) return value_->get<bool>();
+    refuse_value("true or false");
+    return std::nullopt;
+}
+
 std::optional<std::uint32_t> JsonElement::whole(std::uint32_t least) const {
     constexpr std::uint32_t kMost = 1U << 31;
     if (value_->is_number_unsigned()) {

@@ -39,6 +39,7 @@ public:
 
     [[nodiscard]] std::optional<std::string> text() const;  ///< not empty
     [[nodiscard]] std::optional<double> number(Range range) const;
+    [[nodiscard]] std::optional<bool> boolean() const;
     [[nodiscard]] std::optional<std::uint32_t> whole(std::uint32_t least) const;
     [[nodiscard]] std::optional<std::vector<double>> numbers(std::size_t count) const;
     /// Returns the number of a text among `words`. `kind` names the words: "a layer".

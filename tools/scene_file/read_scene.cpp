@@ -11,6 +11,7 @@
 #include "import/source_file.h"
 #include "scene_file/effect_words.h"
 #include "scene_file/json_element.h"
+#include "scene_file/read_change.h"
 
 namespace cdprep::scenes {
 namespace {
@@ -208,6 +209,7 @@ private:
         }
         object.motion = static_cast<std::uint32_t>(scene_.motions.size());
         scene_.motions.push_back(read_placing(element));
+        if (const auto motion = element.find("motion")) object.change = read_change_of(*motion);
         const auto instances = element.find("instances");
         const Grid grid = instances ? read_grid(*instances) : Grid{};
         if (scene_.objects.size() + grid.size() > kMostObjects) {
@@ -291,12 +293,23 @@ private:
         return read_motion(*motion, start, pose.has_value());
     }
 
+    /// Returns the number of a change. Equal changes have one.
+    std::uint32_t read_change_of(const JsonElement& motion) {
+        if (motion.is_text()) return kUnchanged;
+        const std::optional<Change> change = read_change(motion, folder_);
+        if (!change) return kUnchanged;
+        const auto number = static_cast<std::uint32_t>(scene_.changes.size());
+        const auto [at, is_new] = changes_.try_emplace(*change, number);
+        if (is_new) scene_.changes.push_back(*change);
+        return at->second;
+    }
+
     static Motion read_motion(const JsonElement& element, const Pose& start, bool has_pose) {
         if (element.is_text()) {
             static_cast<void>(element.one_of(Names{"fixed"}, "a motion in one word"));
             return Motion::fixed(start);
         }
-        if (!element.is_object_of({"path", "velocity", "turn_rad_per_s"})) {
+        if (!element.is_object_of({"path", "velocity", "turn_rad_per_s", "deform", "tear"})) {
             return Motion::fixed(start);
         }
         if (element.find("path")) return read_path(element, start, has_pose);
@@ -306,8 +319,10 @@ private:
             return numbers ? vector_of(*numbers) : Double3{};
         };
         const Double3 velocity = read_vector("velocity");
-        if (!element.find("velocity") && !element.find("turn_rad_per_s")) {
-            element.refuse("a motion has a path, a velocity or a turn_rad_per_s.");
+        if (!element.find("velocity") && !element.find("turn_rad_per_s") &&
+            !element.find("deform") && !element.find("tear")) {
+            element.refuse(
+                "a motion has a path, a velocity, a turn_rad_per_s, a deform or a tear.");
         }
         return Motion::steady(start, velocity, read_vector("turn_rad_per_s"));
     }
@@ -389,6 +404,7 @@ private:
     SceneFile scene_;
     std::vector<std::string> errors_;
     std::map<fs::path, std::uint32_t> models_;
+    std::map<Change, std::uint32_t> changes_;
     std::set<std::string> names_;
 };
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "cdprep/plan.h"
+#include "scene_file/deform.h"
 #include "scene_file/motion.h"
+#include "scene_file/tear.h"
 
 namespace cdprep::scenes {
 
@@ -23,12 +25,24 @@ struct AskedPair {
     bool tells_ends = true;
 };
 
+/// A change of a model with time. Objects with the same model and change share one live model.
+struct Change {
+    std::optional<Deform> deform = {};
+    std::optional<Tear> tear = {};
+
+    auto operator<=>(const Change&) const = default;
+};
+
+/// The change of an object whose model stays as it is.
+inline constexpr std::uint32_t kUnchanged = 0xffffffffU;
+
 struct FileObject {
-    std::string name;          ///< unique; copies are "NAME[x,y,z]"
-    std::uint32_t model = 0;   ///< its number in SceneFile::models
-    std::uint32_t layer = 0;   ///< its number in SceneFile::layers
-    std::uint32_t motion = 0;  ///< its number in SceneFile::motions
-    Double3 offset{};          ///< of a copy, in the world
+    std::string name;                   ///< unique; copies are "NAME[x,y,z]"
+    std::uint32_t model = 0;            ///< its number in SceneFile::models
+    std::uint32_t layer = 0;            ///< its number in SceneFile::layers
+    std::uint32_t motion = 0;           ///< its number in SceneFile::motions
+    Double3 offset{};                   ///< of a copy, in the world
+    std::uint32_t change = kUnchanged;  ///< its number in SceneFile::changes
 };
 
 /// The content of a scene file. Lengths are in model units.
@@ -43,6 +57,7 @@ struct SceneFile {
     std::vector<AskedPair> pairs;
     std::vector<std::filesystem::path> models;  ///< mesh files or baked files, each once
     std::vector<Motion> motions;
+    std::vector<Change> changes;  ///< each once
     std::vector<FileObject> objects;
 };
 

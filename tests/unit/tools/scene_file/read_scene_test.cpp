@@ -190,7 +190,9 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
         {one_object(", \"motion\": \"body\""),
          {"line 4: /objects/0/motion: 'body' is not a motion in one word. Choose from fixed."}},
         {one_object(", \"motion\": {}"),
-         {"line 4: /objects/0/motion: a motion has a path, a velocity or a turn_rad_per_s."}},
+         {"line 4: /objects/0/motion: a motion has a path, a velocity, a turn_rad_per_s, a deform "
+          "or a "
+          "tear."}},
         {one_object(", \"motion\": {\"path\": [], \"velocity\": [0, 0, 1]}, \"pose\": {}"),
          {"line 4: /objects/0/motion: a path excludes velocity and turn_rad_per_s.",
           "line 4: /objects/0/motion: an object with a path has no pose of its own; its keys "
@@ -215,6 +217,105 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
         {one_object(", \"mass\": 3"),
          {"line 4: /objects/0/mass: 'mass' is not a key here. Choose from name, model, layer, "
           "pose, motion or instances."}},
+    };
+    for (const Mistake& mistake : mistakes) {
+        const SceneReading reading = folder.read(mistake.text);
+        EXPECT_FALSE(reading.scene) << mistake.text;
+        ASSERT_EQ(reading.errors.size(), mistake.errors.size())
+            << mistake.text << "\n"
+            << ::testing::PrintToString(reading.errors);
+        for (std::size_t i = 0; i < mistake.errors.size(); ++i) {
+            EXPECT_EQ(reading.errors[i].substr(0, 8 + mistake.errors[i].size()),
+                      "s.json: " + mistake.errors[i]);
+        }
+    }
+}
+
+/// A motion with this change.
+std::string changing(const std::string& change) {
+    return one_object(", \"motion\": {" + change + "}");
+}
+
+TEST(ReadScene, ReadsChangesOfModels) {
+    const Folder folder;
+    const SceneFile scene = folder.scene(R"({"cdprep_scene": 1, "layers": ["a"], "objects": [
+        {"name": "still", "model": "crate.obj", "layer": "a", "motion": {"velocity": [1, 0, 0]}},
+        {"name": "rate", "model": "crate.obj", "layer": "a", "pose": {"translation": [1, 2, 3]},
+         "motion": {"deform": {"shear": {"of": "x", "along": "z", "rate_per_s": -2}}}},
+        {"name": "wave", "model": "crate.obj", "layer": "a", "motion": {"velocity": [1, 0, 0],
+         "deform": {"shear": {"of": "y", "along": "x", "amplitude": 3, "period_s": 4}}}},
+        {"name": "twist", "model": "crate.obj", "layer": "a",
+         "motion": {"path": [{"time_s": 0, "pose": {}}, {"time_s": 1, "pose": {}}],
+                    "deform": {"twist": {"axis": "y", "angle_rad": 5, "period_s": 6}},
+                    "tear": {"plane": {"point": [1, 2, 3], "normal": [0, 0, 2]}, "time_s": -7}}},
+        {"name": "stream", "model": "crate.obj", "layer": "a",
+         "instances": {"counts": [2, 1, 1], "spacing": [1, 0, 0]},
+         "motion": {"deform": {"stream": {"file": "gate.obj", "step_s": 8, "repeats": true}}}},
+        {"name": "again", "model": "gate.obj", "layer": "a",
+         "motion": {"deform": {"stream": {"repeats": true, "step_s": 8, "file": "./gate.obj"}}}},
+        {"name": "torn", "model": "crate.obj", "layer": "a",
+         "motion": {"tear": {"plane": {"point": [0, 0, 0], "normal": [1, 0, 0]}, "time_s": 9,
+                             "opening": 10}}}]})");
+    std::vector<std::uint32_t> changes;
+    for (const FileObject& object : scene.objects) changes.push_back(object.change);
+    EXPECT_EQ(changes, (std::vector<std::uint32_t>{kUnchanged, 0, 1, 2, 3, 3, 3, 4}));
+    ASSERT_EQ(scene.changes.size(), 5u);
+    const auto expect_deform = [&](std::size_t number, const Deform& deform) {
+        EXPECT_TRUE(scene.changes[number].deform == deform) << number;
+    };
+    expect_deform(0, Shear{.of = 0, .along = 2, .rate_per_s = -2});
+    expect_deform(1, Shear{.of = 1, .along = 0, .amplitude = 3, .period_s = 4});
+    expect_deform(2, Twist{.axis = 1, .angle_rad = 5, .period_s = 6});
+    expect_deform(3, Stream{.file = std::get<Stream>(*scene.changes[3].deform).file,
+                            .step_s = 8,
+                            .repeats = true});
+    EXPECT_EQ(std::get<Stream>(*scene.changes[3].deform).file.filename(), "gate.obj");
+    EXPECT_FALSE(scene.changes[4].deform);
+    EXPECT_EQ(scene.changes[2].tear, (Tear{.point = {1, 2, 3}, .normal = {0, 0, 2}, .time_s = -7}));
+    EXPECT_EQ(scene.changes[4].tear, (Tear{.normal = {1, 0, 0}, .time_s = 9, .opening = 10}));
+    EXPECT_FALSE(scene.motions[scene.objects[1].motion].moves());
+    EXPECT_TRUE(scene.motions[scene.objects[2].motion].moves());
+    EXPECT_EQ(pose_of(scene, scene.objects[1], 1)->translation(), (Double3{1, 2, 3}));
+}
+
+// By hand: each sentence.
+TEST(ReadScene, NamesMistakesOfChanges) {
+    const Folder folder;
+    const std::string motion = "line 4: /objects/0/motion";
+    const std::vector<Mistake> mistakes = {
+        {changing("\"deform\": {}"),
+         {motion + "/deform: a deform has exactly one of shear, twist and stream."}},
+        {changing("\"deform\": {\"shear\": {}, \"twist\": {}}"),
+         {motion + "/deform: a deform has exactly one of shear, twist and stream."}},
+        {changing("\"deform\": {\"bend\": 1}"),
+         {motion + "/deform/bend: 'bend' is not a key here. Choose from shear, twist or stream."}},
+        {changing("\"deform\": {\"shear\": {\"of\": \"x\", \"along\": \"x\"}}"),
+         {motion + "/deform/shear: of and along are both x; they must differ.",
+          motion + "/deform/shear: a shear has either a rate_per_s, or an amplitude and a "
+                   "period_s."}},
+        {changing("\"deform\": {\"shear\": {\"of\": \"w\", \"rate_per_s\": \"2\"}}"),
+         {motion + "/deform/shear/of: 'w' is not an axis. Choose from x, y or z.",
+          motion + "/deform/shear: the key 'along' is missing.",
+          motion + "/deform/shear/rate_per_s: found \"2\"; expected a number."}},
+        {changing("\"deform\": {\"shear\": {\"of\": \"x\", \"along\": \"y\", \"amplitude\": 1}}"),
+         {motion + "/deform/shear: the key 'period_s' is missing."}},
+        {changing("\"deform\": {\"twist\": {\"axis\": 1, \"period_s\": 0}}"),
+         {motion + "/deform/twist/axis: found 1; expected an axis: x, y or z",
+          motion + "/deform/twist: the key 'angle_rad' is missing.",
+          motion + "/deform/twist/period_s: found 0; expected a number above 0."}},
+        {changing("\"deform\": {\"stream\": {\"file\": \"none.pc2\", \"repeats\": 1}}"),
+         {motion + "/deform/stream/file: there is no file ",
+          motion + "/deform/stream: the key 'step_s' is missing.",
+          motion + "/deform/stream/repeats: found 1; expected true or false."}},
+        {changing("\"tear\": {\"opening\": -1}"),
+         {motion + "/tear: the key 'plane' is missing.",
+          motion + "/tear: the key 'time_s' is missing.",
+          motion + "/tear/opening: found -1; expected a number, 0 or more."}},
+        {changing(
+             "\"tear\": {\"time_s\": 0, \"plane\": {\"point\": [1e302, 0, 0], \"normal\": [0, 0, "
+             "0]}}"),
+         {motion + "/tear/plane/point: found [1e+302,0,0]; expected coordinates of at most 2^1000.",
+          motion + "/tear/plane/normal: found [0,0,0]; expected a vector with a direction."}},
     };
     for (const Mistake& mistake : mistakes) {
         const SceneReading reading = folder.read(mistake.text);
