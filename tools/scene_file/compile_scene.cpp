@@ -7,11 +7,22 @@
 #include "text/printable.h"
 
 namespace cdprep::scenes {
+namespace {
+
+/// Returns what the model of an object must serve for the queries of its layer. A model that
+/// changes is the base of a live model, which answers them.
+Ask needs_of(const FileObject& object, Ask asks) {
+    if (object.change == kUnchanged || asks == Ask::nothing) return asks;
+    return Ask::overlap | Ask::corners | (asks & Ask::solid);
+}
+
+}  // namespace
+
 std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan) {
     std::vector<ModelNeeds> needs(scene.models.size());
     for (const FileObject& object : scene.objects) {
         ModelNeeds& model = needs[object.model];
-        model.asks = model.asks | plan.asks_of(object.layer);
+        model.asks = model.asks | needs_of(object, plan.asks_of(object.layer));
         model.layers |= 1U << object.layer;
         ++model.objects;
     }
