@@ -124,8 +124,11 @@ private:
     }
 
     Exit show_plan(const Plan& plan) {
-        return finish(arguments_.format == "json" ? report::plan_json(scene_, plan, models_)
-                                                  : report::plan_text(scene_, plan, models_));
+        const auto changing = scenes::make_changing_models(scene_, plan, models_);
+        if (!changing) return fail("simulate", changing.error());
+        return finish(arguments_.format == "json"
+                          ? report::plan_json(scene_, plan, models_, *changing)
+                          : report::plan_text(scene_, plan, models_, *changing));
     }
 
     Exit simulate(const Plan& plan) {
@@ -214,9 +217,11 @@ void add_simulate(const Command& app, Exit& exit) {
     command.set_notes(
         "A scene file is JSON: objects with models, layers, poses and motions, and for pairs of "
         "layers the effects to compute. Objects of layers that are not paired are never looked "
-        "at. Events do not depend on the number of threads.",
+        "at. Events do not depend on the number of threads. Motions may deform and tear models: "
+        "a shear, a twist, a vertex stream (PC2), or a cut along a plane.",
         {"cdprep simulate samples/scenes/crates.json --plan",
-         "cdprep simulate samples/scenes/crates.json --frames 100"});
+         "cdprep simulate samples/scenes/crates.json --frames 100",
+         "cdprep simulate samples/scenes/cut.json --format text"});
     command.add_option("scene", arguments->scene, "A scene file (JSON)").required();
     const Option plan =
         command

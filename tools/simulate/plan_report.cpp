@@ -15,6 +15,8 @@ namespace cdprep::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using scenes::Change;
+using scenes::ChangingObjects;
 using scenes::ModelOrigin;
 using scenes::SceneFile;
 using scenes::SceneModel;
@@ -155,10 +157,57 @@ Json pair_json(const SceneFile& scene, const LayerPair& pair) {
     return json;
 }
 
+/// Returns the word of the scene file for a deformation, or nothing.
+const char* deform_word(const Change& change) {
+    constexpr std::array kWords = {"shear", "twist", "stream"};
+    return change.deform ? kWords[change.deform->index()] : nullptr;
+}
+
+std::string tear_text(const Change& change, const scenes::Cut& cut) {
+    if (cut.misses) return "does not tear, for the plane misses it";
+    return "tears at " + number_text(change.tear->time_s) +
+           " s: " + counted(cut.removed.size(), "triangle", "triangles") + " into " +
+           counted(cut.parts.size(), "part", "parts") + ", with " +
+           counted(cut.vertices.size(), "new vertex", "new vertices");
+}
+
+std::string change_text(const SceneFile& scene, const ChangingObjects& changing) {
+    const Change& change = scene.changes[changing.change];
+    std::string text =
+        "live model of object '" + printable(scene.objects[changing.objects.front()].name) + "'";
+    if (const std::size_t more = changing.objects.size() - 1; more > 0) {
+        text += " and " + std::to_string(more) + " more";
+    }
+    text += ": ";
+    if (change.deform) {
+        text += std::string("deforms by a ") + deform_word(change) + (change.tear ? "; " : "");
+    }
+    if (change.tear) text += tear_text(change, changing.live.cut());
+    return text + "; " + counted(changing.live.bytes(), "byte", "bytes") + "\n";
+}
+
+Json change_json(const SceneFile& scene, const ChangingObjects& changing) {
+    const Change& change = scene.changes[changing.change];
+    const scenes::Cut& cut = changing.live.cut();
+    Json json = {{"object", scene.objects[changing.objects.front()].name},
+                 {"objects", changing.objects.size()},
+                 {"model", scene.models[changing.model].string()},
+                 {"live_bytes", changing.live.bytes()}};
+    if (change.deform) json["deform"] = deform_word(change);
+    if (change.tear) {
+        json["tear"] = {{"time_s", change.tear->time_s},
+                        {"misses", cut.misses},
+                        {"torn", cut.removed.size()},
+                        {"parts", cut.parts.size()},
+                        {"vertices", cut.vertices.size()}};
+    }
+    return json;
+}
+
 }  // namespace
 
-std::string plan_text(const SceneFile& scene, const Plan& plan,
-                      std::span<const SceneModel> models) {
+std::string plan_text(const SceneFile& scene, const Plan& plan, std::span<const SceneModel> models,
+                      std::span<const ChangingObjects> changing) {
     std::string text = printable(scene.name) + ": " +
                        counted(scene.objects.size(), "object", "objects") + ", " +
                        counted(models.size(), "model", "models") + ", " +
@@ -172,11 +221,12 @@ std::string plan_text(const SceneFile& scene, const Plan& plan,
     for (std::size_t i = 0; i < models.size(); ++i) {
         text += model_text(scene.models[i].string(), models[i]);
     }
+    for (const ChangingObjects& one : changing) text += change_text(scene, one);
     return text;
 }
 
-std::string plan_json(const SceneFile& scene, const Plan& plan,
-                      std::span<const SceneModel> models) {
+std::string plan_json(const SceneFile& scene, const Plan& plan, std::span<const SceneModel> models,
+                      std::span<const ChangingObjects> changing) {
     Json json = {{"scene", scene.name}, {"version", CDPREP_VERSION}, {"exit", 0}};
     const std::vector<std::uint32_t> objects = objects_by_layer(scene);
     json["layers"] = Json::array();
@@ -189,6 +239,12 @@ std::string plan_json(const SceneFile& scene, const Plan& plan,
     json["models"] = Json::array();
     for (std::size_t i = 0; i < models.size(); ++i) {
         json["models"].push_back(model_json(scene.models[i].string(), models[i]));
+    }
+    if (!changing.empty()) {
+        json["changes"] = Json::array();
+        for (const ChangingObjects& one : changing) {
+            json["changes"].push_back(change_json(scene, one));
+        }
     }
     json["refusals"] = Json::array();
     return laid_out(json, 0) + "\n";

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "text/number_text.h"
+
 namespace cdprep::scenes {
 namespace {
 
@@ -39,8 +41,48 @@ Simulation::Simulation(const SceneFile& file, std::span<const SceneModel> models
 Result<Simulation> Simulation::make(const SceneFile& file, std::span<const SceneModel> models,
                                     std::uint32_t threads, ParallelFor parallel_for) {
     Simulation simulation(file, models, threads, parallel_for);
+    if (Result<Done> made = simulation.make_changing(); !made) return made.error();
     if (Result<Done> filled = simulation.fill(0); !filled) return filled.error();
     return simulation;
+}
+
+Result<Done> Simulation::make_changing() {
+    changing_of_.assign(file_->objects.size(), kUnchanged);
+    const bool has_none = std::ranges::all_of(
+        file_->objects, [](const FileObject& object) { return object.change == kUnchanged; });
+    if (has_none) return Done{};
+    const Plan::Compiled compiled = compile_scene(*file_, limits_);
+    if (!compiled.plan) return Error{ErrorCode::bad_argument, compiled.refusals.front()};
+    auto made = make_changing_models(*file_, *compiled.plan, models_);
+    if (!made) return made.error();
+    changing_ = std::move(made).value();
+    for (std::uint32_t i = 0; i < changing_.size(); ++i) {
+        for (const std::uint32_t object : changing_[i].objects) changing_of_[object] = i;
+    }
+    return Done{};
+}
+
+/// Brings the live models to a time. Returns which of them changed.
+Result<std::vector<bool>> Simulation::change(double time_s) {
+    std::vector<bool> changed;
+    for (ChangingObjects& one : changing_) {
+        const Result<ChangeWork> work = one.live.set_time(time_s, parallel_for_);
+        if (!work) {
+            return Error{work.error().code, file_->name + ": object '" +
+                                                file_->objects[one.objects.front()].name +
+                                                "': at " + report::number_text(time_s) +
+                                                " s: " + work.error().message};
+        }
+        work_.add(*work);
+        changed.push_back(work->refits > 0);
+    }
+    return changed;
+}
+
+const Model& Simulation::model_of(std::uint32_t object) const noexcept {
+    const std::uint32_t changing = changing_of_[object];
+    if (changing != kUnchanged) return changing_[changing].live.model();
+    return *models_[file_->objects[object].model].model;
 }
 
 /// Makes a scene, and adds the objects as they are at a time.
@@ -53,12 +95,13 @@ Result<Done> Simulation::fill(double time_s) {
     if (!compiled.plan) return Error{ErrorCode::bad_argument, compiled.refusals.front()};
     plan_ = std::make_unique<const Plan>(std::move(*compiled.plan));
     scene_.emplace(*plan_);
+    if (const auto changed = change(time_s); !changed) return changed.error();
     for (std::uint32_t i = 0; i < file_->objects.size(); ++i) {
         const FileObject& object = file_->objects[i];
         if (!is_asked(*plan_, object)) continue;
         const Result<Pose> pose = pose_of(*file_, object, time_s);
         if (!pose) return pose.error();
-        const auto id = scene_->add({&*models_[object.model].model, object.layer, *pose});
+        const auto id = scene_->add({&model_of(i), object.layer, *pose});
         if (!id) return Error{ErrorCode::internal, file_->name + ": the scene is full."};
         ids_.push_back(*id);
         poses_.push_back(*pose);
@@ -68,12 +111,16 @@ Result<Done> Simulation::fill(double time_s) {
 }
 
 Result<Done> Simulation::move(double time_s) {
+    const auto changed = change(time_s);
+    if (!changed) return changed.error();
     for (std::size_t slot = 0; slot < ids_.size(); ++slot) {
         const FileObject& object = file_->objects[objects_[slot]];
-        if (!file_->motions[object.motion].moves()) continue;
+        const std::uint32_t changing = changing_of_[objects_[slot]];
+        const bool has_changed = changing != kUnchanged && (*changed)[changing];
+        if (!has_changed && !file_->motions[object.motion].moves()) continue;
         const Result<Pose> pose = pose_of(*file_, object, time_s);
         if (!pose) return pose.error();
-        if (are_equal(*pose, poses_[slot])) continue;
+        if (!has_changed && are_equal(*pose, poses_[slot])) continue;
         poses_[slot] = *pose;
         scene_->set_pose(ids_[slot], *pose);
     }
@@ -113,6 +160,7 @@ Result<Done> Simulation::grow(SceneStep step, std::uint64_t frame) {
 
 Result<Done> Simulation::step(std::uint64_t frame) {
     if (frame > 0) {
+        work_ = {};
         if (Result<Done> moved = move(time_of(frame)); !moved) return moved;
     }
     bool has_grown = false;
@@ -122,7 +170,9 @@ Result<Done> Simulation::step(std::uint64_t frame) {
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
         step_seconds_ = taken.count();
         if (step.complete) break;
+        const ChangeWork work = work_;
         if (Result<Done> grown = grow(step, frame); !grown) return grown;
+        work_ = work;
         has_grown = true;
     }
     if (has_grown) ++grown_steps_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cdprep/scene.h"
+#include "scene_file/changing_model.h"
 #include "scene_file/load_models.h"
 
 namespace cdprep::scenes {
@@ -16,14 +17,15 @@ namespace cdprep::scenes {
 class Simulation {
 public:
     /// Adds the objects that pairs of layers ask for, as they are at time 0. All arguments must
-    /// outlive the object. The models must serve the plan of the file.
+    /// outlive the object. The models must serve the plan of the file. Objects that deform or tear
+    /// get live models: fails as make_changing_models().
     [[nodiscard]] static Result<Simulation> make(const SceneFile& file,
                                                  std::span<const SceneModel> models,
                                                  std::uint32_t threads, ParallelFor parallel_for);
 
-    /// Computes a frame; 0 is first. Objects whose pose has not changed count as not moved. If the
-    /// frame needs more room, makes it, unless the file limits the pairs: then fails with
-    /// over_budget. Fails with bad_argument if an object leaves the range of coordinates.
+    /// Computes a frame; 0 is first. Objects whose pose and shape have not changed count as not
+    /// moved. If the frame needs more room, makes it, unless the file limits the pairs: then fails
+    /// with over_budget. Fails with bad_argument if an object leaves the range of coordinates.
     [[nodiscard]] Result<Done> step(std::uint64_t frame);
 
     /// Results of the last frame.
@@ -43,12 +45,24 @@ public:
     [[nodiscard]] std::uint64_t grown_steps() const noexcept {
         return grown_steps_;
     }
+    /// The live models, as they are in the last frame.
+    [[nodiscard]] std::span<const ChangingObjects> changing() const noexcept {
+        return changing_;
+    }
+    /// What the live models of the last frame took. Work that was repeated for more room is left
+    /// out.
+    [[nodiscard]] const ChangeWork& change_work() const noexcept {
+        return work_;
+    }
 
 private:
     Simulation(const SceneFile& file, std::span<const SceneModel> models, std::uint32_t threads,
                ParallelFor parallel_for);
 
+    [[nodiscard]] Result<Done> make_changing();
     [[nodiscard]] Result<Done> fill(double time_s);
+    [[nodiscard]] Result<std::vector<bool>> change(double time_s);
+    [[nodiscard]] const Model& model_of(std::uint32_t object) const noexcept;
     [[nodiscard]] Result<Done> move(double time_s);
     [[nodiscard]] Result<Done> make_room(const SceneStep& step, std::uint64_t frame);
     [[nodiscard]] Result<Done> grow(SceneStep step, std::uint64_t frame);
@@ -64,9 +78,12 @@ private:
     std::vector<std::uint32_t> objects_;  ///< by slot
     std::vector<ObjectId> ids_;           ///< by slot
     std::vector<Pose> poses_;             ///< by slot
-    std::unique_ptr<const Plan> plan_;    ///< outlives the scene
+    std::vector<ChangingObjects> changing_;
+    std::vector<std::uint32_t> changing_of_;  ///< by object: its number in changing_, or kUnchanged
+    std::unique_ptr<const Plan> plan_;        ///< outlives the scene
     std::optional<Scene> scene_;
     double step_seconds_ = 0;
+    ChangeWork work_;
     std::uint64_t grown_steps_ = 0;
 };
 

@@ -79,6 +79,41 @@ Json event_json(std::uint64_t frame, double time_s, const SceneEvent& event,
     return json;
 }
 
+/// Returns wall time to show: nanoseconds would not be repeatable.
+double milliseconds_of(double seconds) {
+    return std::round(1e6 * seconds) / 1e3;
+}
+
+/// Returns the value of sorted ones below which this share of them lies; 0 without values.
+double value_at(const std::vector<double>& sorted, double share) {
+    if (sorted.empty()) return 0;
+    const auto last = static_cast<double>(sorted.size() - 1);
+    return sorted[static_cast<std::size_t>(share * last)];
+}
+
+/// The objects whose models change.
+struct ChangingCounts {
+    std::uint64_t deform = 0;
+    std::uint64_t tear = 0;
+    std::vector<std::string> missed;  ///< by the planes of their tears
+};
+
+ChangingCounts count_changing(const scenes::SceneFile& scene,
+                              std::span<const scenes::ChangingObjects> changing) {
+    ChangingCounts counts;
+    for (const scenes::ChangingObjects& one : changing) {
+        const scenes::Change& change = scene.changes[one.change];
+        if (change.deform) counts.deform += one.objects.size();
+        if (!change.tear) continue;
+        counts.tear += one.objects.size();
+        if (!one.live.cut().misses) continue;
+        for (const std::uint32_t object : one.objects) {
+            counts.missed.push_back(scene.objects[object].name);
+        }
+    }
+    return counts;
+}
+
 std::size_t number_of(Ask effect) {
     const auto* at = std::find(kSceneEffects.begin(), kSceneEffects.end(), effect);
     return static_cast<std::size_t>(at - kSceneEffects.begin());
@@ -106,7 +141,9 @@ bool SimulationReport::is_told(const SceneEvent& event) const {
 
 void SimulationReport::count(const scenes::Simulation& simulation) {
     ++frames_;
-    milliseconds_.push_back(std::round(1e6 * simulation.step_seconds()) / 1e3);
+    milliseconds_.push_back(milliseconds_of(simulation.step_seconds()));
+    models_.work.add(simulation.change_work());
+    models_.milliseconds.push_back(milliseconds_of(simulation.change_work().seconds));
     const SceneCounts& counts = simulation.scene().counts();
     counts_.moved += counts.moved;
     counts_.candidates += counts.candidates;
@@ -140,6 +177,7 @@ std::string SimulationReport::add_frame(std::uint64_t frame, const scenes::Simul
 
 std::string SimulationReport::finish(const scenes::Simulation& simulation) {
     std::sort(milliseconds_.begin(), milliseconds_.end());
+    std::sort(models_.milliseconds.begin(), models_.milliseconds.end());
     switch (format_) {
         case EventFormat::text:
             return summary_text(simulation);
@@ -151,12 +189,6 @@ std::string SimulationReport::finish(const scenes::Simulation& simulation) {
     }
 }
 
-double SimulationReport::milliseconds_at(double share) const {
-    if (milliseconds_.empty()) return 0;
-    const auto last = static_cast<double>(milliseconds_.size() - 1);
-    return milliseconds_[static_cast<std::size_t>(share * last)];
-}
-
 std::string SimulationReport::summary_json(const scenes::Simulation& simulation) const {
     Json effects = Json::array();
     for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
@@ -166,19 +198,46 @@ std::string SimulationReport::summary_json(const scenes::Simulation& simulation)
                            {"begins", changes_[i].begins},
                            {"ends", changes_[i].ends}});
     }
-    return compact({{"scene", scene_.name},
-                    {"version", CDPREP_VERSION},
-                    {"frames", frames_},
-                    {"objects", simulation.scene().object_count()},
-                    {"moved", counts_.moved},
-                    {"candidates", counts_.candidates},
-                    {"kept", counts_.kept},
-                    {"apart", counts_.apart},
-                    {"effects", effects},
-                    {"not_computed", not_computed_},
-                    {"grown_steps", simulation.grown_steps()},
-                    {"step_ms", {{"median", milliseconds_at(0.5)}, {"p95", milliseconds_at(0.95)}}},
-                    {"state_hash", hexadecimal(simulation.scene().state_hash())}});
+    Json summary = {
+        {"scene", scene_.name},
+        {"version", CDPREP_VERSION},
+        {"frames", frames_},
+        {"objects", simulation.scene().object_count()},
+        {"moved", counts_.moved},
+        {"candidates", counts_.candidates},
+        {"kept", counts_.kept},
+        {"apart", counts_.apart},
+        {"effects", effects},
+        {"not_computed", not_computed_},
+        {"grown_steps", simulation.grown_steps()},
+        {"step_ms",
+         {{"median", value_at(milliseconds_, 0.5)}, {"p95", value_at(milliseconds_, 0.95)}}},
+        {"state_hash", hexadecimal(simulation.scene().state_hash())}};
+    if (!simulation.changing().empty()) {
+        const ChangingCounts changing = count_changing(scene_, simulation.changing());
+        summary["changes"] = {{"deform", changing.deform}, {"tear", changing.tear},
+                              {"missed", changing.missed}, {"refits", models_.work.refits},
+                              {"torn", models_.work.torn}, {"parts", models_.work.parts}};
+        summary["refit_ms"] = {{"median", value_at(models_.milliseconds, 0.5)},
+                               {"p95", value_at(models_.milliseconds, 0.95)}};
+    }
+    return compact(summary);
+}
+
+std::string SimulationReport::changes_text(const scenes::Simulation& simulation) const {
+    if (simulation.changing().empty()) return "";
+    const ChangingCounts changing = count_changing(scene_, simulation.changing());
+    std::string text = counted(changing.deform, "object deforms", "objects deform") + ", " +
+                       counted(changing.tear, "tears", "tear") + ": " +
+                       counted(models_.work.refits, "refit", "refits") + ", " +
+                       counted(models_.work.torn, "triangle", "triangles") + " torn into " +
+                       counted(models_.work.parts, "part", "parts") +
+                       "; the refits of a frame took " +
+                       fixed(value_at(models_.milliseconds, 0.5), 3) + " ms (median)\n";
+    for (const std::string& name : changing.missed) {
+        text += "object '" + printable(name) + "' is not torn, for the plane misses its model\n";
+    }
+    return text;
 }
 
 std::string SimulationReport::summary_text(const scenes::Simulation& simulation) const {
@@ -206,8 +265,9 @@ std::string SimulationReport::summary_text(const scenes::Simulation& simulation)
     text += counted(frames_, "frame", "frames") + " of " +
             counted(simulation.scene().object_count(), "object", "objects") + "; " +
             counted(simulation.grown_steps(), "frame", "frames") + " needed more room\n";
-    return text + "a frame took " + fixed(milliseconds_at(0.5), 3) + " ms (median), 95 % below " +
-           fixed(milliseconds_at(0.95), 3) + " ms; state " +
+    text += changes_text(simulation);
+    return text + "a frame took " + fixed(value_at(milliseconds_, 0.5), 3) +
+           " ms (median), 95 % below " + fixed(value_at(milliseconds_, 0.95), 3) + " ms; state " +
            hexadecimal(simulation.scene().state_hash()) + "\n";
 }
 

@@ -35,11 +35,16 @@ private:
         std::uint64_t ends = 0;
     };
 
+    struct ModelWork {
+        scenes::ChangeWork work;           ///< the sum of all frames
+        std::vector<double> milliseconds;  ///< of each frame; sorted at the end
+    };
+
     [[nodiscard]] bool is_told(const SceneEvent& event) const;
     void count(const scenes::Simulation& simulation);
     [[nodiscard]] std::string summary_text(const scenes::Simulation& simulation) const;
+    [[nodiscard]] std::string changes_text(const scenes::Simulation& simulation) const;
     [[nodiscard]] std::string summary_json(const scenes::Simulation& simulation) const;
-    [[nodiscard]] double milliseconds_at(double share) const;
 
     const scenes::SceneFile& scene_;
     EventFormat format_;
@@ -49,6 +54,7 @@ private:
     SceneCounts counts_;  ///< sums of all frames
     std::array<Changes, kSceneEffects.size()> changes_{};
     std::vector<double> milliseconds_;  ///< of each frame; sorted at the end
+    ModelWork models_;
     bool has_event_ = false;
 };
 

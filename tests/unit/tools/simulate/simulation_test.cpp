@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/brute_force.h"
 #include "support/meshes.h"
 #include "support/open_tiny.h"
 #include "support/run_threads.h"
@@ -154,6 +155,102 @@ TEST(Simulation, NamesAnObjectThatLeavesTheCoordinates) {
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, ErrorCode::bad_argument);
     EXPECT_EQ(done.error().message.substr(0, 24), "rows.json: object '1,0':");
+}
+
+const Shear kShear = {.of = 0, .along = 2, .amplitude = 0.75, .period_s = 4};
+const Tear kTear = {.point = {0.2, 0, 0}, .normal = {1, 0, 0.5}, .time_s = 4, .opening = 0.5};
+
+// The oracle tests all pairs of triangles of the meshes that the closed form gives.
+TEST(Simulation, DeformsTheModelOfItsObjects) {
+    Rows rows(2, 10);
+    rows.file().changes = {{.deform = kShear}};
+    rows.file().pairs[0].asked.effects = Ask::collide | Ask::overlap;
+    for (FileObject& object : rows.file().objects) {
+        if (object.layer == 0) object.change = 0;
+    }
+    auto simulation = rows.make();
+    ASSERT_TRUE(simulation) << simulation.error().message;
+    ASSERT_EQ(simulation->changing().size(), 1u) << "two objects share a live model";
+    EXPECT_EQ(simulation->changing()[0].objects, (std::vector<std::uint32_t>{1, 3}));
+    const test::TestMesh ball = test::in_floats(test::icosphere(1));
+    std::size_t hits = 0;
+    for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
+        ASSERT_TRUE(simulation->step(frame));
+        EXPECT_EQ(simulation->change_work().refits, 1u);
+        const double time_s = 0.5 * static_cast<double>(frame);
+        test::TestMesh now = ball;
+        for (Double3& p : now.positions) p.x += kShear.factor(time_s) * p.z;
+        now = test::in_floats(now);
+        const Pose pose = *rows.file().motions[1].at(time_s, {});
+        const auto expected = test::brute_force_pairs(now, ball, Placement::world(Pose(), pose));
+        const auto found = simulation->scene().overlaps();
+        ASSERT_EQ(found.size(), expected.empty() ? 0u : 2u) << frame;
+        if (expected.empty()) continue;
+        ++hits;
+        EXPECT_TRUE(std::ranges::equal(found[0].triangles, expected)) << frame;
+    }
+    EXPECT_TRUE(hits > 4 && hits < kFrames) << hits;
+}
+
+// Room is made in the frame of the tear: the frame before it is computed again, with whole models.
+TEST(Simulation, MakesRoomWhereModelsTear) {
+    const auto make = [](std::uint32_t pairs, std::uint32_t threads) {
+        Rows rows(60, 0);
+        rows.file().changes = {{.deform = kShear, .tear = kTear}};
+        rows.file().pairs[0].asked.effects = Ask::collide | Ask::within;
+        if (pairs > 0) rows.file().most_pairs = pairs;
+        rows.file().motions[1] = Motion::path({{3.5, *Pose::from_quaternion(1, 0, 0, 0, {9, 0, 0})},
+                                               {4, *Pose::from_quaternion(1, 0, 0, 0, {0, 0, 0})}});
+        for (FileObject& object : rows.file().objects) {
+            if (object.layer == 0) object.change = 0;
+        }
+        return std::pair(std::move(rows), threads);
+    };
+    auto [few, one] = make(0, 1);
+    auto [many, eight] = make(20'000, 8);
+    auto grown = few.make(one), large = many.make(eight);
+    ASSERT_TRUE(grown && large);
+    std::uint64_t torn = 0;
+    for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
+        ASSERT_TRUE(grown->step(frame));
+        ASSERT_TRUE(large->step(frame));
+        EXPECT_EQ(grown->scene().state_hash(), large->scene().state_hash()) << frame;
+        EXPECT_EQ(grown->change_work().torn, large->change_work().torn) << frame;
+        EXPECT_EQ(grown->change_work().refits, large->change_work().refits) << frame;
+        torn += grown->change_work().torn;
+        EXPECT_EQ(torn > 0, frame >= 8) << frame;
+    }
+    EXPECT_GT(torn, 10u);
+    EXPECT_EQ(grown->grown_steps(), 1u);
+    EXPECT_EQ(large->grown_steps(), 0u);
+}
+
+// A shape that stays is asked once.
+TEST(Simulation, CountsAShapeThatStaysAsNotMoved) {
+    Rows rows(1, 0);
+    rows.file().changes = {{.tear = kTear}};
+    rows.file().motions[1] = Motion::fixed({});
+    rows.file().objects[1].change = 0;
+    auto simulation = rows.make();
+    ASSERT_TRUE(simulation);
+    for (std::uint64_t frame = 0; frame < 12; ++frame) {
+        ASSERT_TRUE(simulation->step(frame));
+        EXPECT_EQ(simulation->scene().counts().kept, frame == 0 || frame == 8 ? 0u : 1u) << frame;
+    }
+}
+
+TEST(Simulation, NamesAShapeThatLeavesTheCoordinates) {
+    Rows rows(1, 0);
+    rows.file().changes = {{.deform = Shear{.of = 0, .along = 2, .rate_per_s = 1e38}}};
+    rows.file().objects[1].change = 0;
+    auto simulation = rows.make();
+    ASSERT_TRUE(simulation);
+    ASSERT_TRUE(simulation->step(0));
+    const Result<Done> done = simulation->step(100);
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(done.error().message.substr(0, 33), "rows.json: object '0,0': at 50 s:")
+        << done.error().message;
 }
 
 }  // namespace
