@@ -77,15 +77,16 @@ def write_ply(path, corners, triangles, count):
         file.write(triangles)
 
 
-def write_scene(path, model):
+def write_scene(path, model, deform=None):
     """Two objects of a model, which never meet: one turns beside the other."""
+    motion = {"turn_rad_per_s": [0, 0, 1], **({"deform": deform} if deform else {})}
     path.write_text(json.dumps({
         "cdprep_scene": 1, "layers": ["a"],
         "pairs": [{"layers": ["a", "a"], "effects": ["collide", "distance"]}],
         "objects": [{"name": "still", "model": model, "layer": "a"},
                     {"name": "turning", "model": model, "layer": "a",
                      "pose": {"translation": [3000, 0, 0]},
-                     "motion": {"turn_rad_per_s": [0, 0, 1]}}]}))
+                     "motion": motion}]}))
 
 
 class Commands:
@@ -192,6 +193,9 @@ def main():
         commands.check("query", "overlap", "sheet.cdp.h5", "sheet.cdp.h5", "--count")
         write_scene(folder / "frames.json", "cone.cdp.h5")
         commands.check("simulate", "frames.json", "--frames", "1000000000")
+        write_scene(folder / "twist.json", "cone.cdp.h5",
+                    {"twist": {"axis": "z", "angle_rad": 1, "period_s": 1}})
+        commands.check("simulate", "twist.json", "--frames", "1000000000")
         write_scene(folder / "bake.json", "sheet.ply")
         commands.check("simulate", "bake.json", "--frames", "1")
         commands.check("accuracy", "sheet.cdp.h5", "sheet.cdp.h5", "--quick")
