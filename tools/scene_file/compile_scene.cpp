@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene_file/compile_scene.h"
 
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "text/printable.h"
 
@@ -14,6 +16,30 @@ namespace {
 Ask needs_of(const FileObject& object, Ask asks) {
     if (object.change == kUnchanged || asks == Ask::nothing) return asks;
     return Ask::overlap | Ask::corners | (asks & Ask::solid);
+}
+
+/// Returns "deforms", "tears" or "deforms and tears".
+std::string verb_of(const Change& change) {
+    if (!change.tear) return "deforms";
+    return change.deform ? "deforms and tears" : "tears";
+}
+
+/// Returns why objects cannot change as their motions say: a sentence for the first object of each
+/// layer and change.
+std::vector<std::string> change_refusals(const SceneFile& scene, const Plan& plan) {
+    std::vector<std::string> refusals;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+    for (const FileObject& object : scene.objects) {
+        if (object.change == kUnchanged || !is_asked(plan, object)) continue;
+        if (!seen.insert({object.layer, object.change}).second) continue;
+        if (!contains(plan.asks_of(object.layer), Ask::contacts)) continue;
+        refusals.push_back("Object '" + report::printable(object.name) + "' " +
+                           verb_of(scene.changes[object.change]) + ", and its layer '" +
+                           report::printable(scene.layers[object.layer]) +
+                           "' asks for contacts, which a live model does not serve. Ask for "
+                           "overlap or within instead.");
+    }
+    return refusals;
 }
 
 }  // namespace
@@ -56,6 +82,11 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
             compiled.refusals.push_back("Pair " + std::to_string(i) + " of layers, '" +
                                         names[pair.a] + "' and '" + names[pair.b] +
                                         "': " + unbuilt_effect(effect));
+        }
+    }
+    if (compiled.plan) {
+        for (std::string& refusal : change_refusals(scene, *compiled.plan)) {
+            compiled.refusals.push_back(std::move(refusal));
         }
     }
     if (!compiled.refusals.empty()) compiled.plan.reset();

@@ -16,14 +16,16 @@ struct ModelNeeds {
     std::uint32_t objects = 0;  ///< all, also in layers without a pair
 };
 
-/// Returns what each model of a scene must serve.
+/// Returns what each model of a scene must serve. The model of an object that deforms or tears is
+/// the base of a live model, and must serve as such.
 [[nodiscard]] std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan);
 
 /// Returns whether a pair of layers asks for the object. Others are not added to a scene.
 [[nodiscard]] bool is_asked(const Plan& plan, const FileObject& object) noexcept;
 
 /// Compiles the plan of a scene file. Every refusal begins with the name of the file. Without
-/// `models`, their needs are not checked.
+/// `models`, their needs are not checked. Also refuses objects that deform or tear where a layer
+/// asks for what live models do not serve.
 [[nodiscard]] Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                                            std::span<const ModelUse> models = {});
 

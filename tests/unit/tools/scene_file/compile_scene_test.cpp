@@ -72,6 +72,40 @@ TEST(CompileScene, RefusesModelsThatDoNotServe) {
               "serve. Bake it with --effects within.");
 }
 
+// A live model answers its layer; its base is opened for that, whatever the layer asks for.
+TEST(CompileScene, FindsWhatTheBaseOfALiveModelMustServe) {
+    SceneFile scene =
+        scene_of({{.asked = {.a = 0, .b = 1, .effects = Ask::distance}},
+                  {.asked = {.a = 1, .b = 1, .effects = Ask::collide, .body = Body::solid}}});
+    scene.changes = {{.deform = Twist{}}, {.tear = Tear{}}};
+    for (FileObject& object : scene.objects) object.change = 0;
+    const Plan::Compiled compiled = compile_scene(scene, kLimits);
+    ASSERT_TRUE(compiled.plan);
+    const std::vector<ModelNeeds> needs = needs_of_models(scene, *compiled.plan);
+    EXPECT_EQ(needs[0].asks, Ask::overlap | Ask::corners | Ask::solid);
+    EXPECT_EQ(needs[1].asks, Ask::nothing) << "nobody asks for it";
+    scene.objects[0].change = kUnchanged;
+    EXPECT_EQ(needs_of_models(scene, *compiled.plan)[0].asks,
+              Ask::overlap | Ask::corners | Ask::solid | Ask::distance);
+}
+
+TEST(CompileScene, RefusesContactsOfModelsThatChange) {
+    SceneFile scene = scene_of({{.asked = {.a = 0, .b = 1, .effects = Ask::contacts}}});
+    scene.changes = {{.deform = Twist{}}, {.deform = Twist{}, .tear = Tear{}}};
+    scene.objects[0].change = 0;
+    scene.objects[1].change = 1;
+    scene.objects.push_back(scene.objects[0]);
+    scene.objects[2].change = 1;
+    const Plan::Compiled compiled = compile_scene(scene, kLimits);
+    EXPECT_FALSE(compiled.plan);
+    ASSERT_EQ(compiled.refusals.size(), 2u);
+    EXPECT_EQ(compiled.refusals[0],
+              "s.json: Object 'x' deforms, and its layer 'a' asks for contacts, which a live model "
+              "does not serve. Ask for overlap or within instead.");
+    EXPECT_EQ(compiled.refusals[1].substr(0, 63),
+              "s.json: Object 'y' deforms and tears, and its layer 'b' asks fo");
+}
+
 // A scene file may ask for every effect that scenes compute.
 TEST(EffectWords, NameAllEffectsOfScenes) {
     for (const Ask effect : kSceneEffects) {
