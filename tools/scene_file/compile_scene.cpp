@@ -13,31 +13,36 @@ namespace {
 
 /// Returns what the model of an object must serve for the queries of its layer. A model that
 /// changes is the base of a live model, which answers them.
-Ask needs_of(const FileObject& object, Ask asks) {
+Ask needs_of(const SceneFile& scene, const FileObject& object, Ask asks) {
     if (object.change == kUnchanged || asks == Ask::nothing) return asks;
-    return Ask::overlap | Ask::corners | (asks & Ask::solid);
-}
-
-/// Returns "deforms", "tears" or "deforms and tears".
-std::string verb_of(const Change& change) {
-    if (!change.tear) return "deforms";
-    return change.deform ? "deforms and tears" : "tears";
+    const Ask live = scene.changes[object.change].tear ? Ask::tear : Ask::deform;
+    return live | (asks & Ask::solid);
 }
 
 /// Returns why objects cannot change as their motions say: a sentence for the first object of each
-/// layer and change.
-std::vector<std::string> change_refusals(const SceneFile& scene, const Plan& plan) {
+/// pair of layers that does not ask for it. A pair that does is checked by the plan: it knows what
+/// live models do not serve.
+std::vector<std::string> change_refusals(const SceneFile& scene) {
     std::vector<std::string> refusals;
-    std::set<std::pair<std::uint32_t, std::uint32_t>> seen;
+    std::set<std::pair<std::size_t, Ask>> seen;
     for (const FileObject& object : scene.objects) {
-        if (object.change == kUnchanged || !is_asked(plan, object)) continue;
-        if (!seen.insert({object.layer, object.change}).second) continue;
-        if (!contains(plan.asks_of(object.layer), Ask::contacts)) continue;
-        refusals.push_back("Object '" + report::printable(object.name) + "' " +
-                           verb_of(scene.changes[object.change]) + ", and its layer '" +
-                           report::printable(scene.layers[object.layer]) +
-                           "' asks for contacts, which a live model does not serve. Ask for "
-                           "overlap or within instead.");
+        if (object.change == kUnchanged) continue;
+        const bool tears = scene.changes[object.change].tear.has_value();
+        const Ask wanted = tears ? Ask::tear : Ask::deform | Ask::tear;
+        for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+            const LayerPair& pair = scene.pairs[i].asked;
+            if (pair.a != object.layer && pair.b != object.layer) continue;
+            if (pair.effects == Ask::nothing || (pair.effects & wanted) != Ask::nothing) continue;
+            if (!seen.insert({i, wanted}).second) continue;
+            const auto layer = [&](std::uint32_t number) {
+                return "'" + report::printable(scene.layers[number]) + "'";
+            };
+            refusals.push_back("Object '" + report::printable(object.name) + "' in layer " +
+                               layer(object.layer) + (tears ? " tears" : " deforms") + ". Add " +
+                               (tears ? "tear" : "deform") + " to the effects of pair " +
+                               std::to_string(i) + " of layers, " + layer(pair.a) + " and " +
+                               layer(pair.b) + ".");
+        }
     }
     return refusals;
 }
@@ -48,7 +53,7 @@ std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan
     std::vector<ModelNeeds> needs(scene.models.size());
     for (const FileObject& object : scene.objects) {
         ModelNeeds& model = needs[object.model];
-        model.asks = model.asks | needs_of(object, plan.asks_of(object.layer));
+        model.asks = model.asks | needs_of(scene, object, plan.asks_of(object.layer));
         model.layers |= 1U << object.layer;
         ++model.objects;
     }
@@ -84,10 +89,8 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                                         "': " + unbuilt_effect(effect));
         }
     }
-    if (compiled.plan) {
-        for (std::string& refusal : change_refusals(scene, *compiled.plan)) {
-            compiled.refusals.push_back(std::move(refusal));
-        }
+    for (std::string& refusal : change_refusals(scene)) {
+        compiled.refusals.push_back(std::move(refusal));
     }
     if (!compiled.refusals.empty()) compiled.plan.reset();
     for (std::string& refusal : compiled.refusals) refusal.insert(0, scene.name + ": ");

@@ -24,8 +24,8 @@ struct ModelNeeds {
 [[nodiscard]] bool is_asked(const Plan& plan, const FileObject& object) noexcept;
 
 /// Compiles the plan of a scene file. Every refusal begins with the name of the file. Without
-/// `models`, their needs are not checked. Also refuses objects that deform or tear where a layer
-/// asks for what live models do not serve.
+/// `models`, their needs are not checked. Also refuses objects that deform or tear unless
+/// each pair of their layer asks for it.
 [[nodiscard]] Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                                            std::span<const ModelUse> models = {});
 

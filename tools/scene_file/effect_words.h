@@ -9,9 +9,9 @@
 namespace cdprep::scenes {
 
 /// The effects that a scene file may ask for. Not all of them are built.
-inline const std::array<std::string, 11> kEffectWords = {
+inline const std::array<std::string, 12> kEffectWords = {
     "collide",    "overlap", "distance", "within", "contacts", "response",
-    "continuous", "deform",  "tear",     "inside", "haptic"};
+    "continuous", "self",    "deform",   "tear",   "inside",   "haptic"};
 
 /// Returns the bit of an effect, or nothing if no version of the library has it yet.
 [[nodiscard]] inline Ask effect_of(const std::string& word) noexcept {

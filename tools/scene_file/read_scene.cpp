@@ -125,7 +125,7 @@ private:
     void read_pair(const JsonElement& element) {
         AskedPair pair;
         if (!element.is_object_of({"layers", "effects", "tolerance", "max_distance", "body",
-                                   "overlap", "contacts", "events"})) {
+                                   "overlap", "contacts", "impact", "work", "events"})) {
             return;
         }
         if (const auto layers = element.require("layers")) read_pair_layers(*layers, pair.asked);
@@ -151,6 +151,13 @@ private:
             }
             read_contacts(*contacts, pair.asked.contacts);
         }
+        if (const auto impact = element.find("impact")) {
+            if (!contains(pair.asked.effects, Ask::continuous)) {
+                impact->refuse("the pair does not ask for continuous.");
+            }
+            read_impact(*impact, pair.asked.impact);
+        }
+        if (const auto work = element.find("work")) pair.asked.work = work->whole(1).value_or(1);
         if (element.find("events")) read_events(element, pair);
         scene_.pairs.push_back(std::move(pair));
     }
@@ -181,6 +188,16 @@ private:
         }
         if (const auto work = element.find("work")) {
             options.work = work->whole(1).value_or(1);
+        }
+    }
+
+    static void read_impact(const JsonElement& element, ImpactOptions& options) {
+        if (!element.is_object_of({"tolerance", "most_steps"})) return;
+        if (const auto tolerance = element.find("tolerance")) {
+            options.tolerance = tolerance->number(Range::zero_or_more).value_or(0);
+        }
+        if (const auto steps = element.find("most_steps")) {
+            options.most_steps = steps->whole(1).value_or(1);
         }
     }
 

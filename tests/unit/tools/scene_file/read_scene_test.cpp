@@ -102,8 +102,20 @@ TEST(ReadScene, KeepsEffectsThatAreNotBuilt) {
     const Folder folder;
     const SceneFile scene =
         folder.scene(one_object("", R"("effects": ["tear", "response", "haptic"])"));
-    EXPECT_EQ(scene.pairs[0].asked.effects, Ask::response);
-    EXPECT_EQ(scene.pairs[0].unbuilt, (std::vector<std::string>{"tear", "haptic"}));
+    EXPECT_EQ(scene.pairs[0].asked.effects, Ask::tear | Ask::response | Ask::haptic);
+    EXPECT_EQ(scene.pairs[0].unbuilt, std::vector<std::string>());
+}
+
+TEST(ReadScene, ReadsOptionsOfEffects) {
+    const Folder folder;
+    const SceneFile scene =
+        folder.scene(one_object("", R"("effects": ["continuous", "haptic"], "work": 3000,
+                          "impact": {"tolerance": 0.5, "most_steps": 7})"));
+    const LayerPair& pair = scene.pairs[0].asked;
+    EXPECT_EQ(pair.effects, Ask::continuous | Ask::haptic);
+    EXPECT_EQ(pair.work, 3000u);
+    EXPECT_EQ(pair.impact.tolerance, 0.5);
+    EXPECT_EQ(pair.impact.most_steps, 7u);
 }
 
 TEST(ReadScene, HasDefaults) {
@@ -134,7 +146,7 @@ struct Mistake {
 TEST(ReadScene, NamesEachMistakeAndItsLine) {
     const Folder folder;
     const std::string words =
-        "collide, overlap, distance, within, contacts, response, continuous, deform, tear, "
+        "collide, overlap, distance, within, contacts, response, continuous, self, deform, tear, "
         "inside or haptic.";
     const std::vector<Mistake> mistakes = {
         {"[]", {"line 1: the key 'cdprep_scene' is missing."}},
@@ -170,6 +182,15 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
           "stays."}},
         {one_object("", "\"effects\": [\"collide\"], \"contacts\": {}"),
          {"line 3: /pairs/0/contacts: the pair does not ask for contacts."}},
+        {one_object("", "\"effects\": [\"collide\"], \"impact\": {}, \"work\": 0"),
+         {"line 3: /pairs/0/impact: the pair does not ask for continuous.",
+          "line 3: /pairs/0/work: found 0; expected a whole number from 1 to 2147483648."}},
+        {one_object("",
+                    "\"effects\": [\"continuous\"], \"impact\": {\"most_steps\": 0, "
+                    "\"tolerance\": -1}"),
+         {"line 3: /pairs/0/impact/tolerance: found -1; expected a number, 0 or more.",
+          "line 3: /pairs/0/impact/most_steps: found 0; expected a whole number from 1 to "
+          "2147483648."}},
         {one_object("", "\"effects\": [\"contacts\"], \"contacts\": {\"depth\": 2}"),
          {"line 3: /pairs/0/contacts/depth: 'depth' is not a key here. Choose from tolerance, most "
           "or "
