@@ -154,6 +154,11 @@ Json pair_json(const SceneFile& scene, const LayerPair& pair) {
         json["contacts"] = {{"tolerance", pair.contacts.tolerance}, {"most", pair.contacts.most}};
         if (pair.contacts.work > 0) json["contacts"]["work"] = pair.contacts.work;
     }
+    if (contains(pair.effects, Ask::continuous)) {
+        json["impact"] = {{"tolerance", pair.impact.tolerance},
+                          {"most_steps", pair.impact.most_steps}};
+    }
+    if (contains(pair.effects, Ask::haptic)) json["work"] = pair.work;
     return json;
 }
 

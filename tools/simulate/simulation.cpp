@@ -147,13 +147,19 @@ Result<Done> Simulation::make_room(const SceneStep& step, std::uint64_t frame) {
 }
 
 /// Makes more room. A new scene knows nothing of the last frame, so that is computed again; its
-/// events were reported before.
+/// events were reported before. With `continuous`, the way to that frame is needed too.
 Result<Done> Simulation::grow(SceneStep step, std::uint64_t frame) {
     while (!step.complete) {
         if (Result<Done> made = make_room(step, frame); !made) return made;
-        if (Result<Done> filled = fill(time_of(frame == 0 ? 0 : frame - 1)); !filled) return filled;
+        const std::uint64_t wanted = contains(plan_->effects(), Ask::continuous) ? 2 : 1;
+        std::uint64_t back = std::min(frame, wanted);
+        if (Result<Done> filled = fill(time_of(frame - back)); !filled) return filled;
         if (frame == 0) return Done{};
         step = scene_->step(workspaces_, parallel_for_);
+        while (--back > 0 && step.complete) {
+            if (Result<Done> moved = move(time_of(frame - back)); !moved) return moved;
+            step = scene_->step(workspaces_, parallel_for_);
+        }
     }
     return move(time_of(frame));
 }

@@ -164,7 +164,7 @@ const Tear kTear = {.point = {0.2, 0, 0}, .normal = {1, 0, 0.5}, .time_s = 4, .o
 TEST(Simulation, DeformsTheModelOfItsObjects) {
     Rows rows(2, 10);
     rows.file().changes = {{.deform = kShear}};
-    rows.file().pairs[0].asked.effects = Ask::collide | Ask::overlap;
+    rows.file().pairs[0].asked.effects = Ask::collide | Ask::overlap | Ask::deform;
     for (FileObject& object : rows.file().objects) {
         if (object.layer == 0) object.change = 0;
     }
@@ -197,7 +197,7 @@ TEST(Simulation, MakesRoomWhereModelsTear) {
     const auto make = [](std::uint32_t pairs, std::uint32_t threads) {
         Rows rows(60, 0);
         rows.file().changes = {{.deform = kShear, .tear = kTear}};
-        rows.file().pairs[0].asked.effects = Ask::collide | Ask::within;
+        rows.file().pairs[0].asked.effects = Ask::collide | Ask::within | Ask::tear;
         if (pairs > 0) rows.file().most_pairs = pairs;
         rows.file().motions[1] = Motion::path({{3.5, *Pose::from_quaternion(1, 0, 0, 0, {9, 0, 0})},
                                                {4, *Pose::from_quaternion(1, 0, 0, 0, {0, 0, 0})}});
@@ -225,10 +225,36 @@ TEST(Simulation, MakesRoomWhereModelsTear) {
     EXPECT_EQ(large->grown_steps(), 0u);
 }
 
+// The frame before the one that needs room has a way of its own: from two frames before.
+TEST(Simulation, MakesRoomWithoutLosingAWay) {
+    const auto impacts = [](std::uint32_t pairs, std::uint64_t& grown_steps) {
+        Rows rows(36, 0);
+        rows.file().pairs[0].asked.effects = Ask::continuous;
+        if (pairs > 0) rows.file().most_pairs = pairs;
+        // In one frame from 60 to -60, through all others; then half way back, where all meet.
+        const auto at = [](double x) { return *Pose::from_quaternion(1, 0, 0, 0, {x, 0, 0}); };
+        rows.file().motions[1] = Motion::path(
+            {{0.5, at(60)}, {1, at(-60)}, {1.5, at(-30)}, {2, at(0)}, {2.5, at(0)}, {3, at(90)}});
+        std::vector<Event> events;
+        auto simulation = rows.make(2);
+        EXPECT_TRUE(simulation);
+        if (simulation) events = events_of(*simulation, 8);
+        if (simulation) grown_steps = simulation->grown_steps();
+        return events;
+    };
+    std::uint64_t grown = 0, large = 0;
+    const std::vector<Event> events = impacts(0, grown);
+    EXPECT_EQ(events, impacts(20'000, large));
+    EXPECT_EQ(events.size(), 4u * 1296);
+    EXPECT_EQ(large, 0u);
+    EXPECT_GT(grown, 0u);
+}
+
 // A shape that stays is asked once.
 TEST(Simulation, CountsAShapeThatStaysAsNotMoved) {
     Rows rows(1, 0);
     rows.file().changes = {{.tear = kTear}};
+    rows.file().pairs[0].asked.effects = Ask::collide | Ask::tear;
     rows.file().motions[1] = Motion::fixed({});
     rows.file().objects[1].change = 0;
     auto simulation = rows.make();
@@ -242,6 +268,7 @@ TEST(Simulation, CountsAShapeThatStaysAsNotMoved) {
 TEST(Simulation, NamesAShapeThatLeavesTheCoordinates) {
     Rows rows(1, 0);
     rows.file().changes = {{.deform = Shear{.of = 0, .along = 2, .rate_per_s = 1e38}}};
+    rows.file().pairs[0].asked.effects = Ask::collide | Ask::deform;
     rows.file().objects[1].change = 0;
     auto simulation = rows.make();
     ASSERT_TRUE(simulation);
