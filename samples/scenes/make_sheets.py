@@ -41,7 +41,7 @@ def bent(x, angle):
     radius, arc, rest = BENT / angle, min(abs(x), BENT), max(abs(x) - BENT, 0)
     turn = arc / radius
     across = radius * math.sin(turn) + rest * math.cos(turn)
-    return math.copysign(across, x), radius * (1 - math.cos(turn)) + rest * math.sin(turn)
+    return across if x >= 0 else -across, radius * (1 - math.cos(turn)) + rest * math.sin(turn)
 
 
 def loop():

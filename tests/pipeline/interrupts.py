@@ -82,7 +82,8 @@ def write_scene(path, model, deform=None):
     motion = {"turn_rad_per_s": [0, 0, 1], **({"deform": deform} if deform else {})}
     path.write_text(json.dumps({
         "cdprep_scene": 1, "layers": ["a"],
-        "pairs": [{"layers": ["a", "a"], "effects": ["collide", "distance"]}],
+        "pairs": [{"layers": ["a", "a"],
+                   "effects": ["collide", "distance", *(["deform"] if deform else [])]}],
         "objects": [{"name": "still", "model": model, "layer": "a"},
                     {"name": "turning", "model": model, "layer": "a",
                      "pose": {"translation": [3000, 0, 0]},

@@ -110,7 +110,7 @@ def write_scenes(folder):
     scene = {"cdprep_scene": 1, "step_s": 0.5, "duration_s": 5, "layers": ["parts", "rings"],
              "pairs": pairs, "objects": objects}
     (folder / "parts.json").write_text(json.dumps(scene))
-    pairs[1]["effects"] = ["tear", "response"]
+    pairs[1]["effects"] = ["inside", "response"]
     (folder / "unbuilt.json").write_text(json.dumps(scene))
     (folder / "wrong.json").write_text(json.dumps({**scene, "$schema": 1, "colour": 2}))
 
