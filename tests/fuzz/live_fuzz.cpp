@@ -200,7 +200,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (int i = 0; i < kMostChanges && !draw.is_at_end(); ++i) {
         torn.change();
         // Brute force takes long where coordinates differ by many powers of two.
-        if (draw.one_in(6)) torn.check();
+        if (draw.one_in(12)) torn.check();
     }
     torn.check();
     return 0;
