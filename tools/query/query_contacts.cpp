@@ -128,7 +128,8 @@ void add_contacts(const Command& query, Exit& exit) {
     command
         .add_option("--budget", arguments->budget,
                     "Stop after this much work: 1 for each pair of near triangles, 32 for each "
-                    "contact and 1 for every 8 triangles of its pieces. Default: no limit")
+                    "contact and 1 for every 8 triangles of its pieces. With --most, a closer "
+                    "bound of a depth counts 8. Default: no limit")
         .type_name("N")
         .check(whole_from(1))
         .group("Query");
