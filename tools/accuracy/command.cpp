@@ -200,7 +200,7 @@ void add_accuracy(const Command& app, Exit& exit) {
         "building the structures.",
         {"cdprep accuracy arm.obj part.obj --quick",
          "cdprep accuracy arm.obj part.obj --format html -o cost.html"});
-    command.add_option("A", arguments->a, "The model that stays: a mesh or a baked file")
+    command.add_option("A", arguments->a, "The model that does not move: a mesh or a baked file")
         .required();
     command.add_option("B", arguments->b, "The model that moves: a mesh or a baked file")
         .required();

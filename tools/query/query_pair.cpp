@@ -461,8 +461,9 @@ constexpr const char* kSceneNotes =
     "part, named by its path. Later nodes of the same path get #2, #3 and so on. Nodes that use "
     "one mesh share its model. A transform that is not rigid is applied to the vertices. One that "
     "deviates from a rigid one by at most 1e-5 is rounded to it; the summary states the largest "
-    "deviation as 'rounding'. The answers are exact for these parts: those that touch clash. The "
-    "lines do not depend on the number of threads.";
+    "deviation as 'rounding'. The answers are exact for these parts. Touching parts clash. The "
+    "lines "
+    "do not depend on the number of threads.";
 
 void add_pair_format(const Command& command, std::string& word, bool serves_scenes) {
     if (!serves_scenes) {
@@ -527,10 +528,11 @@ void add_question(const Command& query, PairQuestion question, const char* name,
     }
     if (question == PairQuestion::collide) {
         command
-            .add_option("--level-of-detail", arguments->level_of_detail,
-                        "Test two solids by the cones of their tetra-trees at this level: each has "
-                        "a facet outside its triangles and one inside. The answer is yes, no or "
-                        "unknown, with the level's error for each model")
+            .add_option(
+                "--level-of-detail", arguments->level_of_detail,
+                "Test two solids by the cones of their tetra-trees at this level. Each "
+                "cone has one facet outside its triangles and one inside. The answer is yes, no or "
+                "unknown, with the level's error for each model")
             .type_name("LEVEL")
             .check(whole_from(0U, format::kMaxTetraLevel))
             .group("Structure");

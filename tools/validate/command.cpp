@@ -348,7 +348,7 @@ void add_validate(const Command& app, Exit& exit) {
                                         "Read inputs from a file, one per line; -: standard input")
                             .type_name("FILE")
                             .group("Inputs from a list");
-    command.add_flag("-0,--null", arguments->null, "Inputs of the list end with NUL, not newline")
+    command.add_flag("-0,--null", arguments->null, "Entries of the list end with NUL, not newline")
         .needs(list)
         .group("Inputs from a list");
     command.add_option("--format", arguments->format, "Format of the report")
