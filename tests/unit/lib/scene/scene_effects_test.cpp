@@ -226,11 +226,10 @@ TEST(SceneSelf, EqualsASingleQueryAndIsKeptWhileTheShapeIs) {
     bool was_held = false;
     std::size_t held = 0;
     for (int frame = 0; frame < 12; ++frame) {
+        const bool is_folded = frame % 3 != 0;
         for (std::size_t i = 0; i < flat.size(); ++i) {
-            const double along = flat[i].x - 6;
-            const double lift = frame / 3 % 2 == 0 ? 0.01 * along * along : 0;
-            sheet.positions[i] = {6 - std::abs(along) * (frame % 3 == 0 ? -1 : 1), flat[i].y,
-                                  flat[i].z + lift};
+            const double x = is_folded ? 6 - std::abs(flat[i].x - 6) : flat[i].x;
+            sheet.positions[i] = {x, flat[i].y, 0.001 * frame};
         }
         sheet.refit();
         ASSERT_TRUE(scene.step(workspaces).complete);
@@ -257,8 +256,7 @@ TEST(SceneSelf, EqualsASingleQueryAndIsKeptWhileTheShapeIs) {
         EXPECT_EQ(scene.counts().calls_of(Ask::self), 0U);
         EXPECT_EQ(scene.self_overlaps().size(), holds ? 1U : 0U);
     }
-    EXPECT_GT(held, 2U);
-    EXPECT_LT(held, 12U);
+    EXPECT_EQ(held, 8U);
 }
 
 TEST(SceneSelf, SaysHowMuchRoomItNeeds) {
@@ -362,7 +360,7 @@ TEST(SceneHaptic, BoundsHoldAndTheLastAnswerStays) {
         EXPECT_LE(part.distance.lower, expected->upper);
         EXPECT_GE(part.distance.upper, expected->lower);
         late += part.distance.is_complete ? 0 : 1;
-        EXPECT_EQ(part.last.late > 0, part.last.is_known && !part.distance.is_complete);
+        EXPECT_EQ(part.last.late > 0, !part.distance.is_complete);
     }
     EXPECT_GT(late, 5U);
 }
