@@ -25,7 +25,7 @@ set(lib_rooms
 set(tools_rooms
     "command_line: text"
     "mesh:"
-    "page:"
+    "page: text"
     "text:"
     "write:"
     "import: mesh"

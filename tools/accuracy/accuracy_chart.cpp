@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "page/page_parts.h"
+#include "page/svg_parts.h"
 #include "text/number_text.h"
 #include "text/printable.h"
 
@@ -38,21 +39,6 @@ struct Box {
         return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
     }
 };
-
-std::string units(double value) {
-    return fixed(value, 1);
-}
-
-std::string line(double x1, double y1, double x2, double y2, const std::string& look) {
-    return "<line x1=\"" + units(x1) + "\" y1=\"" + units(y1) + "\" x2=\"" + units(x2) +
-           "\" y2=\"" + units(y2) + "\" class=\"" + look + "\"/>\n";
-}
-
-std::string words(double x, double y, const std::string& anchor, const std::string& look,
-                  const std::string& text) {
-    return "<text x=\"" + units(x) + "\" y=\"" + units(y) + "\" text-anchor=\"" + anchor +
-           "\" class=\"" + look + "\">" + escaped(text) + "</text>\n";
-}
 
 /// Returns the colour number of a rung. Rungs of one kind share a colour.
 std::size_t family_of(const std::string& name) {

@@ -70,12 +70,16 @@ class RowList {
     const elements = [];
     for (let i = first; i < last; ++i) elements.push(this.element(i));
     this.inner.replaceChildren(...elements);
-    this.holder.setAttribute('aria-activedescendant', this.rows.length ? 'row' + this.active : '');
+    this.holder.setAttribute('aria-activedescendant', this.rows.length ? this.row_id(this.active) : '');
+  }
+
+  row_id(index) {
+    return this.holder.id + '-row' + index;
   }
 
   element(index) {
     const element = document.createElement('div');
-    element.id = 'row' + index;
+    element.id = this.row_id(index);
     element.className = 'row' + (index === this.active ? ' active' : '');
     element.style.top = index * ROW_PX + 'px';
     element.setAttribute('role', 'treeitem');

@@ -10,37 +10,9 @@ const page = JSON.parse(document.getElementById('page-data').textContent);
 const state = {mesh: null, number: 0, view: null, open: new Set(), hidden: new Set(),
                severities: new Set(SEVERITIES), words: '', chosen: null};
 
-const $ = (id) => document.getElementById(id);
-const whole = (n) => Number(n).toLocaleString('en-US');
 // A limit may have ended the search for more.
 const count_of = (finding) => (finding.lower ? 'at least ' : '') + whole(finding.count);
-const plural = (n, one, many) => whole(n) + ' ' + (Number(n) === 1 ? one : many);
 
-function make(tag, attributes, ...children) {
-  const element = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes || {})) {
-    if (name === 'class') element.className = value;
-    else if (name.startsWith('on')) element.addEventListener(name.slice(2), value);
-    else if (value !== false && value !== null) element.setAttribute(name, value === true ? '' : value);
-  }
-  element.append(...children.filter((child) => child !== null && child !== undefined));
-  return element;
-}
-
-function number(value) {
-  if (value === null || value === undefined) return 'not finite';
-  if (value === 0 || Number.isInteger(value) && Math.abs(value) < 1e15) return whole(value);
-  const size = Math.abs(value);
-  if (size >= 1000 && size < 1e9) return value.toLocaleString('en-US', {maximumSignificantDigits: 7});
-  return size >= 1e-4 && size < 1e9 ? String(Number(value.toPrecision(7)))
-                                    : value.toExponential(6).replace(/\.?0+e/, 'e');
-}
-
-// A whole power of two may be beyond a double where the product is not.
-function times_power(value, exponent) {
-  const first = Math.trunc(exponent / 2);
-  return value * Math.pow(2, first) * Math.pow(2, exponent - first);
-}
 function to_page(point) {
   const {centre, exponent} = state.mesh.frame;
   return point.map((value, axis) => times_power(value - centre[axis], -exponent));
@@ -508,18 +480,6 @@ function write_paper() {
 
 // ---- Start
 
-function press(id, on) {
-  $(id).setAttribute('aria-pressed', on ? 'true' : 'false');
-}
-function show_tab(name) {
-  for (const tab of ['findings', 'verdict', 'about']) {
-    $('tab-' + tab).setAttribute('aria-selected', tab === name ? 'true' : 'false');
-    $('tab-' + tab).tabIndex = tab === name ? 0 : -1;
-    $('panel-' + tab).hidden = tab !== name;
-  }
-  if (name === 'findings') list.draw();
-}
-
 function use_keys(event) {
   if (event.ctrlKey || event.altKey || event.metaKey) return;
   if (/^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName)) return;
@@ -579,16 +539,7 @@ function start() {
     write_rows();
     show_marks();
   };
-  for (const tab of ['findings', 'verdict', 'about']) $('tab-' + tab).onclick = () => show_tab(tab);
-  $('tabs').addEventListener('keydown', (event) => {
-    const tabs = ['findings', 'verdict', 'about'];
-    const at = tabs.findIndex((tab) => $('tab-' + tab).tabIndex === 0);
-    const by = {ArrowRight: 1, ArrowLeft: -1}[event.key];
-    if (!by) return;
-    const next = tabs[(at + by + tabs.length) % tabs.length];
-    show_tab(next);
-    $('tab-' + next).focus();
-  });
+  new Tabs(['findings', 'verdict', 'about'], (name) => { if (name === 'findings') list.draw(); });
   document.addEventListener('keydown', use_keys);
   addEventListener('hashchange', read_address);
   addEventListener('beforeprint', write_paper);

@@ -9,6 +9,7 @@ namespace cdprep::report::page {
 
 extern const std::string_view kFrame;     ///< page.html, with placeholders for the rest: @name@
 extern const std::string_view kStyle;     ///< page.css
+extern const std::string_view kElements;  ///< elements.js
 extern const std::string_view kView;      ///< view.js
 extern const std::string_view kList;      ///< list.js
 extern const std::string_view kPage;      ///< page.js

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -14,10 +13,11 @@
 
 #include "page/base64.h"
 #include "page/page_parts.h"
+#include "page/page_surface.h"
 #include "page/page_text.h"
 #include "text/json_layout.h"
+#include "validate/choose_triangles.h"
 #include "validate/page_marks.h"
-#include "validate/page_surface.h"
 
 namespace cdprep::report {
 namespace {
@@ -41,23 +41,10 @@ struct Limits {
     std::uint32_t ghost_cells;
 };
 
-/// Shares the triangles. No mesh gets less than an even share unless it has fewer triangles.
-std::vector<std::size_t> share_triangles(std::span<const PageMesh> meshes, std::size_t left) {
-    std::vector<std::size_t> by_size(meshes.size());
-    std::iota(by_size.begin(), by_size.end(), 0);
-    std::ranges::stable_sort(by_size, {},
-                             [&](std::size_t i) { return meshes[i].triangles.size(); });
-    std::vector<std::size_t> shares(meshes.size());
-    for (std::size_t k = 0; k < by_size.size(); ++k) {
-        const std::size_t even = left / (by_size.size() - k);
-        shares[by_size[k]] = std::min(even, meshes[by_size[k]].triangles.size());
-        left -= shares[by_size[k]];
-    }
-    return shares;
-}
-
 Limits limits_of(std::span<const PageMesh> meshes, const PageOptions& options) {
-    std::vector<std::size_t> shares = share_triangles(meshes, options.max_triangles);
+    std::vector<std::size_t> sizes;
+    for (const PageMesh& mesh : meshes) sizes.push_back(mesh.triangles.size());
+    std::vector<std::size_t> shares = share_triangles(sizes, options.max_triangles);
     std::size_t findings = 1;
     std::size_t ghosts = 1;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -317,7 +304,8 @@ std::string html_page(std::span<const PageMesh> meshes, const PageOptions& optio
         {"@data@", data_elements(meshes, limits_of(meshes, options))},
         {"@three@", std::string(page::kThree)},
         {"@controls@", std::string(page::kControls)},
-        {"@js@", std::string(page::kView) + std::string(page::kList) + std::string(page::kPage)},
+        {"@js@", std::string(page::kElements) + std::string(page::kView) +
+                     std::string(page::kList) + std::string(page::kPage)},
     }};
     return filled(page::kFrame, parts);
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "page/page_surface.h"
 #include "validate/defects/finding.h"
-#include "validate/page_surface.h"
 
 namespace cdprep::report {
 

@@ -13,11 +13,12 @@
 #include <vector>
 
 #include "page/base64.h"
+#include "page/page_surface.h"
 #include "page/page_text.h"
 #include "support/meshes.h"
+#include "validate/choose_triangles.h"
 #include "validate/defects/rule.h"
 #include "validate/page_marks.h"
-#include "validate/page_surface.h"
 
 namespace cdprep::report {
 namespace {
@@ -92,7 +93,8 @@ TEST(HtmlPage, NamesCannotEndTheirElement) {
 
 // Nothing of ours names a place to load from, and the policy forbids it to all else.
 TEST(HtmlPage, AsksForNothing) {
-    for (const std::string_view text : {page::kFrame, page::kStyle, page::kView, page::kPage}) {
+    for (const std::string_view text :
+         {page::kFrame, page::kStyle, page::kElements, page::kView, page::kList, page::kPage}) {
         for (const char* part :
              {"http:", "https:", "//cdn", "@import", "url(", " src=\"", "fetch("}) {
             EXPECT_EQ(text.find(part), std::string_view::npos) << part;
