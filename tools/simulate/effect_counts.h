@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -8,6 +10,12 @@
 #include "scene_file/effect_words.h"
 
 namespace cdprep::report {
+
+/// Returns the place of an effect in kSceneEffects.
+[[nodiscard]] inline std::size_t effect_number(Ask effect) noexcept {
+    const auto* at = std::find(kSceneEffects.begin(), kSceneEffects.end(), effect);
+    return static_cast<std::size_t>(at - kSceneEffects.begin());
+}
 
 /// Returns the names of the effects that a scene could compute, but no pair of layers asks for.
 [[nodiscard]] inline std::vector<std::string> not_computed(const Plan& plan) {

@@ -38,6 +38,10 @@ public:
     [[nodiscard]] const FileObject& object(ObjectId id) const noexcept {
         return file_->objects[objects_[id.slot]];
     }
+    /// The poses in the last frame, by slot. Slots are in the order of the objects in the file.
+    [[nodiscard]] std::span<const Pose> poses() const noexcept {
+        return poses_;
+    }
     /// The wall time that the library took for the last frame, poses and more room excluded.
     [[nodiscard]] double step_seconds() const noexcept {
         return step_seconds_;

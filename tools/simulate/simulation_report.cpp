@@ -153,11 +153,6 @@ ChangingCounts count_changing(const scenes::SceneFile& scene,
     return counts;
 }
 
-std::size_t number_of(Ask effect) {
-    const auto* at = std::find(kSceneEffects.begin(), kSceneEffects.end(), effect);
-    return static_cast<std::size_t>(at - kSceneEffects.begin());
-}
-
 }  // namespace
 
 SimulationReport::SimulationReport(const scenes::SceneFile& scene, const Plan& plan,
@@ -190,7 +185,7 @@ void SimulationReport::count(const scenes::Simulation& simulation) {
     counts_.apart += counts.apart;
     for (std::size_t i = 0; i < counts.calls.size(); ++i) counts_.calls[i] += counts.calls[i];
     for (const SceneEvent& event : simulation.scene().events()) {
-        Changes& changes = changes_[number_of(event.effect)];
+        Changes& changes = changes_[effect_number(event.effect)];
         changes.begins += event.kind == EventKind::begins ? 1 : 0;
         changes.ends += event.kind == EventKind::ends ? 1 : 0;
     }

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/scene_frames.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace cdprep::report {
+namespace {
+
+// The bytes of a part on the page.
+constexpr std::size_t kFrameBytes = 200;
+constexpr std::size_t kPoseBytes = 32;
+constexpr std::size_t kHitBytes = 12;
+constexpr std::size_t kLineBytes = 40;  ///< of a contact or a distance
+
+bool are_equal(const Pose& p, const Pose& q) {
+    return p.rotation() == q.rotation() && p.translation() == q.translation();
+}
+
+std::uint32_t effect_bits(Ask effects) {
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
+        if (contains(effects, kSceneEffects[i])) bits |= 1U << i;
+    }
+    return bits;
+}
+
+Double3 middle_of(const Double3& p, const Double3& q) {
+    return {p.x / 2 + q.x / 2, p.y / 2 + q.y / 2, p.z / 2 + q.z / 2};
+}
+
+/// Copies the results of a frame, as far as the limits allow.
+class Results {
+public:
+    Results(const scenes::SceneFile& file, const scenes::Simulation& simulation,
+            std::uint32_t objects, const FrameLimits& limits, ShownFrame& shown)
+        : file_(file), simulation_(simulation), objects_(objects), limits_(limits), shown_(shown) {}
+
+    void copy() {
+        const Scene& scene = simulation_.scene();
+        for (const SceneHit& hit : scene.hits()) add(hit);
+        for (const SceneOverlaps& list : scene.overlaps()) add(list);
+        for (const SceneDistance& distance : scene.distances()) add(distance);
+        for (const SceneContacts& list : scene.contacts()) add(list);
+        for (auto& [object, triangles] : lit_) {
+            std::ranges::sort(triangles);
+            triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+            shown_.lit.push_back({object, std::move(triangles)});
+        }
+    }
+
+private:
+    [[nodiscard]] std::uint32_t number_of(ObjectId id) const {
+        return static_cast<std::uint32_t>(&simulation_.object(id) - file_.objects.data());
+    }
+    /// Returns whether both objects are on the page.
+    template <class Item>
+    [[nodiscard]] bool are_shown(const Item& item) const {
+        return std::max(number_of(item.a), number_of(item.b)) < objects_;
+    }
+
+    void add(const SceneHit& hit) {
+        if (hit.holds == Ask::nothing) {
+            ++shown_.pairs_unknown;
+        } else if (!are_shown(hit) || shown_.hits.size() >= limits_.hits) {
+            ++shown_.hits_left_out;
+        } else {
+            shown_.hits.push_back({number_of(hit.a), number_of(hit.b), effect_bits(hit.holds)});
+        }
+    }
+
+    void light(std::uint32_t object, std::uint32_t triangle) {
+        std::vector<std::uint32_t>& triangles = lit_[object];
+        // Neighbours in a list often name one triangle.
+        if (!triangles.empty() && triangles.back() == triangle) return;
+        if (object >= objects_ || lit_count_ >= limits_.lit) {
+            ++shown_.lit_left_out;
+            if (triangles.empty()) lit_.erase(object);
+            return;
+        }
+        triangles.push_back(triangle);
+        ++lit_count_;
+    }
+
+    void add(const SceneOverlaps& list) {
+        for (const TrianglePair& pair : list.triangles) {
+            light(number_of(list.a), pair.a);
+            light(number_of(list.b), pair.b);
+        }
+    }
+
+    void add(const SceneDistance& item) {
+        const Distance& found = item.distance;
+        // Surfaces that touch have one witness; solids one in the other have two.
+        if (found.upper == 0 && found.witness_a.x == found.witness_b.x &&
+            found.witness_a.y == found.witness_b.y && found.witness_a.z == found.witness_b.z) {
+            light(number_of(item.a), found.triangle_a);
+            light(number_of(item.b), found.triangle_b);
+        }
+        if (!are_shown(item) || shown_.distances.size() >= limits_.distances) {
+            ++shown_.distances_left_out;
+            return;
+        }
+        shown_.distances.push_back({number_of(item.a), number_of(item.b), found.witness_a,
+                                    found.witness_b, found.lower, found.upper});
+    }
+
+    void add(const SceneContacts& list) {
+        for (const Contact& contact : list.contacts) {
+            if (!are_shown(list) || shown_.contacts.size() >= limits_.contacts) {
+                ++shown_.contacts_left_out;
+                continue;
+            }
+            shown_.contacts.push_back({number_of(list.a), number_of(list.b),
+                                       middle_of(contact.point_a, contact.point_b), contact.normal,
+                                       contact.lower, contact.upper});
+        }
+    }
+
+    const scenes::SceneFile& file_;
+    const scenes::Simulation& simulation_;
+    std::uint32_t objects_;
+    const FrameLimits& limits_;
+    ShownFrame& shown_;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> lit_;  ///< by object
+    std::size_t lit_count_ = 0;
+};
+
+/// Puts the poses of a frame that is left out before those of the next one.
+void take_poses(ShownFrame& next, const std::vector<ObjectPose>& left_out) {
+    std::vector<ObjectPose> both;
+    std::ranges::merge(next.moved, left_out, std::back_inserter(both), {}, &ObjectPose::object,
+                       &ObjectPose::object);
+    // Of equal objects, the later pose is first: merge() is stable.
+    const auto is_same = [](const ObjectPose& p, const ObjectPose& q) {
+        return p.object == q.object;
+    };
+    both.erase(std::unique(both.begin(), both.end(), is_same), both.end());
+    next.moved = std::move(both);
+}
+
+}  // namespace
+
+std::size_t ShownFrame::bytes() const noexcept {
+    std::size_t sum = kFrameBytes + kPoseBytes * moved.size() + kHitBytes * hits.size() +
+                      kLineBytes * (contacts.size() + distances.size());
+    for (const LitTriangles& one : lit) sum += 16 + 4 * one.triangles.size();
+    return sum;
+}
+
+SceneFrames::SceneFrames(const scenes::SceneFile& file, std::uint64_t count,
+                         const FrameLimits& limits)
+    : file_(file),
+      count_(count),
+      limits_(limits),
+      poses_(std::min(file.objects.size(), limits.objects)) {
+    // The last frame is shown too, whether its number is a multiple or not.
+    while ((count - 1) / stride_ + 2 > std::max<std::size_t>(limits.frames, 2)) stride_ *= 2;
+}
+
+void SceneFrames::add_pose(ShownFrame& shown, std::uint32_t object, const Pose& pose) {
+    if (object >= poses_.size()) return;
+    std::optional<Pose>& last = poses_[object];
+    if (last && are_equal(*last, pose)) return;
+    last = pose;
+    shown.moved.push_back({object, pose});
+}
+
+Result<Done> SceneFrames::add_poses(ShownFrame& shown, const scenes::Simulation& simulation) {
+    const double time_s = static_cast<double>(shown.frame) * file_.step_s;
+    const std::span<const Pose> poses = simulation.poses();
+    std::size_t slot = 0;
+    for (std::uint32_t i = 0; i < poses_.size(); ++i) {
+        const scenes::FileObject& object = file_.objects[i];
+        // The simulation has the objects that it was asked for, in the order of the file.
+        if (is_asked(simulation.plan(), object)) {
+            add_pose(shown, i, poses[slot++]);
+            continue;
+        }
+        if (poses_[i] && !file_.motions[object.motion].moves()) continue;
+        const Result<Pose> pose = pose_of(file_, object, time_s);
+        if (!pose) return pose.error();
+        add_pose(shown, i, *pose);
+    }
+    return Done{};
+}
+
+Result<Done> SceneFrames::add(std::uint64_t frame, const scenes::Simulation& simulation) {
+    if (!is_shown(frame)) return Done{};
+    ShownFrame shown;
+    shown.frame = frame;
+    if (Result<Done> added = add_poses(shown, simulation); !added) return added;
+    take_poses(shown, std::exchange(left_out_, {}));
+    Results(file_, simulation, objects(), limits_, shown).copy();
+    shown.counts = simulation.scene().counts();
+    shown.seconds = simulation.step_seconds();
+    bytes_ += shown.bytes();
+    frames_.push_back(std::move(shown));
+    while (bytes_ > limits_.bytes && stride_ < count_) thin();
+    return Done{};
+}
+
+/// Leaves out each second frame.
+void SceneFrames::thin() {
+    stride_ *= 2;
+    bytes_ = 0;
+    for (ShownFrame& shown : std::exchange(frames_, {})) {
+        take_poses(shown, std::exchange(left_out_, {}));
+        if (is_shown(shown.frame)) {
+            bytes_ += shown.bytes();
+            frames_.push_back(std::move(shown));
+        } else {
+            left_out_ = std::move(shown.moved);
+        }
+    }
+}
+
+}  // namespace cdprep::report
