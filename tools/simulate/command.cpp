@@ -17,6 +17,7 @@
 #include "command_line/command_line.h"
 #include "scene_file/load_models.h"
 #include "scene_file/read_scene.h"
+#include "simulate/page_output.h"
 #include "simulate/plan_report.h"
 #include "simulate/simulation.h"
 #include "simulate/simulation_report.h"
@@ -33,6 +34,8 @@ struct Arguments {
     fs::path scene;
     fs::path output;
     fs::path cache;
+    fs::path html;
+    fs::path svg;
     std::string format;  ///< empty: text for a plan, ndjson for frames
     std::string progress = "auto";
     std::optional<std::uint64_t> frames;
@@ -50,8 +53,12 @@ Exit fail_all(const std::vector<std::string>& sentences, ErrorCode code) {
 /// One run of the command.
 class Run {
 public:
-    Run(const Arguments& arguments, ReportOutput& output, ProgressStyle style)
-        : arguments_(arguments), output_(output), style_(style), threads_(arguments.threads) {}
+    Run(const Arguments& arguments, ReportOutput& output, PageOutput& page, ProgressStyle style)
+        : arguments_(arguments),
+          output_(output),
+          page_(page),
+          style_(style),
+          threads_(arguments.threads) {}
 
     Exit run() {
         scenes::SceneReading reading = scenes::read_scene(arguments_.scene);
@@ -139,6 +146,7 @@ private:
             scenes::Simulation::make(scene_, models_, thread_count(), threads_.parallel_for());
         if (!simulation) return fail("simulate", simulation.error());
         report::SimulationReport report(scene_, plan, event_format());
+        page_.begin(scene_, models_, frames);
         Progress progress(style_, frames);
         Result<Done> done = output_.append(report.begin());
         for (std::uint64_t frame = 0; frame < frames && done; ++frame) {
@@ -146,7 +154,9 @@ private:
             progress.show(frame, "frame");
             if (done) done = simulation->step(frame);
             if (done) done = output_.append(report.add_frame(frame, *simulation));
+            if (done) done = page_.add_frame(frame, *simulation);
         }
+        if (done) done = page_.finish(*simulation);
         progress.clear();
         if (!done) return fail("simulate", done.error());
         return finish(report.finish(*simulation));
@@ -173,6 +183,7 @@ private:
 
     const Arguments& arguments_;
     ReportOutput& output_;
+    PageOutput& page_;
     ProgressStyle style_;
     const Threads threads_;
     scenes::SceneFile scene_;
@@ -189,7 +200,26 @@ Exit run(const Arguments& arguments) {
     }
     Result<ReportOutput> output = ReportOutput::open(arguments.output);
     if (!output) return fail("simulate", output.error());
-    return Run(arguments, *output, *style).run();
+    Result<PageOutput> page =
+        PageOutput::open(arguments.html, arguments.svg, {arguments.scene, arguments.output});
+    if (!page) return fail("simulate", page.error());
+    return Run(arguments, *output, *page, *style).run();
+}
+
+void add_page_options(const Command& command, Arguments& arguments, const Option& plan) {
+    command
+        .add_option("--html", arguments.html,
+                    "Also write one HTML page that plays the frames: touching triangles, contacts, "
+                    "events, times and the plan. It opens offline")
+        .type_name("FILE")
+        .excludes(plan)
+        .group("Report");
+    command
+        .add_option("--svg", arguments.svg,
+                    "Also write a chart of the time of the frames, by stage")
+        .type_name("FILE")
+        .excludes(plan)
+        .group("Report");
 }
 
 void add_report_options(const Command& command, Arguments& arguments) {
@@ -221,7 +251,8 @@ void add_simulate(const Command& app, Exit& exit) {
         "a shear, a twist, a vertex stream (PC2), or a cut along a plane.",
         {"cdprep simulate samples/scenes/crates.json --plan",
          "cdprep simulate samples/scenes/crates.json --frames 100",
-         "cdprep simulate samples/scenes/cut.json --format text"});
+         "cdprep simulate samples/scenes/cut.json --format text",
+         "cdprep simulate samples/scenes/crates.json -o events.ndjson --html crates.html"});
     command.add_option("scene", arguments->scene, "A scene file (JSON)").required();
     const Option plan =
         command
@@ -244,6 +275,7 @@ void add_simulate(const Command& app, Exit& exit) {
         .type_name("FOLDER")
         .group("Simulation");
     add_report_options(command, *arguments);
+    add_page_options(command, *arguments, plan);
     add_jobs(command, arguments->threads);
     add_progress(command, arguments->progress);
     add_import_arguments(command, arguments->import);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "cli/report_output.h"
+#include "simulate/scene_page.h"
+
+namespace cdprep::cli {
+
+/// The files of --html and --svg. Both appear when they are complete.
+class PageOutput {
+public:
+    /// Creates the files, so that an unwritable place is reported before the work. An empty path
+    /// is no file. Fails with `unwritable`, or with bad_argument if a file has the name of another
+    /// one or of one of `taken`.
+    [[nodiscard]] static Result<PageOutput> open(const std::filesystem::path& html,
+                                                 const std::filesystem::path& svg,
+                                                 std::vector<std::filesystem::path> taken);
+
+    /// Begins a run of `count` frames. The arguments must outlive the object.
+    void begin(const scenes::SceneFile& file, std::span<const scenes::SceneModel> models,
+               std::uint64_t count);
+
+    /// Adds the last frame of a simulation; see ScenePage.
+    [[nodiscard]] Result<Done> add_frame(std::uint64_t frame, const scenes::Simulation& simulation);
+
+    /// Writes the files and prints on stderr what the page leaves out. Call it once, after the
+    /// last frame; otherwise no file appears.
+    [[nodiscard]] Result<Done> finish(const scenes::Simulation& simulation);
+
+private:
+    const scenes::SceneFile* file_ = nullptr;
+    std::optional<ReportOutput> html_;
+    std::optional<ReportOutput> svg_;
+    std::optional<report::ScenePage> page_;
+    report::SceneTimeline timeline_;  ///< if there is no page, which has its own
+};
+
+}  // namespace cdprep::cli
