@@ -41,15 +41,10 @@ if(embree_FOUND)
     cdprep_define_peer(embree embree)
 endif()
 
-# Bullet in its default build: float.
-find_path(CDPREP_BULLET_INCLUDE BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h
-    PATH_SUFFIXES bullet)
-find_library(CDPREP_BULLET_COLLISION BulletCollision)
-find_library(CDPREP_BULLET_MATH LinearMath)
+include(${CMAKE_CURRENT_LIST_DIR}/bullet.cmake)
 if(CDPREP_BULLET_INCLUDE AND CDPREP_BULLET_COLLISION AND CDPREP_BULLET_MATH)
     cdprep_define_peer(bullet ${CDPREP_BULLET_COLLISION} ${CDPREP_BULLET_MATH})
     target_include_directories(cdprep_peer_bullet SYSTEM INTERFACE ${CDPREP_BULLET_INCLUDE})
-    find_library(CDPREP_BULLET_DYNAMICS BulletDynamics)
     if(CDPREP_BULLET_DYNAMICS)
         cdprep_define_peer(bullet_dynamics ${CDPREP_BULLET_DYNAMICS})
     endif()

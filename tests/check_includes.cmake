@@ -49,7 +49,8 @@ set(tools_rooms
     "compare: cli compare/cells decompose/surface hull import command_line mesh page query study\
  text"
     "query: bake cli compare/cells command_line mesh scene_file text write"
-    "simulate: cli command_line page scene_file text")
+    "simulate: cli command_line page scene_file text"
+    "simulate/dynamics: mesh")
 
 # A library of others: the pattern of its headers, then the folders that may know it.
 set(libraries
@@ -60,7 +61,7 @@ set(libraries
     "CGAL/:tools/decompose/enclose tools/info tools/query tools/repair"
     "Eigen/:tools/mesh"
     "CLI/:tools/command_line"
-    "Bullet[A-Z]|bt[A-Z]|LinearMath/:samples/engines"
+    "Bullet[A-Z]|bt[A-Z]|LinearMath/|bullet_manifold:samples/engines tools/simulate/dynamics"
     "tbb/|oneapi/:tools/cli/program_threads.cpp"
     "nlohmann/:tools/accuracy tools/bake tools/compare tools/decompose tools/hull\
  tools/import/child tools/info tools/repair tools/scene_file tools/text\

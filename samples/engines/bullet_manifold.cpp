@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bullet's contact manifolds from cdprep's contacts. Call fill_manifolds() from processCollision()
-// of a btCollisionAlgorithm of yours.
+// of a btCollisionAlgorithm of yours, or set_manifolds() where you have contacts already.
 #include "bullet_manifold.h"
 
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
@@ -45,32 +45,33 @@ void take_impulses(const btAlignedObjectArray<btManifoldPoint>& last, btManifold
         point.m_appliedImpulse = p.m_appliedImpulse;
         point.m_appliedImpulseLateral1 = p.m_appliedImpulseLateral1;
         point.m_appliedImpulseLateral2 = p.m_appliedImpulseLateral2;
+        point.m_lateralFrictionDir1 = p.m_lateralFrictionDir1;
+        point.m_lateralFrictionDir2 = p.m_lateralFrictionDir2;
         point.m_lifeTime = p.m_lifeTime + 1;
         return;
     }
 }
 
-}  // namespace
-
-cdprep::ContactsVerdict fill_manifolds(const cdprep::Pair& pair, cdprep::Workspace& workspace,
-                                       double tolerance, const btCollisionObject& a,
-                                       const btCollisionObject& b, btDispatcher& dispatcher,
-                                       btManifoldArray& manifolds) {
-    btAlignedObjectArray<btManifoldPoint> last;
+/// Empties the manifolds, and returns the points they had.
+btAlignedObjectArray<btManifoldPoint> take_points(btManifoldArray& manifolds) {
+    btAlignedObjectArray<btManifoldPoint> points;
     for (int m = 0; m < manifolds.size(); ++m) {
         for (int p = 0; p < manifolds[m]->getNumContacts(); ++p) {
-            last.push_back(manifolds[m]->getContactPoint(p));
+            points.push_back(manifolds[m]->getContactPoint(p));
         }
         manifolds[m]->clearManifold();
     }
-    std::array<cdprep::Contact, kMost> room;
-    const auto verdict = contacts(pair, workspace, room,
-                                  {.tolerance = tolerance,
-                                   .manifold = cdprep::Manifold::four,
-                                   .most = kMost,
-                                   .cluster_angle = kClusterAngle});
+    return points;
+}
+
+}  // namespace
+
+void set_manifolds(std::span<const cdprep::Contact> contacts, const btCollisionObject& a,
+                   const btCollisionObject& b, btDispatcher& dispatcher,
+                   btManifoldArray& manifolds) {
+    const btAlignedObjectArray<btManifoldPoint> last = take_points(manifolds);
     int used = 0;
-    for (const cdprep::Contact& contact : std::span(room).first(verdict.count)) {
+    for (const cdprep::Contact& contact : contacts) {
         if (contact.flags & cdprep::contact_from_behind) continue;  // it must not push
         if (used == manifolds.size()) manifolds.push_back(dispatcher.getNewManifold(&a, &b));
         for (const auto& point : std::span(contact.points).first(contact.point_count)) {
@@ -83,5 +84,18 @@ cdprep::ContactsVerdict fill_manifolds(const cdprep::Pair& pair, cdprep::Workspa
     for (; manifolds.size() > used; manifolds.pop_back()) {
         dispatcher.releaseManifold(manifolds[manifolds.size() - 1]);
     }
+}
+
+cdprep::ContactsVerdict fill_manifolds(const cdprep::Pair& pair, cdprep::Workspace& workspace,
+                                       double tolerance, const btCollisionObject& a,
+                                       const btCollisionObject& b, btDispatcher& dispatcher,
+                                       btManifoldArray& manifolds) {
+    std::array<cdprep::Contact, kMost> room;
+    const auto verdict = contacts(pair, workspace, room,
+                                  {.tolerance = tolerance,
+                                   .manifold = cdprep::Manifold::four,
+                                   .most = kMost,
+                                   .cluster_angle = kClusterAngle});
+    set_manifolds(std::span(room).first(verdict.count), a, b, dispatcher, manifolds);
     return verdict;
 }

@@ -5,6 +5,8 @@
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 
+#include <span>
+
 #include "cdprep/contacts.h"
 
 /// Fills Bullet's manifolds of two objects with the contacts of two models: one manifold for each
@@ -15,3 +17,9 @@ cdprep::ContactsVerdict fill_manifolds(const cdprep::Pair& pair, cdprep::Workspa
                                        double tolerance, const btCollisionObject& a,
                                        const btCollisionObject& b, btDispatcher& dispatcher,
                                        btManifoldArray& manifolds);
+
+/// The same for contacts that were computed before, as by cdprep::Scene: in the world, with
+/// manifolds, and with `a` as their A.
+void set_manifolds(std::span<const cdprep::Contact> contacts, const btCollisionObject& a,
+                   const btCollisionObject& b, btDispatcher& dispatcher,
+                   btManifoldArray& manifolds);

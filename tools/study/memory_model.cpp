@@ -14,6 +14,7 @@
 #include "decompose/surface/piece_tree.h"
 #include "decompose/surface/surface_pieces.h"
 #include "mesh/find_bounds.h"
+#include "mesh/mass_properties.h"
 
 namespace cdprep::study {
 namespace {
@@ -98,6 +99,7 @@ SectionSet wanted_sections(const MemoryParts& parts) {
         if (parts.tetra_tree->bounding == format::TetraBounding::boxes) wanted.insert(kTetraBoxes);
     }
     if (parts.hulls) wanted.insert(kHulls);
+    if (parts.mass) wanted.insert(SectionId::mass_properties);
     // A stopped search has found no pieces.
     if (parts.pieces && !mesh::is_stopped(parts.stop)) wanted.insert(kPieces);
     return wanted;
@@ -205,6 +207,8 @@ Result<MemoryModel> make_memory_model(const mesh::Mesh& mesh, const MemoryParts&
     }
     build::SectionList list = arrays.sections(wanted_sections(parts));
     list.add_one(SectionId::bounds, bounds);
+    const auto mass = parts.mass ? convex::find_mass_properties(mesh) : std::nullopt;
+    if (mass) list.add_one(SectionId::mass_properties, *mass);
     add_parts(list, *built);
     Result<ImageBytes> filled = image_of(arrays.facts, list);
     if (!filled) return filled.error();

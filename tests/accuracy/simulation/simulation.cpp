@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// The cases of stability of rigid bodies: S01 to S16 of the catalogue, and piles of scanned models.
+// Prints a line for each number: the case, the engine, the value, the bound, the verdict. Fails if
+// a number that is promised exceeds its bound.
+//
+// Usage: simulation_cases [--full] [--no-peers] [--piles] [CASES...]
+//   --full      the times of the catalogue: 60 s, 10^6 steps
+//   --no-peers  leaves out Bullet's own shapes
+//   CASES       stacks, impacts, resting, threads, piles; all but piles if none is named
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "accuracy/simulation/table.h"
+
+namespace cdprep::test {
+
+void Table::add(const Row& row) {
+    const bool holds = row.value <= row.bound;
+    const bool promised = row.promise == Promise::kept;
+    const char* verdict = holds ? "holds" : promised ? "BROKEN" : "exceeds";
+    if (!holds && promised) ++broken_;
+    std::printf("%-5s | %-66s | %-16s | %9.3g | %8.3g | %s\n", row.id.c_str(), row.what.c_str(),
+                row.engine.c_str(), row.value, row.bound, verdict);
+    std::fflush(stdout);
+}
+
+}  // namespace cdprep::test
+
+int main(int count, char** arguments) {
+    using namespace cdprep::test;
+    std::vector<std::string> asked(arguments + 1, arguments + count);
+    const auto take = [&](const char* option) { return std::erase(asked, option) > 0; };
+    Extent extent;
+    extent.is_full = take("--full");
+    extent.has_peers = !take("--no-peers");
+    struct Group {
+        const char* name;
+        void (*play)(Table&, const Extent&);
+        bool is_default;
+    };
+    Table table;
+    for (const Group& group :
+         {Group{"resting", play_resting, true}, Group{"stacks", play_stacks, true},
+          Group{"impacts", play_impacts, true}, Group{"threads", play_threads, true},
+          Group{"piles", play_piles, extent.is_full}}) {
+        const bool is_named = std::find(asked.begin(), asked.end(), group.name) != asked.end();
+        if (asked.empty() ? group.is_default : is_named) group.play(table, extent);
+    }
+    return table.broken() == 0 ? 0 : 1;
+}

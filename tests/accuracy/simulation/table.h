@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cdprep::test {
+
+enum class Promise : std::uint8_t {
+    kept,      ///< must hold: the program fails if it does not
+    measured,  ///< printed only
+};
+
+/// A line of the table.
+struct Row {
+    std::string id;    ///< S01 and so on, of the catalogue
+    std::string what;  ///< "drift in 5 s, metres"
+    std::string engine;
+    double value = 0;
+    double bound = 0;  ///< inclusive
+    Promise promise = Promise::measured;
+};
+
+/// Prints rows as they come, and counts those that break a promise.
+class Table {
+public:
+    void add(const Row& row);
+    [[nodiscard]] std::size_t broken() const {
+        return broken_;
+    }
+
+private:
+    std::size_t broken_ = 0;
+};
+
+/// How much of a case is played.
+struct Extent {
+    bool is_full = false;  ///< the times of the catalogue, else seconds of them
+    bool has_peers = true;
+};
+
+void play_stacks(Table& table, const Extent& extent);   ///< S01, S02
+void play_impacts(Table& table, const Extent& extent);  ///< S03, S04, S08, S09
+void play_resting(Table& table, const Extent& extent);  ///< S06, S07, S10, S11, S16
+void play_threads(Table& table, const Extent& extent);  ///< S15
+void play_piles(Table& table, const Extent& extent);    ///< many scanned models in a box
+
+}  // namespace cdprep::test

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "cdprep/time_of_impact.h"
+#include "mesh/vectors.h"
+#include "simulate/dynamics/bullet_world.h"
+#include "simulate/dynamics/contact_scene.h"
+
+namespace cdprep::dynamics {
+namespace {
+
+/// Impacts of continuous bodies are found this exactly. In rest gaps.
+constexpr double kImpactTolerance = 1e-3;
+
+Error refused(const std::string& sentence) {
+    return {ErrorCode::bad_argument, sentence};
+}
+
+double length(const Double3& p) {
+    return std::sqrt(mesh::dot(p, p));
+}
+
+std::string text(double number) {
+    std::string digits = std::to_string(number);
+    while (digits.ends_with('0')) digits.pop_back();
+    if (digits.ends_with('.')) digits.pop_back();
+    return digits;
+}
+
+/// Returns why the options are out of range, or an empty text.
+std::string fault_of(const DynamicsOptions& o) {
+    const auto positive = [](double number) { return std::isfinite(number) && number > 0; };
+    if (!positive(o.step_s)) return "The step is " + text(o.step_s) + " s, but it must be above 0.";
+    if (o.substeps == 0 || o.iterations == 0 || o.threads == 0) {
+        return "Substeps, iterations and threads are at least 1.";
+    }
+    if (!positive(o.rest_gap)) {
+        return "The rest gap is " + text(o.rest_gap) + ", but it must be above 0.";
+    }
+    if (!std::isfinite(length(o.gravity))) return "Gravity must be finite.";
+    const double needed = o.rest_gap + o.most_speed * o.step_s / o.substeps;
+    if (!(o.most_speed >= 0) || !(o.tolerance >= needed) || !std::isfinite(o.tolerance)) {
+        return "The contact tolerance is " + text(o.tolerance) + ", but at a speed of " +
+               text(o.most_speed) + " it must be at least " + text(needed) +
+               ": the rest gap and the way of a substep.";
+    }
+    return {};
+}
+
+class BulletBodies final : public RigidBodies, private SubstepParts {
+public:
+    BulletBodies(const DynamicsOptions& options, ParallelFor parallel_for);
+    ~BulletBodies() override;
+    BulletBodies(const BulletBodies&) = delete;
+    BulletBodies& operator=(const BulletBodies&) = delete;
+
+    Result<std::uint32_t> add_body(const RigidBody& body) override;
+    Result<Done> drive(std::uint32_t body, const Pose& world_from_model) override;
+    void set_velocity(std::uint32_t body, const Double3& linear, const Double3& angular) override;
+    Result<Done> step() override;
+
+    std::uint32_t body_count() const noexcept override {
+        return static_cast<std::uint32_t>(bodies_.size());
+    }
+    const Pose& pose(std::uint32_t body) const noexcept override {
+        return bodies_[body]->pose;
+    }
+    Double3 centre_of_mass(std::uint32_t body) const noexcept override {
+        return bodies_[body]->state.centre;
+    }
+    Double3 velocity(std::uint32_t body) const noexcept override {
+        return doubles(bullet_body(body).getLinearVelocity());
+    }
+    Double3 angular_velocity(std::uint32_t body) const noexcept override {
+        return doubles(bullet_body(body).getAngularVelocity());
+    }
+    double speed_bound(std::uint32_t body) const noexcept override {
+        return length(velocity(body)) + length(angular_velocity(body)) * bodies_[body]->mass.radius;
+    }
+    bool is_asleep(std::uint32_t body) const noexcept override {
+        return bullet_body(body).getActivationState() == ISLAND_SLEEPING;
+    }
+    double mass(std::uint32_t body) const noexcept override {
+        return bodies_[body]->mass.mass;
+    }
+    double kinetic_energy() const noexcept override;
+    std::span<const BodyContact> contacts() const noexcept override {
+        return contacts_;
+    }
+    std::span<const BodyImpact> impacts() const noexcept override {
+        return impacts_;
+    }
+    const DynamicsCounts& counts() const noexcept override {
+        return counts_;
+    }
+    std::uint64_t state_hash() const noexcept override;
+
+private:
+    const btRigidBody& bullet_body(std::uint32_t body) const noexcept {
+        return *bodies_[body]->rigid;
+    }
+    void find_contacts() override;
+    void move_bodies(double substep_s) override;
+    Result<Done> move_driven(double time);
+    Result<Done> move_free(std::uint32_t number, double substep_s);
+    Result<Pose> stopped(std::uint32_t number, const Pose& end, double substep_s);
+    void add_impact(std::uint32_t number, std::uint32_t other, double time, double substep_s);
+    void end_drives();
+
+    DynamicsOptions options_;
+    ContactScene scene_;
+    btDefaultCollisionConfiguration configuration_;
+    btCollisionDispatcher dispatcher_{&configuration_};
+    btDbvtBroadphase broadphase_;  // has no pairs: it is only asked for by Bullet
+    ImpulseSolver solver_;
+    ImpulseWorld world_{*this, dispatcher_, broadphase_, solver_, configuration_};
+    Manifolds manifolds_;
+    Bodies bodies_;
+    std::vector<BodyContact> contacts_;
+    std::vector<BodyImpact> impacts_;
+    DynamicsCounts counts_;
+    std::optional<Error> error_;  ///< of a substep
+    std::uint64_t frame_ = 0;
+    std::uint32_t substep_ = 0;
+};
+
+BulletBodies::BulletBodies(const DynamicsOptions& options, ParallelFor parallel_for)
+    : options_(options), scene_(options, parallel_for), manifolds_(dispatcher_, options) {
+    world_.setGravity(bullet(options.gravity));
+    btContactSolverInfo& info = world_.getSolverInfo();
+    info.m_numIterations = static_cast<int>(options.iterations);
+    info.m_splitImpulse = 1;
+    info.m_splitImpulsePenetrationThreshold = 0;
+    info.m_warmstartingFactor = 1;
+    info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_SIMD | SOLVER_USE_2_FRICTION_DIRECTIONS |
+                        SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
+}
+
+BulletBodies::~BulletBodies() {
+    for (auto& body : bodies_) world_.removeRigidBody(body->rigid.get());
+}
+
+Result<std::uint32_t> BulletBodies::add_body(const RigidBody& body) {
+    const bool continuous =
+        body.is_continuous || std::any_of(bodies_.begin(), bodies_.end(), [](const auto& other) {
+            return other->given.is_continuous;
+        });
+    const Ask asks = continuous ? Ask::contacts | Ask::distance : Ask::contacts;
+    if (const auto refusal = body.model->refusal(asks)) return refused(refusal->message);
+    const Result<BodyMass> mass = mass_of(body);
+    if (!mass) return mass.error();
+    bodies_.push_back(std::make_unique<BulletBody>(body, *mass));
+    btRigidBody& made = *bodies_.back()->rigid;
+    const double angular = mass->radius > 0 ? options_.sleep_speed / mass->radius : 1;
+    made.setSleepingThresholds(static_cast<btScalar>(options_.sleep_speed),
+                               static_cast<btScalar>(angular));
+    world_.addRigidBody(&made, 0, 0);
+    if (body.kind == BodyKind::moving && !options_.sleeps) {
+        made.forceActivationState(DISABLE_DEACTIVATION);
+    }
+    if (body.kind == BodyKind::driven) made.forceActivationState(ISLAND_SLEEPING);
+    scene_.add(body);
+    return body_count() - 1;
+}
+
+Result<Done> BulletBodies::drive(std::uint32_t number, const Pose& world_from_model) {
+    BulletBody& body = *bodies_[number];
+    if (body.given.kind != BodyKind::driven) {
+        return refused(body.given.name + ": only a driven body has its poses set.");
+    }
+    Result<Motion> motion = Motion::between(body.pose, world_from_model, body.mass.centre);
+    if (!motion) return motion.error();
+    body.drive = *motion;
+    const Motion::Parts& parts = motion->parts();
+    const double rate = 1 / options_.step_s;
+    body.rigid->setLinearVelocity(bullet(mesh::scaled(parts.shift, rate)));
+    body.rigid->setAngularVelocity(bullet(mesh::scaled(parts.axis, parts.angle * rate)));
+    body.rigid->forceActivationState(DISABLE_DEACTIVATION);  // wakes what it touches
+    return Done{};
+}
+
+void BulletBodies::set_velocity(std::uint32_t number, const Double3& linear,
+                                const Double3& angular) {
+    btRigidBody& body = *bodies_[number]->rigid;
+    body.setLinearVelocity(bullet(linear));
+    body.setAngularVelocity(bullet(angular));
+    body.activate(true);
+}
+
+void BulletBodies::end_drives() {
+    for (auto& body : bodies_) {
+        if (!body->drive) continue;
+        body->drive.reset();
+        body->rigid->setLinearVelocity({0, 0, 0});
+        body->rigid->setAngularVelocity({0, 0, 0});
+        body->rigid->forceActivationState(ISLAND_SLEEPING);
+    }
+}
+
+Result<Done> BulletBodies::step() {
+    counts_ = {};
+    impacts_.clear();
+    const double substep_s = options_.step_s / options_.substeps;
+    for (substep_ = 0; substep_ < options_.substeps; ++substep_) {
+        world_.stepSimulation(static_cast<btScalar>(substep_s), 0);
+        if (error_) return *std::exchange(error_, std::nullopt);
+    }
+    end_drives();
+    ++frame_;
+    contacts_ = manifolds_.listed();
+    return Done{};
+}
+
+void BulletBodies::find_contacts() {
+    if (error_) return;
+    if (Result<Done> stepped = scene_.step(); !stepped) {
+        error_ = stepped.error();
+        return;
+    }
+    counts_.pairs += scene_.counts().calls_of(Ask::contacts);
+    manifolds_.begin();
+    for (const SceneContacts& found : scene_.contacts()) {
+        if (found.contacts.empty()) continue;
+        counts_.contacts += found.contacts.size();
+        counts_.incomplete += found.verdict.complete ? 0 : 1;
+        manifolds_.set(*bodies_[found.a.slot], *bodies_[found.b.slot], {found.a.slot, found.b.slot},
+                       found.contacts, counts_);
+    }
+    manifolds_.end();
+}
+
+Result<Done> BulletBodies::move_driven(double time) {
+    for (std::uint32_t i = 0; i < body_count(); ++i) {
+        BulletBody& body = *bodies_[i];
+        if (!body.drive) continue;
+        const Pose pose = body.drive->at(time);
+        body.place(state_of(pose, body.mass.centre), pose);
+        scene_.set_pose(i, pose);
+    }
+    return Done{};
+}
+
+void BulletBodies::add_impact(std::uint32_t number, std::uint32_t other, double time,
+                              double substep_s) {
+    ++counts_.impacts;
+    const double before =
+        static_cast<double>(frame_) * options_.step_s + static_cast<double>(substep_) * substep_s;
+    impacts_.push_back({number, other, before + time * substep_s});
+}
+
+/// Returns where the motion of a continuous body ends: at its end, or at the first impact with a
+/// body as it is now.
+Result<Pose> BulletBodies::stopped(std::uint32_t number, const Pose& end, double substep_s) {
+    const BulletBody& body = *bodies_[number];
+    const Result<Motion> motion = Motion::between(body.pose, end, body.mass.centre);
+    if (!motion) return motion.error();
+    const double reach = body.mass.radius + length(motion->parts().shift);
+    double time = 1;
+    std::optional<std::uint32_t> first;
+    for (std::uint32_t i = 0; i < body_count(); ++i) {
+        const BulletBody& other = *bodies_[i];
+        if (i == number) continue;
+        if (mesh::euclidean_distance(body.state.centre, other.state.centre) >
+            reach + other.mass.radius) {
+            continue;
+        }
+        const Impact impact =
+            time_of_impact({*body.given.model, *other.given.model, *motion, Motion(other.pose)},
+                           scene_.workspace(), {.tolerance = kImpactTolerance * options_.rest_gap});
+        // Bodies that touch already have contacts.
+        if (impact.kind == ImpactKind::none || impact.lower <= 0 || impact.lower >= time) continue;
+        time = impact.lower;
+        first = i;
+    }
+    if (!first) return end;
+    add_impact(number, *first, time, substep_s);
+    return motion->at(time);
+}
+
+Result<Done> BulletBodies::move_free(std::uint32_t number, double substep_s) {
+    BulletBody& body = *bodies_[number];
+    const btRigidBody& solved = *body.rigid;
+    const Double3 linear = mesh::plus(doubles(solved.getLinearVelocity()), body.push);
+    const Double3 angular = mesh::plus(doubles(solved.getAngularVelocity()), body.push_turn);
+    Double3 shift = mesh::scaled(linear, substep_s);
+    // In free flight, the way is that of the mean of both velocities: a parabola.
+    if (!body.touches) {
+        shift = mesh::minus(shift, mesh::scaled(options_.gravity, substep_s * substep_s / 2));
+    }
+    counts_.too_fast += length(linear) > options_.most_speed ? 1 : 0;
+    RigidState next = moved(body.state, shift, mesh::scaled(angular, substep_s));
+    Result<Pose> pose = pose_of(next, body.mass.centre);
+    if (!pose) return refused(body.given.name + ": the body flew away. " + pose.error().message);
+    if (body.given.is_continuous) {
+        const Result<Pose> stop = stopped(number, *pose, substep_s);
+        if (!stop) return stop.error();
+        if (stop->translation() != pose->translation() || stop->rotation() != pose->rotation()) {
+            next = state_of(*stop, body.mass.centre);
+            pose = stop;
+        }
+    }
+    body.place(next, *pose);
+    scene_.set_pose(number, *pose);
+    return Done{};
+}
+
+void BulletBodies::move_bodies(double substep_s) {
+    if (error_) return;
+    for (auto& body : bodies_) body->touches = false;
+    manifolds_.mark_touched();
+    const double time = static_cast<double>(substep_ + 1) / options_.substeps;
+    if (Result<Done> moved = move_driven(time); !moved) error_ = moved.error();
+    for (std::uint32_t i = 0; i < body_count(); ++i) {
+        BulletBody& body = *bodies_[i];
+        if (body.given.kind != BodyKind::moving || !body.rigid->isActive()) continue;
+        if (Result<Done> moved = move_free(i, substep_s); !moved) error_ = moved.error();
+        body.push = body.push_turn = {};
+    }
+    manifolds_.bounce();
+}
+
+double BulletBodies::kinetic_energy() const noexcept {
+    double energy = 0;
+    for (std::uint32_t i = 0; i < body_count(); ++i) {
+        const BulletBody& body = *bodies_[i];
+        if (body.given.kind != BodyKind::moving) continue;
+        const btMatrix3x3& basis = body.rigid->getWorldTransform().getBasis();
+        const Double3 w = doubles(body.rigid->getAngularVelocity() * basis);
+        const Double3 v = velocity(i), m = body.mass.moments;
+        energy += body.mass.mass * mesh::dot(v, v) / 2 +
+                  (m.x * w.x * w.x + m.y * w.y * w.y + m.z * w.z * w.z) / 2;
+    }
+    return energy;
+}
+
+/// FNV-1a over the bits of the numbers.
+std::uint64_t BulletBodies::state_hash() const noexcept {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    const auto add = [&](double number) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3U;
+    };
+    const auto add_point = [&](const Double3& p) {
+        add(p.x);
+        add(p.y);
+        add(p.z);
+    };
+    for (std::uint32_t i = 0; i < body_count(); ++i) {
+        for (const double entry : pose(i).rotation()) add(entry);
+        add_point(pose(i).translation());
+        add_point(velocity(i));
+        add_point(angular_velocity(i));
+    }
+    return hash;
+}
+
+}  // namespace
+
+bool has_dynamics() noexcept {
+    return true;
+}
+
+Result<std::unique_ptr<RigidBodies>> make_rigid_bodies(const DynamicsOptions& options,
+                                                       ParallelFor parallel_for) {
+    if (std::string fault = fault_of(options); !fault.empty()) return refused(fault);
+    return std::unique_ptr<RigidBodies>(std::make_unique<BulletBodies>(options, parallel_for));
+}
+
+}  // namespace cdprep::dynamics

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cdprep/scene.h"
+#include "simulate/dynamics/rigid_bodies.h"
+
+namespace cdprep::dynamics {
+
+/// The collision world: a scene that computes contacts, and grows as it must. The slot of an object
+/// is its number.
+class ContactScene {
+public:
+    ContactScene(const DynamicsOptions& options, ParallelFor parallel_for);
+
+    void add(const RigidBody& body);
+    void set_pose(std::uint32_t object, const Pose& world_from_model);
+    /// Finds the contacts of all objects as they are now.
+    [[nodiscard]] Result<Done> step();
+
+    [[nodiscard]] std::span<const SceneContacts> contacts() const noexcept {
+        return scene_->contacts();
+    }
+    [[nodiscard]] const SceneCounts& counts() const noexcept {
+        return scene_->counts();
+    }
+    [[nodiscard]] Workspace& workspace() noexcept {
+        return workspaces_.front();
+    }
+
+private:
+    [[nodiscard]] Result<Done> fill();
+    void grow(const SceneStep& step);
+
+    DynamicsOptions options_;
+    ParallelFor parallel_for_;
+    SceneLimits limits_;
+    std::vector<Workspace> workspaces_;
+    std::vector<SceneObject> objects_;
+    std::vector<ObjectId> ids_;
+    std::unique_ptr<const Plan> plan_;  ///< outlives the scene
+    std::optional<Scene> scene_;
+};
+
+}  // namespace cdprep::dynamics

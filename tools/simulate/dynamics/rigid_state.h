@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "cdprep/pose.h"
+
+namespace cdprep::dynamics {
+
+/// Where a rigid body is.
+struct RigidState {
+    Double3 centre{};                           ///< of mass, in the world
+    std::array<double, 4> turn = {1, 0, 0, 0};  ///< w x y z: from the model's axes to the world's
+};
+
+/// Returns the state of a model with its centre of mass at `centre`, in model coordinates.
+[[nodiscard]] RigidState state_of(const Pose& world_from_model, const Double3& centre) noexcept;
+
+/// Returns the pose of a model. Fails with bad_argument if it is beyond the range of coordinates.
+[[nodiscard]] Result<Pose> pose_of(const RigidState& state, const Double3& centre);
+
+/// Returns the state after a shift, and a turn about the centre: a vector along the axis, as long
+/// as the angle.
+[[nodiscard]] RigidState moved(const RigidState& state, const Double3& shift,
+                               const Double3& turn) noexcept;
+
+/// Returns R p for a rotation, row by row.
+[[nodiscard]] inline Double3 rotated(const std::array<double, 9>& r, const Double3& p) noexcept {
+    return {r[0] * p.x + r[1] * p.y + r[2] * p.z, r[3] * p.x + r[4] * p.y + r[5] * p.z,
+            r[6] * p.x + r[7] * p.y + r[8] * p.z};
+}
+
+}  // namespace cdprep::dynamics
