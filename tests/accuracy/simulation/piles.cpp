@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -125,7 +126,7 @@ Outcome play(World& world, const Pile& pile, bool prints) {
         outcome.speed = fastest_of(world, count);
         still = outcome.speed < 1e-3 ? still + 1 : 0;
         if (still == kRate && outcome.rest_s < 0) outcome.rest_s = double(frame) / kRate;
-        if (prints && frame % 30 == 0) {
+        if (prints && frame % int(std::getenv("PE") ? std::atoi(std::getenv("PE")) : 30) == 0) {
             std::printf("# %5.2f s:", double(frame) / kRate);
             for (std::uint32_t i = 0; i < count; ++i) {
                 std::printf(" %.2g", speed_of(world, kFirst + i));
@@ -147,7 +148,16 @@ Outcome play(World& world, const Pile& pile, bool prints) {
 }
 
 dynamics::DynamicsOptions options_of_piles() {
-    return {.tolerance = 0.01, .rest_gap = 5e-4, .most_speed = 2.2};
+    dynamics::DynamicsOptions o{.tolerance = 0.01, .rest_gap = 5e-4, .most_speed = 2.2};
+    const auto env = [](const char* n, double d) { const char* v = std::getenv(n); return v ? std::atof(v) : d; };
+    o.cluster_angle = env("CA", o.cluster_angle);
+    o.most_contacts = std::uint32_t(env("MC", o.most_contacts));
+    o.tolerance = env("TOL", o.tolerance);
+    o.most_speed = env("MS", o.most_speed);
+    o.rest_gap = env("RG", o.rest_gap);
+    o.iterations = std::uint32_t(env("IT", o.iterations));
+    o.substeps = std::uint32_t(env("SS", o.substeps));
+    return o;
 }
 
 void play_ours(Table& table, const Pile& pile, Promise promise, bool prints) {

@@ -106,6 +106,7 @@ private:
     }
     void find_contacts() override;
     void move_bodies(double substep_s) override;
+    void set_paces();
     Result<Done> move_driven(double time);
     Result<Done> move_free(std::uint32_t number, double substep_s);
     Result<Pose> stopped(std::uint32_t number, const Pose& end, double substep_s);
@@ -218,6 +219,7 @@ Result<Done> BulletBodies::step() {
 
 void BulletBodies::find_contacts() {
     if (error_) return;
+    set_paces();
     if (Result<Done> stepped = scene_.step(); !stepped) {
         error_ = stepped.error();
         return;
@@ -232,6 +234,15 @@ void BulletBodies::find_contacts() {
                        found.contacts, counts_);
     }
     manifolds_.end();
+}
+
+void BulletBodies::set_paces() {
+    const double slow = slow_speed(options_);
+    for (std::uint32_t i = 0; i < body_count(); ++i) {
+        const BulletBody& body = *bodies_[i];
+        if (body.given.kind != BodyKind::moving || !body.rigid->isActive()) continue;
+        scene_.set_pace(i, speed_bound(i) <= slow ? Pace::slow : Pace::fast);
+    }
 }
 
 Result<Done> BulletBodies::move_driven(double time) {

@@ -11,6 +11,13 @@
 
 namespace cdprep::dynamics {
 
+/// How fast a body is. Slow bodies have contacts in a smaller distance, which takes less time.
+enum class Pace : std::uint8_t { slow, fast };
+
+/// The speed up to which a body is slow: two such bodies meet no surface in a substep that
+/// slow_tolerance() does not show.
+[[nodiscard]] double slow_speed(const DynamicsOptions& options) noexcept;
+
 /// The collision world: a scene that computes contacts, and grows as it must. The slot of an object
 /// is its number.
 class ContactScene {
@@ -19,6 +26,8 @@ public:
 
     void add(const RigidBody& body);
     void set_pose(std::uint32_t object, const Pose& world_from_model);
+    /// Of a moving body.
+    void set_pace(std::uint32_t object, Pace pace);
     /// Finds the contacts of all objects as they are now.
     [[nodiscard]] Result<Done> step();
 

@@ -30,9 +30,12 @@ struct DynamicsOptions {
     /// which change least from one substep to the next.
     double rest_gap = 5e-4;
     double most_speed = 2;  ///< of two surfaces towards each other, for `tolerance`
-    double cluster_angle = 0.26179938779914943;  ///< contacts whose normals differ less are joined
-    std::uint32_t most_contacts = 32;            ///< of two bodies, after they are joined
-    bool sleeps = true;  ///< bodies at rest stop, until something touches them
+    /// Contacts whose normals differ less are joined, and have at most four points then. Four
+    /// points of many contacts span an area, but need not be those on which a rough body rests:
+    /// such bodies rock. So by default none are joined.
+    double cluster_angle = 0;
+    std::uint32_t most_contacts = 32;  ///< of two bodies
+    bool sleeps = true;                ///< bodies at rest stop, until something touches them
     /// A body sleeps after two seconds in which no point of it was faster than about this.
     double sleep_speed = 1e-2;
     /// Threads that parallel_for uses at a time. Results do not depend on it.
