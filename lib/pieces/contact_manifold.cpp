@@ -14,6 +14,10 @@ constexpr std::size_t kMostOutline = 64;  ///< corners kept of a face
 /// The cosine above which a face counts as perpendicular to the contact normal. Rounding turns
 /// neither that far.
 constexpr double kAcross = 1 - 1e-10;
+/// The cosine, of 0.03 radians, above which a face has manifold points although the normal is not
+/// its own. Two faces that are nearly parallel may be nearest where their edges cross. The normal
+/// is then across the edges. Bodies that rest on one point there would tip.
+constexpr double kNearlyAcross = 0.99955;
 
 /// A corner of a polygon.
 struct Corner {
@@ -179,13 +183,19 @@ void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature
     const double across_a = dot(of_a.normal, n), across_b = -dot(of_b.normal, n);
     Candidates candidates;
     const bool a_is_base = across_a >= across_b;
-    if (std::max(across_a, across_b) >= kAcross) {
+    const double across = std::max(across_a, across_b);
+    if (across >= kNearlyAcross) {
         const Polygon& base = a_is_base ? of_a : of_b;
         const Polygon part = over(base, a_is_base ? of_b : of_a);
         for (std::size_t i = 0; i < part.count; ++i) {
             const Corner& p = part.corner[i];
-            const double height = dot(base.normal, p.at - base.corner[0].at);
-            const Double3 foot = p.at - height * base.normal;
+            double height = dot(base.normal, p.at - base.corner[0].at);
+            Double3 way = base.normal;
+            if (across < kAcross) {  // the way along the contact's normal
+                height /= across;
+                way = a_is_base ? n : -n;
+            }
+            const Double3 foot = p.at - height * way;
             if (height > tolerance) continue;
             candidates.add(a_is_base ? ManifoldPoint{foot, p.at, height, p.id}
                                      : ManifoldPoint{p.at, foot, height, p.id});

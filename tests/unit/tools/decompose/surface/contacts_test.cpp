@@ -105,6 +105,36 @@ TEST(Contacts, EqualCornersComeInTheOrderOfTheFace) {
     }
 }
 
+// By hand: two faces nearly parallel, nearest where an edge of one crosses an edge of the other.
+// The upper cube is turned by 0.02 about z, so that the edges cross at x = 0.5, and leans by 0.02
+// and 1e-4, so that this is the lowest point. The faces still share nearly a unit square.
+TEST(Contacts, FacesNearlyParallelHaveFourPointsWhereEdgesCross) {
+    const OpenModel cube = open_with_pieces(unit_cube());
+    constexpr double kGap = 1e-3, kTolerance = 0.05;
+    const Pose turned = Pose::from_quaternion(1, 0.01, 5e-5, 0.01, {0, 0, 0}).value();
+    const Double3 end = transform_point(turned, {0.5, 0, 0});
+    const Pose pose =
+        Pose::from_quaternion(1, 0.01, 5e-5, 0.01, Double3{0.5, 0, 1 + kGap} - end).value();
+    const auto found = all_contacts(cube, cube, Placement::b_moves(pose), kTolerance);
+    ASSERT_EQ(found.size(), 1U);
+    const Contact& contact = found[0];
+    EXPECT_EQ(contact.feature_a.kind, FeatureKind::edge);
+    EXPECT_EQ(contact.feature_b.kind, FeatureKind::edge);
+    EXPECT_LT(contact.normal.z, 1 - 1e-10);  // of neither face
+    ASSERT_EQ(contact.point_count, 4U);
+    EXPECT_NEAR(contact.points[0].distance, contact.upper, 1e-12);
+    Double3 lower = contact.points[0].on_a, upper = lower;
+    for (const ManifoldPoint& point : contact.points) {
+        EXPECT_LE(point.distance, kTolerance);
+        EXPECT_GE(point.distance, contact.lower - 1e-12);
+        expect_near(point.on_b, point.on_a + point.distance * contact.normal);
+        lower = {std::min(lower.x, point.on_a.x), std::min(lower.y, point.on_a.y), 0};
+        upper = {std::max(upper.x, point.on_a.x), std::max(upper.y, point.on_a.y), 0};
+    }
+    EXPECT_GT(upper.x - lower.x, 0.9);
+    EXPECT_GT(upper.y - lower.y, 0.9);
+}
+
 TEST(Contacts, BeyondTheToleranceThereIsNone) {
     const OpenModel cube = open_with_pieces(unit_cube());
     EXPECT_EQ(all_contacts(cube, cube, shifted({0, 0, 1.25}), 0.25).size(), 1U);
