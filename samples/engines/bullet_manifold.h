@@ -18,8 +18,8 @@ cdprep::ContactsVerdict fill_manifolds(const cdprep::Pair& pair, cdprep::Workspa
                                        const btCollisionObject& b, btDispatcher& dispatcher,
                                        btManifoldArray& manifolds);
 
-/// The same for contacts that were computed before, as by cdprep::Scene: in the world, with
-/// manifolds, and with `a` as their A.
+/// The same for contacts that were computed before, as by cdprep::Scene. They are in the world and
+/// have manifolds; `a` is their A.
 void set_manifolds(std::span<const cdprep::Contact> contacts, const btCollisionObject& a,
                    const btCollisionObject& b, btDispatcher& dispatcher,
                    btManifoldArray& manifolds);

@@ -264,8 +264,8 @@ void BulletBodies::add_impact(std::uint32_t number, std::uint32_t other, double 
     impacts_.push_back({number, other, before + time * substep_s});
 }
 
-/// Returns where the motion of a continuous body ends: at its end, or at the first impact with a
-/// body as it is now.
+/// Returns where the motion of a continuous body ends: at its end, or at the first impact. The
+/// other bodies stay as they are.
 Result<Pose> BulletBodies::stopped(std::uint32_t number, const Pose& end, double substep_s) {
     const BulletBody& body = *bodies_[number];
     const Result<Motion> motion = Motion::between(body.pose, end, body.mass.centre);

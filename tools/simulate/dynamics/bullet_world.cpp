@@ -10,8 +10,8 @@
 namespace cdprep::dynamics {
 namespace {
 
-/// A contact whose way out is so many times as long as the shortest one pushes no farther: its
-/// normal leads along a surface, not out of it.
+/// The way out of a contact may be so many times as long as the shortest one. It pushes no farther:
+/// its normal leads along a surface.
 constexpr double kLongWay = 4;
 /// Bodies that slide slower keep their directions of friction. In gravity times a substep.
 constexpr double kSlideSteps = 0.05;
@@ -272,8 +272,8 @@ void Manifolds::mark_touched() const {
 
 /// Bullet ends the approach of a point that is early: the solver leaves only gap / substep of its
 /// speed. If it took restitution from that, little would be left to bounce with in the next
-/// substep. So a point bounces when the solver has brought it to the surface, with the speed that
-/// it had before (as Box2D 3 does).
+/// substep. So a point bounces when the solver has brought it to the surface. It has the speed that
+/// it had before (as in Box2D 3).
 void Manifolds::bounce() {
     std::erase_if(bounces_, [](const Bounce& b) { return !(b.point->m_appliedImpulse > 0); });
     for (int sweep = 0; sweep < kBounceSweeps; ++sweep) {

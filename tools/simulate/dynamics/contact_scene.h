@@ -14,8 +14,8 @@ namespace cdprep::dynamics {
 /// How fast a body is. Slow bodies have contacts in a smaller distance, which takes less time.
 enum class Pace : std::uint8_t { slow, fast };
 
-/// The speed up to which a body is slow: two such bodies meet no surface in a substep that
-/// slow_tolerance() does not show.
+/// The speed up to which a body is slow. In a substep, two such bodies meet no surface that is
+/// beyond their distance of contacts.
 [[nodiscard]] double slow_speed(const DynamicsOptions& options) noexcept;
 
 /// The collision world: a scene that computes contacts, and grows as it must. The slot of an object

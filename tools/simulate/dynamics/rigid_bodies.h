@@ -30,9 +30,8 @@ struct DynamicsOptions {
     /// which change least from one substep to the next.
     double rest_gap = 5e-4;
     double most_speed = 2;  ///< of two surfaces towards each other, for `tolerance`
-    /// Contacts whose normals differ less are joined, and have at most four points then. Four
-    /// points of many contacts span an area, but need not be those on which a rough body rests:
-    /// such bodies rock. So by default none are joined.
+    /// Contacts whose normals differ less are joined, and have at most four points then. These span
+    /// an area, but a rough body may rest on others. Such bodies rock, so the default joins none.
     double cluster_angle = 0;
     std::uint32_t most_contacts = 32;  ///< of two bodies
     bool sleeps = true;                ///< bodies at rest stop, until something touches them
@@ -87,10 +86,12 @@ struct BodyImpact {
 
 /// The work of the last step(), over all its substeps.
 struct DynamicsCounts {
-    std::uint64_t pairs = 0;       ///< of bodies that were asked for contacts
-    std::uint64_t contacts = 0;    ///< after they were joined
-    std::uint64_t deep = 0;        ///< contacts with a body inside the other
-    std::uint64_t shortened = 0;   ///< contacts whose normal is not the way out: see bullet_world.h
+    std::uint64_t pairs = 0;     ///< of bodies that were asked for contacts
+    std::uint64_t contacts = 0;  ///< after they were joined
+    std::uint64_t deep = 0;      ///< contacts with a body inside the other
+    /// Contacts whose way out is more than four times the shortest one. Their normal leads along a
+    /// surface; they push no farther than that.
+    std::uint64_t shortened = 0;
     std::uint64_t incomplete = 0;  ///< lists that most_contacts cut short
     std::uint64_t too_fast = 0;    ///< bodies faster than most_speed
     std::uint64_t impacts = 0;     ///< of continuous bodies

@@ -19,8 +19,8 @@ struct RigidState {
 /// Returns the pose of a model. Fails with bad_argument if it is beyond the range of coordinates.
 [[nodiscard]] Result<Pose> pose_of(const RigidState& state, const Double3& centre);
 
-/// Returns the state after a shift, and a turn about the centre: a vector along the axis, as long
-/// as the angle.
+/// Returns the state after a shift and a turn about the centre. `turn` is along the axis, and as
+/// long as the angle.
 [[nodiscard]] RigidState moved(const RigidState& state, const Double3& shift,
                                const Double3& turn) noexcept;
 

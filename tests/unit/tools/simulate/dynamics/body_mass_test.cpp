@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "simulate/dynamics/body_mass.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "simulate/dynamics/rigid_state.h"
+#include "study/memory_model.h"
+#include "support/meshes.h"
+#include "unit/tools/soup_of.h"
+
+namespace cdprep::dynamics {
+namespace {
+
+// By the definition: the axes turn the diagonal back into the tensor.
+TEST(PrincipalAxes, MakeTheTensorAgain) {
+    const std::array<double, 6> tensor = {5, 4, 3, 0.5, -0.7, 0.2};  // xx yy zz xy yz zx
+    const auto [axes, moments] = principal_axes(tensor);
+    const auto entry = [&](std::size_t i, std::size_t j) {
+        return axes[3 * i] * moments.x * axes[3 * j] +
+               axes[3 * i + 1] * moments.y * axes[3 * j + 1] +
+               axes[3 * i + 2] * moments.z * axes[3 * j + 2];
+    };
+    EXPECT_NEAR(entry(0, 0), 5, 1e-14);
+    EXPECT_NEAR(entry(1, 1), 4, 1e-14);
+    EXPECT_NEAR(entry(2, 2), 3, 1e-14);
+    EXPECT_NEAR(entry(0, 1), 0.5, 1e-14);
+    EXPECT_NEAR(entry(1, 2), -0.7, 1e-14);
+    EXPECT_NEAR(entry(2, 0), 0.2, 1e-14);
+}
+
+TEST(PrincipalAxes, OfADiagonalTensorStay) {
+    const PrincipalAxes found = principal_axes({3, 1, 2, 0, 0, 0});
+    EXPECT_EQ(found.axes, (std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}));
+    EXPECT_EQ(found.moments.x, 3);
+    EXPECT_EQ(found.moments.z, 2);
+}
+
+// By hand: a cube of 2 kg with edges of 1 has the moments m / 6 about its centre.
+TEST(BodyMass, OfAClosedModelIsThatOfTheFile) {
+    const auto made =
+        study::make_memory_model(test::mesh_of(test::unit_cube()), {.pieces = true, .mass = true})
+            .value();
+    RigidBody body{.model = &made.model, .mass = 2};
+    const BodyMass mass = mass_of(body).value();
+    EXPECT_EQ(mass.mass, 2);
+    EXPECT_NEAR(mass.centre.x, 0.5, 1e-15);
+    EXPECT_NEAR(mass.moments.x, 1.0 / 3, 1e-15);
+    EXPECT_NEAR(mass.radius, std::sqrt(0.75), 1e-15);
+    body.mass.reset();
+    body.density = 7;
+    EXPECT_NEAR(mass_of(body)->mass, 7, 1e-14);
+    body.mass = 0;
+    EXPECT_EQ(mass_of(body).error().message,
+              "body: the mass is 0.000000, but it must be above 0 and finite.");
+}
+
+// By hand: a sheet of 2 x 1 as a flat box.
+TEST(BodyMass, OfAnOpenModelIsThatOfItsBox) {
+    const auto made =
+        study::make_memory_model(test::mesh_of(test::grid_sheet(2, 1)), {.pieces = true}).value();
+    RigidBody body{.model = &made.model, .name = "sheet"};
+    EXPECT_EQ(mass_of(body).error().message,
+              "sheet: response needs mass, and the file has no mass properties. Bake it again with "
+              "--effects response, or give a mass in the scene.");
+    body.mass = 12;
+    const BodyMass mass = mass_of(body).value();
+    EXPECT_EQ(mass.mass, 12);
+    EXPECT_EQ(mass.centre.x, 1);
+    EXPECT_NEAR(mass.moments.z, 5, 1e-12);
+}
+
+// By symmetry: so many equal turns make a whole one.
+TEST(RigidState, MovesByTurnsAboutItsCentre) {
+    const Pose start = Pose::from_quaternion(1, 2, 3, 4, {5, 6, 7}).value();
+    const Double3 centre = {0.25, -0.5, 1};
+    RigidState state = state_of(start, centre);
+    constexpr int kTurns = 16;
+    for (int i = 0; i < kTurns; ++i) {
+        state = moved(state, {0.125, 0, 0}, {0, 0, 2 * 3.14159265358979323846 / kTurns});
+    }
+    const Pose end = pose_of(state, centre).value();
+    EXPECT_NEAR(end.translation().x, 7, 1e-13);
+    EXPECT_NEAR(end.translation().y, 6, 1e-13);
+    for (std::size_t i = 0; i < 9; ++i) {
+        EXPECT_NEAR(end.rotation()[i], start.rotation()[i], 1e-14);
+    }
+}
+
+// By each case of the largest part: half turns about the axes, and none.
+TEST(RigidState, KeepsEveryPose) {
+    for (const auto& q : {std::array<double, 4>{1, 0, 0, 0},
+                          {0, 1, 0, 0},
+                          {0, 0, 1, 0},
+                          {0, 0, 0, 1},
+                          {0.1, 0.2, -0.3, 0.9},
+                          {-0.1, 0.9, 0.2, 0.3}}) {
+        const Pose pose = Pose::from_quaternion(q[0], q[1], q[2], q[3], {1, 2, 3}).value();
+        const Pose again = pose_of(state_of(pose, {3, 2, 1}), {3, 2, 1}).value();
+        for (std::size_t i = 0; i < 9; ++i) {
+            EXPECT_NEAR(again.rotation()[i], pose.rotation()[i], 1e-15);
+        }
+        EXPECT_NEAR(again.translation().z, 3, 1e-14);
+    }
+}
+
+}  // namespace
+}  // namespace cdprep::dynamics

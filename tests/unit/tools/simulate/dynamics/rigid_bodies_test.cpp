@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "simulate/dynamics/rigid_bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "study/memory_model.h"
+#include "support/meshes.h"
+#include "unit/tools/soup_of.h"
+
+namespace cdprep::dynamics {
+namespace {
+
+/// A cube of edges 1 about the origin, and a floor whose top is z = 0.
+struct Models {
+    study::MemoryModel cube = baked(test::moved_by(test::unit_cube(), 1, {-0.5, -0.5, -0.5}));
+    study::MemoryModel floor = baked(test::moved_by(test::unit_cube(), 8, {-4, -4, -8}));
+
+    static study::MemoryModel baked(const test::TestMesh& mesh) {
+        return study::make_memory_model(test::mesh_of(mesh), {.pieces = true, .mass = true})
+            .value();
+    }
+};
+
+Pose at(const Double3& p) {
+    return Pose::from_quaternion(1, 0, 0, 0, p).value();
+}
+
+class RigidBodiesTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (!has_dynamics()) GTEST_SKIP() << make_rigid_bodies().error().message;
+    }
+    [[nodiscard]] static std::unique_ptr<RigidBodies> make(const DynamicsOptions& options = {}) {
+        return make_rigid_bodies(options).value();
+    }
+    [[nodiscard]] RigidBody floor(BodyKind kind = BodyKind::fixed) const {
+        return {.model = &models_.floor.model, .name = "floor", .kind = kind};
+    }
+    [[nodiscard]] RigidBody cube(const Double3& where) const {
+        return {.model = &models_.cube.model, .world_from_model = at(where)};
+    }
+
+private:
+    Models models_;
+};
+
+TEST_F(RigidBodiesTest, NeedAToleranceForTheirSpeed) {
+    const auto refused = make_rigid_bodies({.substeps = 1, .most_speed = 3});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message,
+              "The contact tolerance is 0.01, but at a speed of 3 it must be at least 0.0505: the "
+              "rest gap and the way of a substep.");
+    EXPECT_FALSE(make_rigid_bodies({.step_s = 0}));
+    EXPECT_FALSE(make_rigid_bodies({.substeps = 0}));
+    EXPECT_FALSE(make_rigid_bodies({.rest_gap = 0}));
+}
+
+// By hand: it falls 0.1 and rests at the gap. It feels its weight there.
+TEST_F(RigidBodiesTest, ABoxComesToRestAndSleeps) {
+    const auto bodies = make({.rest_gap = 1e-3});
+    ASSERT_TRUE(bodies->add_body(floor()));
+    const auto box = bodies->add_body(cube({0, 0, 0.6})).value();
+    for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(bodies->step());
+    EXPECT_NEAR(bodies->centre_of_mass(box).z, 0.501, 1e-5);
+    double impulse = 0;
+    for (const BodyContact& contact : bodies->contacts()) {
+        EXPECT_EQ(contact.a, 0U);
+        EXPECT_EQ(contact.b, box);
+        EXPECT_NEAR(contact.normal.z, 1, 1e-6);
+        EXPECT_NEAR(contact.distance, 1e-3, 1e-5);
+        impulse += contact.impulse;
+    }
+    EXPECT_NEAR(impulse, 1000 * 9.81 / 240, 0.1);
+    EXPECT_FALSE(bodies->is_asleep(box));
+    for (int frame = 0; frame < 180; ++frame) ASSERT_TRUE(bodies->step());
+    EXPECT_TRUE(bodies->is_asleep(box));
+    EXPECT_EQ(bodies->kinetic_energy(), 0);
+    EXPECT_EQ(bodies->counts().pairs, 0U);  // nothing moved, so nothing is asked
+}
+
+// By hand: in free flight, z = 5 + 3 t - 9.81 t^2 / 2.
+TEST_F(RigidBodiesTest, AFreeBodyFliesAlongAParabola) {
+    const auto bodies = make();
+    RigidBody ball = cube({0, 0, 5});
+    ball.velocity = {1, 0, 3};
+    const auto body = bodies->add_body(ball).value();
+    for (int frame = 0; frame < 30; ++frame) ASSERT_TRUE(bodies->step());
+    EXPECT_NEAR(bodies->centre_of_mass(body).x, 0.5, 1e-6);
+    EXPECT_NEAR(bodies->centre_of_mass(body).z, 5 + 1.5 - 9.81 / 8, 1e-6);
+    EXPECT_NEAR(bodies->velocity(body).z, 3 - 9.81 / 2, 1e-5);
+}
+
+// By hand: friction holds at this acceleration, so a box rides with its floor.
+TEST_F(RigidBodiesTest, ADrivenFloorCarriesABox) {
+    const auto bodies = make();
+    const auto moving = bodies->add_body(floor(BodyKind::driven)).value();
+    const auto box = bodies->add_body(cube({0, 0, 0.5005})).value();
+    for (int frame = 0; frame < 200; ++frame) ASSERT_TRUE(bodies->step());
+    EXPECT_TRUE(bodies->is_asleep(box));
+    double speed = 0, way = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+        speed = std::min(0.5, speed + 1.0 / 60);
+        way += speed / 60;
+        ASSERT_TRUE(bodies->drive(moving, at({way, 0, 0})));
+        ASSERT_TRUE(bodies->step());
+    }
+    EXPECT_EQ(bodies->pose(moving).translation().x, way);
+    EXPECT_NEAR(bodies->centre_of_mass(box).x, way, 5e-3);
+    EXPECT_NEAR(bodies->velocity(box).x, 0.5, 1e-3);
+    EXPECT_FALSE(bodies->drive(box, at({0, 0, 0})));
+}
+
+TEST_F(RigidBodiesTest, RefuseAModelThatLacksSections) {
+    const auto made = study::make_memory_model(test::mesh_of(test::unit_cube())).value();
+    const auto bodies = make();
+    const auto refused = bodies->add_body({.model = &made.model});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message, made.model.refusal(Ask::contacts)->message);
+}
+
+}  // namespace
+}  // namespace cdprep::dynamics
