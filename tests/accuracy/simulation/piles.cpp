@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -126,7 +126,8 @@ Outcome play(World& world, const Pile& pile, bool prints) {
         outcome.speed = fastest_of(world, count);
         still = outcome.speed < 1e-3 ? still + 1 : 0;
         if (still == kRate && outcome.rest_s < 0) outcome.rest_s = double(frame) / kRate;
-        if (prints && frame % int(std::getenv("PE") ? std::atoi(std::getenv("PE")) : 30) == 0) {
+        if (prints && frame % kRate == 0) {
+            std::fflush(stdout);
             std::printf("# %5.2f s:", double(frame) / kRate);
             for (std::uint32_t i = 0; i < count; ++i) {
                 std::printf(" %.2g", speed_of(world, kFirst + i));
@@ -148,16 +149,7 @@ Outcome play(World& world, const Pile& pile, bool prints) {
 }
 
 dynamics::DynamicsOptions options_of_piles() {
-    dynamics::DynamicsOptions o{.tolerance = 0.01, .rest_gap = 5e-4, .most_speed = 2.2};
-    const auto env = [](const char* n, double d) { const char* v = std::getenv(n); return v ? std::atof(v) : d; };
-    o.cluster_angle = env("CA", o.cluster_angle);
-    o.most_contacts = std::uint32_t(env("MC", o.most_contacts));
-    o.tolerance = env("TOL", o.tolerance);
-    o.most_speed = env("MS", o.most_speed);
-    o.rest_gap = env("RG", o.rest_gap);
-    o.iterations = std::uint32_t(env("IT", o.iterations));
-    o.substeps = std::uint32_t(env("SS", o.substeps));
-    return o;
+    return {.tolerance = 0.01, .rest_gap = 5e-4, .most_speed = 2.2};
 }
 
 void play_ours(Table& table, const Pile& pile, Promise promise, bool prints) {
@@ -213,30 +205,48 @@ void play_threads(Table& table, const Extent& extent) {
         {"S15", "1, 8 and 1 threads: different states", "cdprep", different, 0, Promise::kept});
 }
 
-void play_piles(Table& table, const Extent& extent) {
-    std::vector<Pile> piles;
-    std::vector<TestMesh> mixed;
-    for (const char* name : {"horse", "bunny", "skull", "armadillo"}) {
-        const auto mesh = seed_mesh(name);
-        if (!mesh) {
+namespace {
+
+/// The scanned models of these names that are there, at their size.
+std::vector<TestMesh> scanned(std::initializer_list<const char*> names) {
+    std::vector<TestMesh> meshes;
+    for (const char* name : names) {
+        if (const auto mesh = seed_mesh(name)) {
+            meshes.push_back(moved_by(*mesh, kSize, {0, 0, 0}));
+        } else {
             std::printf("# no model %s beside the checkout (set CDPREP_SHARED)\n", name);
-            continue;
-        }
-        mixed.push_back(moved_by(*mesh, kSize, {0, 0, 0}));
-        if (mixed.size() <= 2) {
-            piles.push_back(
-                {std::string("5 of ") + name, std::vector<TestMesh>(5, mixed.back()), 20});
         }
     }
-    if (!mixed.empty() && extent.is_full) {
-        Pile pile{"20 mixed", {}, 30};
-        for (std::size_t i = 0; i < 20; ++i) pile.meshes.push_back(mixed[i % mixed.size()]);
-        piles.push_back(pile);
-    }
-    for (const Pile& pile : piles) {
-        play_ours(table, pile, Promise::measured, true);
+    return meshes;
+}
+
+}  // namespace
+
+void play_small_pile(Table& table, const Extent& extent) {
+    const std::vector<TestMesh> found = scanned({"horse"});
+    if (found.empty()) return;
+    // Three horses, which start lowest.
+    play_ours(table, {"3 of horse", std::vector<TestMesh>(3, found[0]), 12}, Promise::kept,
+              extent.is_full);
+}
+
+void play_piles(Table& table, const Extent& extent) {
+    for (const char* name : {"horse", "bunny"}) {
+        const std::vector<TestMesh> found = scanned({name});
+        if (found.empty()) continue;
+        const Pile pile{std::string("5 of ") + name, std::vector<TestMesh>(5, found[0]), 20};
+        play_ours(table, pile, Promise::kept, extent.is_full);
         if (extent.has_peers) play_peer(table, pile);
     }
+}
+
+void play_mixed_pile(Table& table, const Extent& extent) {
+    const std::vector<TestMesh> found = scanned({"horse", "bunny", "skull", "armadillo"});
+    if (found.empty()) return;
+    Pile pile{"20 mixed", {}, 20};
+    for (std::size_t i = 0; i < 20; ++i) pile.meshes.push_back(found[i % found.size()]);
+    play_ours(table, pile, Promise::measured, true);
+    if (extent.has_peers) play_peer(table, pile);
 }
 
 }  // namespace cdprep::test

@@ -3,10 +3,11 @@
 // Prints a line for each number: the case, the engine, the value, the bound, the verdict. Fails if
 // a number that is promised exceeds its bound.
 //
-// Usage: simulation_cases [--full] [--no-peers] [--piles] [CASES...]
+// Usage: simulation_cases [--full] [--no-peers] [CASES...]
 //   --full      the times of the catalogue: 60 s, 10^6 steps
 //   --no-peers  leaves out Bullet's own shapes
-//   CASES       stacks, impacts, resting, threads, piles; all but piles if none is named
+//   CASES       resting, stacks, impacts, threads, pile; with --full also piles and mixed, which
+//               take minutes. Only those that are named, if any are
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -44,7 +45,8 @@ int main(int count, char** arguments) {
     for (const Group& group :
          {Group{"resting", play_resting, true}, Group{"stacks", play_stacks, true},
           Group{"impacts", play_impacts, true}, Group{"threads", play_threads, true},
-          Group{"piles", play_piles, extent.is_full}}) {
+          Group{"pile", play_small_pile, true}, Group{"piles", play_piles, extent.is_full},
+          Group{"mixed", play_mixed_pile, extent.is_full}}) {
         const bool is_named = std::find(asked.begin(), asked.end(), group.name) != asked.end();
         if (asked.empty() ? group.is_default : is_named) group.play(table, extent);
     }

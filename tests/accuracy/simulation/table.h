@@ -43,6 +43,9 @@ void play_stacks(Table& table, const Extent& extent);   ///< S01, S02
 void play_impacts(Table& table, const Extent& extent);  ///< S03, S04, S08, S09
 void play_resting(Table& table, const Extent& extent);  ///< S06, S07, S10, S11, S16
 void play_threads(Table& table, const Extent& extent);  ///< S15
-void play_piles(Table& table, const Extent& extent);    ///< many scanned models in a box
+/// Scanned models fall into a box.
+void play_small_pile(Table& table, const Extent& extent);
+void play_piles(Table& table, const Extent& extent);
+void play_mixed_pile(Table& table, const Extent& extent);
 
 }  // namespace cdprep::test
