@@ -59,22 +59,23 @@ double time_bullet() {
     return std::numeric_limits<double>::infinity();
 }
 
-/// Returns the largest relative error of the heights of some bounces.
+/// Returns the largest relative error of the heights of some bounces, above where the ball rests.
 double play_bounces(Engine engine, int bounces) {
     constexpr double kRestitution = 0.8, kHeight = 1, kRadius = 0.1;
     const dynamics::DynamicsOptions options{.step_s = 1.0 / 960, .substeps = 1};
     const auto world = make_world(engine, options);
+    const double rest = kRadius + (engine == Engine::cdprep ? options.rest_gap : 0);
     world->add({.half = {5, 5, 0.5}, .mass = 0, .at = {0, 0, -0.5}, .restitution = kRestitution});
     const auto ball = world->add({.form = Form::sphere,
                                   .radius = kRadius,
-                                  .at = {0, 0, kRadius + kHeight},
+                                  .at = {0, 0, rest + kHeight},
                                   .restitution = kRestitution});
     double worst = 0, peak = 0, last = 0;
     int seen = 0;
     for (int frame = 0; frame < 20 * 960 && seen < bounces; ++frame) {
         world->step();
         const double speed = world->velocity(ball).z;
-        const double height = world->position(ball).z - kRadius;
+        const double height = world->position(ball).z - rest;
         if (last > 0 && speed <= 0) {
             const double wanted = kHeight * std::pow(kRestitution, 2 * ++seen);
             worst = std::max(worst, std::fabs(peak / wanted - 1));
@@ -132,7 +133,8 @@ void play_impacts(Table& table, const Extent& extent) {
         }
         const int bounces = extent.is_full ? 10 : 5;
         table.add({"S08", std::to_string(bounces) + " bounces, e = 0.8: heights are off by",
-                   name_of(engine), play_bounces(engine, bounces), 0.01});
+                   name_of(engine), play_bounces(engine, bounces), 0.01,
+                   engine == Engine::cdprep ? Promise::kept : Promise::measured});
         play_cradle(table, engine);
     }
 }

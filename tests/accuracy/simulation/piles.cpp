@@ -96,7 +96,7 @@ std::size_t outside(const World& world, std::size_t count) {
 double deepest(const dynamics::RigidBodies& bodies) {
     double least = 0;
     for (const auto& contact : bodies.contacts()) least = std::min(least, contact.distance);
-    return -least;
+    return std::fabs(least);
 }
 
 std::size_t awake(const dynamics::RigidBodies& bodies, std::size_t count) {
