@@ -97,4 +97,24 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
     return compiled;
 }
 
+void drop_effect(SceneFile& scene, Ask effect) {
+    const LayerPair unused;
+    for (AskedPair& pair : scene.pairs) {
+        LayerPair& asked = pair.asked;
+        asked.effects = without(asked.effects, effect);
+        const auto is_read_by = [&](Ask readers) {
+            return (asked.effects & readers) != Ask::nothing;
+        };
+        if (!is_read_by(Ask::within)) asked.tolerance = unused.tolerance;
+        if (!is_read_by(Ask::distance | Ask::haptic)) asked.max_distance = unused.max_distance;
+        if (!is_read_by(Ask::continuous)) asked.impact = unused.impact;
+        if (!is_read_by(Ask::haptic)) asked.work = unused.work;
+        if (!is_read_by(Ask::collide | Ask::overlap)) asked.overlap = unused.overlap;
+        if (!is_read_by(Ask::contacts)) asked.contacts = unused.contacts;
+        if (!is_read_by(Ask::collide | Ask::distance | Ask::contacts | Ask::continuous)) {
+            asked.body = unused.body;
+        }
+    }
+}
+
 }  // namespace cdprep::scenes

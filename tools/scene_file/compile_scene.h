@@ -29,4 +29,7 @@ struct ModelNeeds {
 [[nodiscard]] Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                                            std::span<const ModelUse> models = {});
 
+/// Drops an effect from all pairs of layers, and the options that no effect reads then.
+void drop_effect(SceneFile& scene, Ask effect);
+
 }  // namespace cdprep::scenes

@@ -430,7 +430,9 @@ private:
 SceneReading parse_scene(const std::string& name, const std::string& text, const fs::path& folder) {
     const Result<JsonFile> file = parse_json_file(name, text);
     if (!file) return {std::nullopt, {file.error().message}};
-    return Reader(*file, folder).run();
+    SceneReading reading = Reader(*file, folder).run();
+    if (reading.scene) reading.scene->text = text;
+    return reading;
 }
 
 SceneReading read_scene(const fs::path& path) {

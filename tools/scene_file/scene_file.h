@@ -48,6 +48,7 @@ struct FileObject {
 /// The content of a scene file. Lengths are in model units.
 struct SceneFile {
     std::string name;            ///< the file, for messages
+    std::string text;            ///< of the file
     double metres_per_unit = 0;  ///< of every model; 0: not stated
     double step_s = 1.0 / 60;
     double duration_s = 0;

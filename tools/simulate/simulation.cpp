@@ -17,16 +17,22 @@ constexpr std::uint64_t kPairsPerObject = 8;  ///< likewise
 constexpr std::uint64_t kRoom = 2;
 constexpr std::uint64_t kMostRoom = (std::uint64_t{1} << 32) - 1;
 
+std::uint64_t nanoseconds() noexcept {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return static_cast<std::uint64_t>(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
 std::uint32_t room_for(std::uint64_t needed, std::uint32_t now) {
     if (needed == 0) return now;
     return static_cast<std::uint32_t>(std::min(kRoom * needed, kMostRoom));
 }
 
-bool are_equal(const Pose& p, const Pose& q) {
+}  // namespace
+
+bool are_equal(const Pose& p, const Pose& q) noexcept {
     return p.rotation() == q.rotation() && p.translation() == q.translation();
 }
-
-}  // namespace
 
 Simulation::Simulation(const SceneFile& file, std::span<const SceneModel> models,
                        std::uint32_t threads, ParallelFor parallel_for)
@@ -42,7 +48,7 @@ Result<Simulation> Simulation::make(const SceneFile& file, std::span<const Scene
                                     std::uint32_t threads, ParallelFor parallel_for) {
     Simulation simulation(file, models, threads, parallel_for);
     if (Result<Done> made = simulation.make_changing(); !made) return made.error();
-    if (Result<Done> filled = simulation.fill(0); !filled) return filled.error();
+    if (Result<Done> filled = simulation.fill(0, {}); !filled) return filled.error();
     return simulation;
 }
 
@@ -85,8 +91,9 @@ const Model& Simulation::model_of(std::uint32_t object) const noexcept {
     return *models_[file_->objects[object].model].model;
 }
 
-/// Makes a scene, and adds the objects as they are at a time.
-Result<Done> Simulation::fill(double time_s) {
+/// Makes a scene, and adds the objects as they are at a time: with these poses by slot or, if there
+/// are none, those of their motions.
+Result<Done> Simulation::fill(double time_s, const std::vector<Pose>& poses) {
     scene_.reset();
     objects_.clear();
     ids_.clear();
@@ -95,11 +102,13 @@ Result<Done> Simulation::fill(double time_s) {
     if (!compiled.plan) return Error{ErrorCode::bad_argument, compiled.refusals.front()};
     plan_ = std::make_unique<const Plan>(std::move(*compiled.plan));
     scene_.emplace(*plan_);
+    scene_->set_clock(nanoseconds);
     if (const auto changed = change(time_s); !changed) return changed.error();
     for (std::uint32_t i = 0; i < file_->objects.size(); ++i) {
         const FileObject& object = file_->objects[i];
         if (!is_asked(*plan_, object)) continue;
-        const Result<Pose> pose = pose_of(*file_, object, time_s);
+        const Result<Pose> pose =
+            poses.empty() ? pose_of(*file_, object, time_s) : poses[objects_.size()];
         if (!pose) return pose.error();
         const auto id = scene_->add({&model_of(i), object.layer, *pose});
         if (!id) return Error{ErrorCode::internal, file_->name + ": the scene is full."};
@@ -110,19 +119,39 @@ Result<Done> Simulation::fill(double time_s) {
     return Done{};
 }
 
-Result<Done> Simulation::move(double time_s) {
+/// The poses of the next frame. Objects without a motion stay where they are.
+Result<std::vector<Pose>> Simulation::poses_at(double time_s,
+                                               std::span<const GivenPose> given) const {
+    std::vector<Pose> poses = poses_;
+    for (const GivenPose& one : given) {
+        const auto at = std::ranges::lower_bound(objects_, one.object);
+        const bool is_asked_for = at != objects_.end() && *at == one.object;
+        if (is_asked_for) poses[static_cast<std::size_t>(at - objects_.begin())] = one.pose;
+    }
+    for (std::size_t slot = 0; slot < poses.size(); ++slot) {
+        const FileObject& object = file_->objects[objects_[slot]];
+        if (!file_->motions[object.motion].moves()) continue;
+        const Result<Pose> pose = pose_of(*file_, object, time_s);
+        if (!pose) return pose.error();
+        poses[slot] = *pose;
+    }
+    return poses;
+}
+
+/// Brings the scene to a time, with these poses.
+Result<Done> Simulation::move(double time_s, const std::vector<Pose>& poses) {
     const auto changed = change(time_s);
     if (!changed) return changed.error();
     for (std::size_t slot = 0; slot < ids_.size(); ++slot) {
-        const FileObject& object = file_->objects[objects_[slot]];
         const std::uint32_t changing = changing_of_[objects_[slot]];
         const bool has_changed = changing != kUnchanged && (*changed)[changing];
-        if (!has_changed && !file_->motions[object.motion].moves()) continue;
-        const Result<Pose> pose = pose_of(*file_, object, time_s);
-        if (!pose) return pose.error();
-        if (!has_changed && are_equal(*pose, poses_[slot])) continue;
-        poses_[slot] = *pose;
-        scene_->set_pose(ids_[slot], *pose);
+        if (!has_changed && are_equal(poses[slot], poses_[slot])) continue;
+        poses_[slot] = poses[slot];
+        if (is_first_frame_) {
+            scene_->put(ids_[slot], poses[slot]);
+        } else {
+            scene_->set_pose(ids_[slot], poses[slot]);
+        }
     }
     return Done{};
 }
@@ -153,21 +182,29 @@ Result<Done> Simulation::grow(SceneStep step, std::uint64_t frame) {
         if (Result<Done> made = make_room(step, frame); !made) return made;
         const std::uint64_t wanted = contains(plan_->effects(), Ask::continuous) ? 2 : 1;
         std::uint64_t back = std::min(frame, wanted);
-        if (Result<Done> filled = fill(time_of(frame - back)); !filled) return filled;
+        if (Result<Done> filled = fill(time_of(frame - back), history_[back]); !filled) {
+            return filled;
+        }
         if (frame == 0) return Done{};
         step = scene_->step(workspaces_, parallel_for_);
         while (--back > 0 && step.complete) {
-            if (Result<Done> moved = move(time_of(frame - back)); !moved) return moved;
+            const Result<Done> moved = move(time_of(frame - back), history_[back]);
+            if (!moved) return moved;
             step = scene_->step(workspaces_, parallel_for_);
         }
     }
-    return move(time_of(frame));
+    return move(time_of(frame), history_[0]);
 }
 
-Result<Done> Simulation::step(std::uint64_t frame) {
-    if (frame > 0) {
-        work_ = {};
-        if (Result<Done> moved = move(time_of(frame)); !moved) return moved;
+Result<Done> Simulation::step(std::uint64_t frame, std::span<const GivenPose> given) {
+    is_first_frame_ = frame == 0;
+    auto poses = poses_at(time_of(frame), given);
+    if (!poses) return poses.error();
+    std::ranges::rotate(history_, history_.end() - 1);
+    history_[0] = std::move(poses).value();
+    if (frame > 0) work_ = {};
+    if (frame > 0 || !given.empty()) {
+        if (Result<Done> moved = move(time_of(frame), history_[0]); !moved) return moved;
     }
     bool has_grown = false;
     while (true) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,6 +13,15 @@
 #include "scene_file/load_models.h"
 
 namespace cdprep::scenes {
+
+/// A pose that does not follow from the motion of an object: one of a recording.
+struct GivenPose {
+    std::uint32_t object;  ///< its number in SceneFile::objects
+    Pose pose;
+};
+
+/// Returns whether two poses have the same numbers.
+[[nodiscard]] bool are_equal(const Pose& p, const Pose& q) noexcept;
 
 /// The objects of a scene file, moved from frame to frame.
 class Simulation {
@@ -26,9 +36,10 @@ public:
     /// Computes a frame; 0 is first. Objects whose pose and shape have not changed count as not
     /// moved. If the frame needs more room, makes it, unless the file limits the pairs: then fails
     /// with over_budget. Fails with bad_argument if an object leaves the range of coordinates.
-    [[nodiscard]] Result<Done> step(std::uint64_t frame);
+    /// Objects with a given pose have it from this frame on, unless their motion moves them.
+    [[nodiscard]] Result<Done> step(std::uint64_t frame, std::span<const GivenPose> given = {});
 
-    /// Results of the last frame.
+    /// Results of the last frame. The ticks of its counts are nanoseconds.
     [[nodiscard]] const Scene& scene() const noexcept {
         return *scene_;
     }
@@ -42,9 +53,16 @@ public:
     [[nodiscard]] std::span<const Pose> poses() const noexcept {
         return poses_;
     }
+    /// Returns the number of the object in a slot, in SceneFile::objects.
+    [[nodiscard]] std::uint32_t object_number(std::size_t slot) const noexcept {
+        return objects_[slot];
+    }
     /// The wall time that the library took for the last frame, poses and more room excluded.
     [[nodiscard]] double step_seconds() const noexcept {
         return step_seconds_;
+    }
+    [[nodiscard]] std::size_t thread_count() const noexcept {
+        return workspaces_.size();
     }
     [[nodiscard]] std::uint64_t grown_steps() const noexcept {
         return grown_steps_;
@@ -64,10 +82,12 @@ private:
                ParallelFor parallel_for);
 
     [[nodiscard]] Result<Done> make_changing();
-    [[nodiscard]] Result<Done> fill(double time_s);
+    [[nodiscard]] Result<Done> fill(double time_s, const std::vector<Pose>& poses);
     [[nodiscard]] Result<std::vector<bool>> change(double time_s);
     [[nodiscard]] const Model& model_of(std::uint32_t object) const noexcept;
-    [[nodiscard]] Result<Done> move(double time_s);
+    [[nodiscard]] Result<std::vector<Pose>> poses_at(double time_s,
+                                                     std::span<const GivenPose> given) const;
+    [[nodiscard]] Result<Done> move(double time_s, const std::vector<Pose>& poses);
     [[nodiscard]] Result<Done> make_room(const SceneStep& step, std::uint64_t frame);
     [[nodiscard]] Result<Done> grow(SceneStep step, std::uint64_t frame);
     [[nodiscard]] double time_of(std::uint64_t frame) const noexcept {
@@ -81,11 +101,14 @@ private:
     std::vector<Workspace> workspaces_;   ///< one for each thread
     std::vector<std::uint32_t> objects_;  ///< by slot
     std::vector<ObjectId> ids_;           ///< by slot
-    std::vector<Pose> poses_;             ///< by slot
+    std::vector<Pose> poses_;             ///< by slot, as the scene has them
+    /// By slot, of this frame, the last one and the one before: what growing repeats.
+    std::array<std::vector<Pose>, 3> history_;
     std::vector<ChangingObjects> changing_;
     std::vector<std::uint32_t> changing_of_;  ///< by object: its number in changing_, or kUnchanged
     std::unique_ptr<const Plan> plan_;        ///< outlives the scene
     std::optional<Scene> scene_;
+    bool is_first_frame_ = true;  ///< objects have no way before it
     double step_seconds_ = 0;
     ChangeWork work_;
     std::uint64_t grown_steps_ = 0;
