@@ -17,6 +17,15 @@ namespace cdprep::report {
     return static_cast<std::size_t>(at - kSceneEffects.begin());
 }
 
+/// Returns the ticks from the first query of a step to the end of the last that no query took.
+[[nodiscard]] inline std::uint64_t rest_of_pairs(const SceneCounts& counts,
+                                                 std::size_t threads) noexcept {
+    std::uint64_t queries = 0;
+    for (const std::uint64_t ticks : counts.ticks) queries += ticks;
+    queries /= threads;
+    return counts.query_ticks - std::min(counts.query_ticks, queries);
+}
+
 /// Returns the names of the effects that a scene could compute, but no pair of layers asks for.
 [[nodiscard]] inline std::vector<std::string> not_computed(const Plan& plan) {
     std::vector<std::string> names;

@@ -41,7 +41,18 @@ void add_span(TimelineSpan& sum, const TimelineSpan& next) {
 }  // namespace
 
 std::vector<StageTime> stage_times(const scenes::Simulation& simulation) {
-    return {{"step", simulation.step_seconds()}};
+    const SceneCounts& counts = simulation.scene().counts();
+    const auto seconds = [](std::uint64_t nanoseconds) {
+        return 1e-9 * static_cast<double>(nanoseconds);
+    };
+    std::vector<StageTime> times = {{"boxes", seconds(counts.box_ticks)}};
+    for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
+        if (!contains(simulation.plan().effects(), kSceneEffects[i])) continue;
+        times.push_back({scenes::effect_name(kSceneEffects[i]), seconds(counts.ticks[i])});
+    }
+    times.push_back({"rest of pairs", seconds(rest_of_pairs(counts, simulation.thread_count()))});
+    times.push_back({"lists", seconds(counts.list_ticks)});
+    return times;
 }
 
 void SceneTimeline::add(const scenes::Simulation& simulation) {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <tuple>
 
+#include "simulate/event_json.h"
 #include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"
@@ -16,111 +16,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* reason_name(EventReason reason) {
-    switch (reason) {
-        case EventReason::moved:
-            return "moved";
-        case EventReason::removed:
-            return "removed";
-        case EventReason::relayered:
-            return "relayered";
-        case EventReason::paused:
-            return "paused";
-        case EventReason::unchanged:
-            break;
-    }
-    return "unchanged";
-}
-
-const char* kind_name(EventKind kind) {
-    if (kind == EventKind::stays) return "stays";
-    return kind == EventKind::begins ? "begins" : "ends";
-}
-
-std::tuple<std::uint32_t, std::uint32_t> slots_of(const SceneSelfOverlaps& found) {
-    return {found.object.slot, found.object.slot};
-}
-template <class Result>
-std::tuple<std::uint32_t, std::uint32_t> slots_of(const Result& found) {
-    return {found.a.slot, found.b.slot};
-}
-
-/// Returns the result of the objects of an event, or null.
-template <class Result>
-const Result* find_result(std::span<const Result> all, const SceneEvent& event) {
-    const auto slots = [](const auto& found) { return slots_of(found); };
-    const auto at =
-        std::lower_bound(all.begin(), all.end(), event,
-                         [&](const Result& x, const SceneEvent& y) { return slots(x) < slots(y); });
-    return at != all.end() && slots(*at) == slots(event) ? &*at : nullptr;
-}
-
-const char* kind_name(ImpactKind kind) {
-    switch (kind) {
-        case ImpactKind::none:
-            return "none";
-        case ImpactKind::touching:
-            return "touching";
-        case ImpactKind::near:
-            return "near";
-        case ImpactKind::unfinished:
-            break;
-    }
-    return "unfinished";
-}
-
-/// Adds bounds. JSON has no infinity, so an upper one is left out.
-void add_bounds(Json& json, double lower, double upper) {
-    json["lower"] = lower;
-    if (std::isfinite(upper)) json["upper"] = upper;
-}
-
-/// Adds what an effect that holds has found.
-void add_result(Json& json, const Scene& scene, const SceneEvent& event) {
-    if (event.effect == Ask::distance) {
-        if (const auto* found = find_result(scene.distances(), event)) {
-            add_bounds(json, found->distance.lower, found->distance.upper);
-        }
-    } else if (event.effect == Ask::overlap) {
-        const auto* found = find_result(scene.overlaps(), event);
-        if (found) json["triangle_pairs"] = found->triangles.size();
-    } else if (event.effect == Ask::self) {
-        const auto* found = find_result(scene.self_overlaps(), event);
-        if (found) json["triangle_pairs"] = found->triangles.size();
-    } else if (event.effect == Ask::continuous) {
-        if (const auto* found = find_result(scene.impacts(), event)) {
-            json["kind"] = kind_name(found->impact.kind);
-            add_bounds(json, found->impact.lower, found->impact.upper);
-        }
-    } else if (event.effect == Ask::haptic) {
-        if (const auto* found = find_result(scene.bounded_distances(), event)) {
-            json["late"] = !found->distance.is_complete;
-            add_bounds(json, found->distance.lower, found->distance.upper);
-        }
-    } else if (event.effect == Ask::contacts) {
-        if (const auto* found = find_result(scene.contacts(), event)) {
-            json["contacts"] = found->contacts.size();
-            add_bounds(json, found->contacts.front().lower, found->contacts.front().upper);
-        }
-    }
-}
-
-Json event_json(std::uint64_t frame, double time_s, const SceneEvent& event,
-                const scenes::Simulation& simulation) {
-    Json json = {{"frame", frame},
-                 {"time_s", time_s},
-                 {"event", kind_name(event.kind)},
-                 {"effect", scenes::effect_name(event.effect)},
-                 {"a", simulation.object(event.a).name},
-                 {"b", simulation.object(event.b).name},
-                 {"reason", reason_name(event.reason)}};
-    if (event.kind != EventKind::ends) add_result(json, simulation.scene(), event);
-    return json;
-}
-
 /// Returns wall time to show: nanoseconds would not be repeatable.
 double milliseconds_of(double seconds) {
     return std::round(1e6 * seconds) / 1e3;
+}
+
+/// Returns a share to show.
+double rounded_share(double share) {
+    return std::round(1e4 * share) / 1e4;
 }
 
 /// Returns the value of sorted ones below which this share of them lies; 0 without values.
@@ -167,6 +70,25 @@ std::string SimulationReport::begin() const {
     return format_ == EventFormat::json ? "{\"events\":[" : "";
 }
 
+double SimulationReport::milliseconds_a_frame(std::uint64_t nanoseconds) const {
+    const auto frames = static_cast<double>(std::max<std::uint64_t>(frames_, 1));
+    return milliseconds_of(1e-9 * static_cast<double>(nanoseconds) / frames);
+}
+
+std::string SimulationReport::time_text(std::uint64_t nanoseconds) const {
+    return fixed(milliseconds_a_frame(nanoseconds), 3) + " ms";
+}
+
+std::vector<std::string> SimulationReport::asked_by(Ask effect) const {
+    std::vector<std::string> names;
+    for (const scenes::AskedPair* pair : pairs_) {
+        if (!contains(pair->asked.effects, effect)) continue;
+        names.push_back(printable(scene_.layers[pair->asked.a]) + "-" +
+                        printable(scene_.layers[pair->asked.b]));
+    }
+    return names;
+}
+
 bool SimulationReport::is_told(const SceneEvent& event) const {
     const scenes::AskedPair& pair = *pairs_[event.pair];
     if (event.kind == EventKind::stays) return true;  // listed only where they are told
@@ -183,7 +105,13 @@ void SimulationReport::count(const scenes::Simulation& simulation) {
     counts_.candidates += counts.candidates;
     counts_.kept += counts.kept;
     counts_.apart += counts.apart;
-    for (std::size_t i = 0; i < counts.calls.size(); ++i) counts_.calls[i] += counts.calls[i];
+    for (std::size_t i = 0; i < counts.calls.size(); ++i) {
+        counts_.calls[i] += counts.calls[i];
+        counts_.ticks[i] += counts.ticks[i];
+    }
+    counts_.box_ticks += counts.box_ticks;
+    counts_.query_ticks += counts.query_ticks;
+    counts_.list_ticks += counts.list_ticks;
     for (const SceneEvent& event : simulation.scene().events()) {
         Changes& changes = changes_[effect_number(event.effect)];
         changes.begins += event.kind == EventKind::begins ? 1 : 0;
@@ -228,9 +156,11 @@ std::string SimulationReport::summary_json(const scenes::Simulation& simulation)
     for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
         if (!contains(simulation.plan().effects(), kSceneEffects[i])) continue;
         effects.push_back({{"name", scenes::effect_name(kSceneEffects[i])},
+                           {"asked_by", asked_by(kSceneEffects[i])},
                            {"calls", counts_.calls[i]},
                            {"begins", changes_[i].begins},
-                           {"ends", changes_[i].ends}});
+                           {"ends", changes_[i].ends},
+                           {"frame_ms", milliseconds_a_frame(counts_.ticks[i])}});
     }
     Json summary = {
         {"scene", scene_.name},
@@ -246,7 +176,17 @@ std::string SimulationReport::summary_json(const scenes::Simulation& simulation)
         {"grown_steps", simulation.grown_steps()},
         {"step_ms",
          {{"median", value_at(milliseconds_, 0.5)}, {"p95", value_at(milliseconds_, 0.95)}}},
+        {"stages_ms",
+         {{"boxes", milliseconds_a_frame(counts_.box_ticks)},
+          {"rest_of_pairs",
+           milliseconds_a_frame(rest_of_pairs(counts_, simulation.thread_count()))},
+          {"lists", milliseconds_a_frame(counts_.list_ticks)}}},
         {"state_hash", hexadecimal(simulation.scene().state_hash())}};
+    for (const scenes::EffectCost& cost : costs_) {
+        summary["costs"].push_back({{"without", scenes::effect_name(cost.effect)},
+                                    {"change_of_time", rounded_share(cost.change)},
+                                    {"spread_of_time", rounded_share(cost.spread)}});
+    }
     if (!simulation.changing().empty()) {
         const ChangingCounts changing = count_changing(scene_, simulation.changing());
         summary["changes"] = {{"deform", changing.deform}, {"tear", changing.tear},
@@ -274,13 +214,14 @@ std::string SimulationReport::changes_text(const scenes::Simulation& simulation)
     return text;
 }
 
-std::string SimulationReport::summary_text(const scenes::Simulation& simulation) const {
+std::string SimulationReport::effects_text(const scenes::Simulation& simulation) const {
     const auto row = [](const auto&... cells) {
         std::array<char, 128> line{};
-        std::snprintf(line.data(), line.size(), "%-12s %12s %12s %9s %9s\n", cells...);
+        std::snprintf(line.data(), line.size(), "%-12s %12s %12s %9s %9s  %s", cells...);
         return std::string(line.data());
     };
-    std::string text = row("effect", "calls", "calls/frame", "begins", "ends");
+    std::string text =
+        row("effect", "calls", "calls/frame", "begins", "ends", "time/frame") + "  asked by\n";
     const auto frames = static_cast<double>(std::max<std::uint64_t>(frames_, 1));
     for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
         if (!contains(simulation.plan().effects(), kSceneEffects[i])) continue;
@@ -288,8 +229,27 @@ std::string SimulationReport::summary_text(const scenes::Simulation& simulation)
         text += row(scenes::effect_name(kSceneEffects[i]).c_str(), std::to_string(calls).c_str(),
                     fixed(static_cast<double>(calls) / frames, 1).c_str(),
                     std::to_string(changes_[i].begins).c_str(),
-                    std::to_string(changes_[i].ends).c_str());
+                    std::to_string(changes_[i].ends).c_str(), time_text(counts_.ticks[i]).c_str());
+        for (const std::string& pair : asked_by(kSceneEffects[i])) text += "  " + pair;
+        text += "\n";
     }
+    return text + "boxes and broad phase " + time_text(counts_.box_ticks) + ", rest of pairs " +
+           time_text(rest_of_pairs(counts_, simulation.thread_count())) + ", lists and events " +
+           time_text(counts_.list_ticks) + "\n";
+}
+
+std::string SimulationReport::costs_text() const {
+    std::string text;
+    for (const scenes::EffectCost& cost : costs_) {
+        text += "without " + scenes::effect_name(cost.effect) + ", all frames take " +
+                fixed(100 * (1 + cost.change), 1) + " % of the time (spread " +
+                fixed(100 * cost.spread, 1) + " %)\n";
+    }
+    return text;
+}
+
+std::string SimulationReport::summary_text(const scenes::Simulation& simulation) const {
+    std::string text = effects_text(simulation) + costs_text();
     for (const std::string& name : not_computed_) {
         text += "not computed: " + name + ", for no pair of layers asks\n";
     }

@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "simulate/effect_costs.h"
 #include "simulate/effect_counts.h"
 #include "simulate/simulation.h"
 
@@ -13,9 +15,7 @@ namespace cdprep::report {
 
 enum class EventFormat : std::uint8_t { text, json, ndjson };
 
-/// Collects the frames of a simulation and words its report. An event in JSON has its frame and
-/// time, "begins", "stays" or "ends", the effect, the two objects and the reason. Unless it ends,
-/// it has the bounds of a distance, or the length of a list.
+/// Collects the frames of a simulation and words its report.
 class SimulationReport {
 public:
     /// `scene` must outlive the object.
@@ -26,6 +26,10 @@ public:
     /// Adds the last frame of a simulation. Returns the text of its events, which is empty in the
     /// text format.
     [[nodiscard]] std::string add_frame(std::uint64_t frame, const scenes::Simulation& simulation);
+    /// Adds what the scene saves without single effects.
+    void set_costs(std::vector<scenes::EffectCost> costs) {
+        costs_ = std::move(costs);
+    }
     /// Returns the text that ends the report: the summary of all frames.
     [[nodiscard]] std::string finish(const scenes::Simulation& simulation);
 
@@ -43,6 +47,11 @@ private:
     [[nodiscard]] bool is_told(const SceneEvent& event) const;
     void count(const scenes::Simulation& simulation);
     [[nodiscard]] std::string summary_text(const scenes::Simulation& simulation) const;
+    [[nodiscard]] double milliseconds_a_frame(std::uint64_t nanoseconds) const;
+    [[nodiscard]] std::string time_text(std::uint64_t nanoseconds) const;
+    [[nodiscard]] std::vector<std::string> asked_by(Ask effect) const;
+    [[nodiscard]] std::string effects_text(const scenes::Simulation& simulation) const;
+    [[nodiscard]] std::string costs_text() const;
     [[nodiscard]] std::string changes_text(const scenes::Simulation& simulation) const;
     [[nodiscard]] std::string summary_json(const scenes::Simulation& simulation) const;
 
@@ -55,6 +64,7 @@ private:
     std::array<Changes, kSceneEffects.size()> changes_{};
     std::vector<double> milliseconds_;  ///< of each frame; sorted at the end
     ModelWork models_;
+    std::vector<scenes::EffectCost> costs_;
     bool has_event_ = false;
 };
 

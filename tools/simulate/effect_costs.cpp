@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simulate/effect_costs.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "scene_file/compile_scene.h"
+
+namespace cdprep::scenes {
+namespace {
+
+/// A scene file, and the time of all its frames in each round.
+struct Variant {
+    SceneFile file;
+    std::vector<double> seconds = {};
+};
+
+Ask effects_of(const SceneFile& file) {
+    Ask all = Ask::nothing;
+    for (const AskedPair& pair : file.pairs) all = all | pair.asked.effects;
+    return all;
+}
+
+Result<double> time_of_frames(const SceneFile& file, std::span<const SceneModel> models,
+                              const CostOptions& options) {
+    auto simulation = Simulation::make(file, models, options.threads, options.parallel_for);
+    if (!simulation) return simulation.error();
+    double seconds = 0;
+    for (std::uint64_t frame = 0; frame < options.frames; ++frame) {
+        if (const Result<Done> done = simulation->step(frame); !done) return done.error();
+        seconds += simulation->step_seconds();
+    }
+    return seconds;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+EffectCost cost_of(Ask effect, const Variant& whole, const Variant& without_it) {
+    std::vector<double> changes;
+    for (std::size_t round = 0; round < whole.seconds.size(); ++round) {
+        const double all = whole.seconds[round];
+        changes.push_back(all > 0 ? without_it.seconds[round] / all - 1 : 0);
+    }
+    const auto [least, most] = std::minmax_element(changes.begin(), changes.end());
+    return {effect, median(changes), *most - *least};
+}
+
+}  // namespace
+
+Result<std::vector<EffectCost>> measure_costs(const SceneFile& file,
+                                              std::span<const SceneModel> models,
+                                              const CostOptions& options) {
+    std::vector<Variant> variants = {{file}};
+    std::vector<Ask> effects;
+    for (const Ask effect : kSceneEffects) {
+        if (!contains(effects_of(file), effect)) continue;
+        effects.push_back(effect);
+        variants.push_back({file});
+        drop_effect(variants.back().file, effect);
+    }
+    const std::uint64_t all = options.rounds * variants.size();
+    for (std::uint64_t run = 0; run < all; ++run) {
+        const std::size_t place = run % variants.size();
+        const bool is_backwards = run / variants.size() % 2 == 1;
+        Variant& variant = variants[is_backwards ? variants.size() - 1 - place : place];
+        if (const Result<Done> begins = options.begins(run, all); !begins) return begins.error();
+        const Result<double> seconds = time_of_frames(variant.file, models, options);
+        if (!seconds) return seconds.error();
+        variant.seconds.push_back(*seconds);
+    }
+    std::vector<EffectCost> costs;
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+        costs.push_back(cost_of(effects[i], variants[0], variants[i + 1]));
+    }
+    return costs;
+}
+
+}  // namespace cdprep::scenes

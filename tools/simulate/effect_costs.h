@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "simulate/simulation.h"
+
+namespace cdprep::scenes {
+
+/// What a scene saves without one of its effects.
+struct EffectCost {
+    Ask effect;
+    double change;  ///< of the time of all frames: -0.25 for a quarter less; median of the rounds
+    double spread;  ///< the largest change of a round minus the smallest
+};
+
+struct CostOptions {
+    std::uint64_t frames = 1;
+    std::uint32_t rounds = 5;
+    std::uint32_t threads = 1;
+    ParallelFor parallel_for = serial_for;
+    /// Called before each run of a round, with the number of runs before and of all runs. An error
+    /// ends the measurement.
+    std::function<Result<Done>(std::uint64_t done, std::uint64_t all)> begins =
+        [](std::uint64_t /*done*/, std::uint64_t /*all*/) { return Done{}; };
+};
+
+/// Measures each effect of a scene by running the scene without it. A round runs the whole scene
+/// and then each scene that lacks an effect, over the same frames. So slow changes of the machine
+/// do not count as costs. Every other round runs them backwards.
+[[nodiscard]] Result<std::vector<EffectCost>> measure_costs(const SceneFile& file,
+                                                            std::span<const SceneModel> models,
+                                                            const CostOptions& options);
+
+}  // namespace cdprep::scenes

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "simulate/simulation.h"
+
+namespace cdprep::report {
+
+/// Returns an event of the last frame of a simulation as JSON (simulate.schema.json). It has the
+/// frame and its time, "begins", "stays" or "ends", the effect, the two objects and the reason.
+/// Unless it ends, it has what the effect found: bounds, or the length of a list.
+[[nodiscard]] nlohmann::ordered_json event_json(std::uint64_t frame, double time_s,
+                                                const SceneEvent& event,
+                                                const scenes::Simulation& simulation);
+
+}  // namespace cdprep::report
