@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/command.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -15,10 +16,13 @@
 #include "cli/report_output.h"
 #include "cli/signals.h"
 #include "command_line/command_line.h"
+#include "scene_file/effect_words.h"
 #include "scene_file/load_models.h"
 #include "scene_file/read_scene.h"
+#include "simulate/effect_costs.h"
 #include "simulate/page_output.h"
 #include "simulate/plan_report.h"
+#include "simulate/recording.h"
 #include "simulate/simulation.h"
 #include "simulate/simulation_report.h"
 #include "text/number_text.h"
@@ -36,11 +40,14 @@ struct Arguments {
     fs::path cache;
     fs::path html;
     fs::path svg;
+    fs::path record;
+    std::vector<std::string> drop;
     std::string format;  ///< empty: text for a plan, ndjson for frames
     std::string progress = "auto";
     std::optional<std::uint64_t> frames;
     std::size_t threads = 0;
     bool plan = false;
+    bool cost = false;
     ImportArguments import;
 };
 
@@ -61,13 +68,14 @@ public:
           threads_(arguments.threads) {}
 
     Exit run() {
-        scenes::SceneReading reading = scenes::read_scene(arguments_.scene);
-        if (!reading.scene) return fail_all(reading.errors, ErrorCode::unreadable);
-        scene_ = std::move(*reading.scene);
+        if (const auto failed = read()) return *failed;
         if (!scene_.has_pairs) {
             return fail("simulate", {ErrorCode::unreadable,
                                      scene_.name + ": the key 'pairs' is missing. It says what to "
                                                    "compute."});
+        }
+        if (const Result<Done> dropped = drop(); !dropped) {
+            return fail("simulate", dropped.error());
         }
         // First without models: nothing is baked for a plan that does not exist.
         Plan::Compiled compiled = scenes::compile_scene(scene_, limits());
@@ -80,12 +88,55 @@ public:
     }
 
 private:
+    /// Reads the scene file, or a recording of one. Returns the exit code if that fails.
+    std::optional<Exit> read() {
+        scenes::SceneReading reading;
+        if (scenes::Recording::is_one(arguments_.scene)) {
+            auto opened = scenes::Recording::open(arguments_.scene);
+            if (!opened) return fail("simulate", opened.error());
+            replay_.emplace(std::move(opened).value());
+            reading = scenes::parse_scene(replay_->scene_name(), replay_->scene_text(),
+                                          replay_->folder());
+            folder_ = replay_->folder();
+        } else {
+            reading = scenes::read_scene(arguments_.scene);
+            folder_ = arguments_.scene.parent_path();
+        }
+        if (!reading.scene) return fail_all(reading.errors, ErrorCode::unreadable);
+        scene_ = std::move(*reading.scene);
+        if (replay_) stop_motions();
+        return std::nullopt;
+    }
+
+    /// Poses come from the recording alone.
+    void stop_motions() {
+        for (scenes::Motion& motion : scene_.motions) {
+            if (const Result<Pose> start = motion.at(0, {})) motion = scenes::Motion::fixed(*start);
+        }
+    }
+
+    Result<Done> drop() {
+        for (const std::string& word : arguments_.drop) {
+            const Ask effect = scenes::effect_of(word);
+            const bool is_asked = std::ranges::any_of(scene_.pairs, [&](const auto& pair) {
+                return contains(pair.asked.effects, effect);
+            });
+            if (!is_asked) {
+                return Error{ErrorCode::bad_argument,
+                             scene_.name + ": --drop " + word + ": no pair of layers asks for it."};
+            }
+            scenes::drop_effect(scene_, effect);
+        }
+        return Done{};
+    }
+
     [[nodiscard]] SceneLimits limits() const {
         return {.objects = static_cast<std::uint32_t>(scene_.objects.size()),
                 .pairs = scene_.most_pairs.value_or(1)};
     }
 
     [[nodiscard]] Result<std::uint64_t> frame_count() const {
+        if (replay_) return std::min(arguments_.frames.value_or(kMostFrames), replay_->frames());
         if (arguments_.frames) return *arguments_.frames;
         const double frames = std::round(scene_.duration_s / scene_.step_s);
         if (!(frames >= 1)) return std::uint64_t{1};
@@ -145,21 +196,78 @@ private:
         auto simulation =
             scenes::Simulation::make(scene_, models_, thread_count(), threads_.parallel_for());
         if (!simulation) return fail("simulate", simulation.error());
+        if (replay_) {
+            const Result<Done> same = replay_->check_models(scene_, models_);
+            if (!same) return fail("simulate", same.error());
+        }
         report::SimulationReport report(scene_, plan, event_format());
         page_.begin(scene_, models_, frames);
         Progress progress(style_, frames);
         Result<Done> done = output_.append(report.begin());
+        if (done) done = begin_recording();
         for (std::uint64_t frame = 0; frame < frames && done; ++frame) {
             if (is_interrupted()) done = stopped(frame, frames);
             progress.show(frame, "frame");
-            if (done) done = simulation->step(frame);
+            if (done) done = compute(frame, *simulation);
             if (done) done = output_.append(report.add_frame(frame, *simulation));
+            if (done && recorder_) done = record_->append(recorder_->add_frame(frame, *simulation));
             if (done) done = page_.add_frame(frame, *simulation);
         }
+        // What was recorded before an interrupt or an error can be replayed.
+        if (const Result<Done> kept = finish_recording(); done && !kept) done = kept;
         if (done) done = page_.finish(*simulation);
+        if (done && arguments_.cost) done = measure_costs(frames, progress, report);
         progress.clear();
         if (!done) return fail("simulate", done.error());
         return finish(report.finish(*simulation));
+    }
+
+    Result<Done> compute(std::uint64_t frame, scenes::Simulation& simulation) {
+        if (!replay_) return simulation.step(frame);
+        const auto recorded = replay_->next(scene_.objects.size());
+        if (!recorded) return recorded.error();
+        if (Result<Done> done = simulation.step(frame, recorded->poses); !done) return done;
+        // Without an effect, the results are others.
+        if (!arguments_.drop.empty()) return Done{};
+        return replay_->check_state(*recorded, simulation.scene());
+    }
+
+    Result<Done> begin_recording() {
+        if (arguments_.record.empty()) return Done{};
+        Result<ReportOutput> opened = ReportOutput::open(arguments_.record);
+        if (!opened) return opened.error();
+        record_.emplace(std::move(opened).value());
+        recorder_.emplace(scene_, path_between(arguments_.record.parent_path(), folder_));
+        return record_->append(recorder_->begin(models_));
+    }
+
+    /// The way from one folder to another.
+    static fs::path path_between(const fs::path& from, const fs::path& to) {
+        const fs::path here = ".";
+        return fs::proximate(to.empty() ? here : to, from.empty() ? here : from);
+    }
+
+    Result<Done> finish_recording() {
+        if (!recorder_) return Done{};
+        Result<Done> done = record_->append(recorder_->finish());
+        return done ? record_->finish() : done;
+    }
+
+    Result<Done> measure_costs(std::uint64_t frames, Progress& progress,
+                               report::SimulationReport& report) {
+        scenes::CostOptions options;
+        options.frames = frames;
+        options.threads = thread_count();
+        options.parallel_for = threads_.parallel_for();
+        options.begins = [&](std::uint64_t run, std::uint64_t runs) -> Result<Done> {
+            if (is_interrupted()) return stopped(frames, frames);
+            progress.show(frames * run / runs, "cost");
+            return Done{};
+        };
+        auto costs = scenes::measure_costs(scene_, models_, options);
+        if (!costs) return costs.error();
+        report.set_costs(std::move(costs).value());
+        return Done{};
     }
 
     [[nodiscard]] Error stopped(std::uint64_t frame, std::uint64_t frames) const {
@@ -187,7 +295,11 @@ private:
     ProgressStyle style_;
     const Threads threads_;
     scenes::SceneFile scene_;
+    fs::path folder_;  ///< of the scene file
     std::vector<scenes::SceneModel> models_;
+    std::optional<scenes::Recording> replay_;  ///< the scene is one
+    std::optional<ReportOutput> record_;
+    std::optional<scenes::Recorder> recorder_;
 };
 
 Exit run(const Arguments& arguments) {
@@ -198,12 +310,48 @@ Exit run(const Arguments& arguments) {
                                  "--format ndjson is for events, and --plan computes none. Choose "
                                  "text or json."});
     }
+    if (arguments.cost && scenes::Recording::is_one(arguments.scene)) {
+        return fail("simulate", {ErrorCode::bad_argument,
+                                 "--cost runs a scene again and again. Give the scene file, not a "
+                                 "recording."});
+    }
+    const Result<Done> apart = check_outputs(
+        arguments.scene, {arguments.output, arguments.record, arguments.html, arguments.svg});
+    if (!apart) return fail("simulate", apart.error());
     Result<ReportOutput> output = ReportOutput::open(arguments.output);
     if (!output) return fail("simulate", output.error());
-    Result<PageOutput> page =
-        PageOutput::open(arguments.html, arguments.svg, {arguments.scene, arguments.output});
+    Result<PageOutput> page = PageOutput::open(arguments.html, arguments.svg);
     if (!page) return fail("simulate", page.error());
     return Run(arguments, *output, *page, *style).run();
+}
+
+std::vector<std::string> effect_words() {
+    std::vector<std::string> words;
+    for (const Ask effect : kSceneEffects) words.push_back(scenes::effect_name(effect));
+    return words;
+}
+
+void add_study_options(const Command& command, Arguments& arguments, const Option& plan) {
+    command
+        .add_option("--drop", arguments.drop,
+                    "Leave out an effect of all pairs of layers. May be given more than once")
+        .type_name("EFFECT")
+        .check(one_of(effect_words()))
+        .group("Simulation");
+    command
+        .add_flag("--cost", arguments.cost,
+                  "Also run the scene without each of its effects, in 5 rounds, and tell what that "
+                  "saves")
+        .excludes(plan)
+        .group("Simulation");
+    command
+        .add_option("--record", arguments.record,
+                    "Also write a recording: the scene, and the poses and events of each frame. "
+                    "`cdprep simulate FILE` replays it and compares the results. It appears also "
+                    "after an interrupt")
+        .type_name("FILE")
+        .excludes(plan)
+        .group("Report");
 }
 
 void add_page_options(const Command& command, Arguments& arguments, const Option& plan) {
@@ -252,8 +400,10 @@ void add_simulate(const Command& app, Exit& exit) {
         {"cdprep simulate samples/scenes/crates.json --plan",
          "cdprep simulate samples/scenes/crates.json --frames 100",
          "cdprep simulate samples/scenes/cut.json --format text",
-         "cdprep simulate samples/scenes/crates.json -o events.ndjson --html crates.html"});
-    command.add_option("scene", arguments->scene, "A scene file (JSON)").required();
+         "cdprep simulate samples/scenes/crates.json -o events.ndjson --html crates.html",
+         "cdprep simulate samples/scenes/crates.json --format text --cost"});
+    command.add_option("scene", arguments->scene, "A scene file (JSON), or a recording of one")
+        .required();
     const Option plan =
         command
             .add_flag("--plan", arguments->plan,
@@ -274,6 +424,7 @@ void add_simulate(const Command& app, Exit& exit) {
                     "there is none. Default: bake into memory")
         .type_name("FOLDER")
         .group("Simulation");
+    add_study_options(command, *arguments, plan);
     add_report_options(command, *arguments);
     add_page_options(command, *arguments, plan);
     add_jobs(command, arguments->threads);

@@ -35,11 +35,10 @@ Result<Done> write_file(ReportOutput& output, const std::string& text) {
 
 }  // namespace
 
-Result<PageOutput> PageOutput::open(const std::filesystem::path& html,
-                                    const std::filesystem::path& svg,
-                                    std::vector<std::filesystem::path> taken) {
-    PageOutput output;
-    for (const std::filesystem::path& path : {html, svg}) {
+Result<Done> check_outputs(const std::filesystem::path& scene,
+                           const std::vector<std::filesystem::path>& outputs) {
+    std::vector<std::filesystem::path> taken = {scene};
+    for (const std::filesystem::path& path : outputs) {
         if (path.empty()) continue;
         if (is_among(path, taken)) {
             return Error{ErrorCode::bad_argument,
@@ -49,6 +48,12 @@ Result<PageOutput> PageOutput::open(const std::filesystem::path& html,
         }
         taken.push_back(path);
     }
+    return Done{};
+}
+
+Result<PageOutput> PageOutput::open(const std::filesystem::path& html,
+                                    const std::filesystem::path& svg) {
+    PageOutput output;
     if (Result<Done> opened = open_file(output.html_, html); !opened) return opened.error();
     if (Result<Done> opened = open_file(output.svg_, svg); !opened) return opened.error();
     return output;

@@ -10,15 +10,18 @@
 
 namespace cdprep::cli {
 
+/// Fails with bad_argument if an output would replace the scene or another output. An empty path is
+/// no output.
+[[nodiscard]] Result<Done> check_outputs(const std::filesystem::path& scene,
+                                         const std::vector<std::filesystem::path>& outputs);
+
 /// The files of --html and --svg. Both appear when they are complete.
 class PageOutput {
 public:
     /// Creates the files, so that an unwritable place is reported before the work. An empty path
-    /// is no file. Fails with `unwritable`, or with bad_argument if a file has the name of another
-    /// one or of one of `taken`.
+    /// is no file. Fails with `unwritable`.
     [[nodiscard]] static Result<PageOutput> open(const std::filesystem::path& html,
-                                                 const std::filesystem::path& svg,
-                                                 std::vector<std::filesystem::path> taken);
+                                                 const std::filesystem::path& svg);
 
     /// Begins a run of `count` frames. The arguments must outlive the object.
     void begin(const scenes::SceneFile& file, std::span<const scenes::SceneModel> models,

@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""cdprep simulate: recordings are as their schema says and replay to the same bytes; a recording that
+was changed is refused; dropped effects and costs are told.
+
+Usage: recordings.py CDPREP
+"""
+import json
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import jsonschema
+
+from shared_models import must, run
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENES = ROOT / "samples/scenes"
+SCHEMA = jsonschema.Draft202012Validator(
+    json.loads((ROOT / "tools/simulate/recording.schema.json").read_text()))
+OUTPUT_SCHEMA = jsonschema.Draft202012Validator(
+    json.loads((ROOT / "tools/simulate/simulate.schema.json").read_text()))
+
+
+def simulate(program, *arguments, code=0):
+    done = run(program, "simulate", *arguments)
+    must(done.returncode == code, f"{arguments} exited {done.returncode}: {done.stderr}")
+    return done
+
+
+def summary_of(done):
+    return json.loads(done.stdout.splitlines()[-1])["summary"]
+
+
+def replays(program, folder):
+    """Of every sample scene, with 1 and 2 threads: the same bytes, events and state."""
+    for scene in sorted(SCENES.glob("*.json")):
+        first, second = folder / "first.ndjson", folder / "second.ndjson"
+        told = simulate(program, scene, "--frames", 12, "--record", first, "-j", 1)
+        again = simulate(program, first, "--record", second, "-j", 2)
+        must(first.read_bytes() == second.read_bytes(), f"{scene} replays to other bytes")
+        must(told.stdout.splitlines()[:-1] == again.stdout.splitlines()[:-1], f"{scene}: events")
+        must(summary_of(told)["state_hash"] == summary_of(again)["state_hash"], f"{scene}: state")
+        lines = [json.loads(line) for line in first.read_text().splitlines()]
+        must(len(lines) == 14 and lines[-1] == {"frames": 12}, f"{scene}: {lines[-1]}")
+        for line in lines:
+            error = jsonschema.exceptions.best_match(SCHEMA.iter_errors(line))
+            must(error is None, f"{scene}: {error and error.message}")
+
+
+def moves_along(program, folder):
+    """A recording finds its scene's models from wherever it is."""
+    place = folder / "scenes"
+    shutil.copytree(SCENES, place)
+    simulate(program, place / "crates.json", "--frames", 3, "--record", folder / "kept.ndjson")
+    moved = folder / "moved"
+    moved.mkdir()
+    shutil.move(place, moved / "scenes")
+    shutil.move(folder / "kept.ndjson", moved / "kept.ndjson")
+    simulate(program, moved / "kept.ndjson")
+    must(summary_of(simulate(program, moved / "kept.ndjson", "--frames", 2))["frames"] == 2,
+         "--frames does not shorten a replay")
+
+
+def changed_recordings(program, folder):
+    good = folder / "good.ndjson"
+    simulate(program, SCENES / "crates.json", "--frames", 4, "--record", good)
+    lines = good.read_text().splitlines()
+    first = json.loads(lines[0])
+    moved = json.loads(lines[2])
+    moved["poses"][0][12] += 1
+    far = json.loads(lines[2])
+    far["poses"][0][0] = 1000
+    skewed = json.loads(lines[2])
+    skewed["poses"][0][1] = 0.5
+    no_text = {key: value for key, value in first.items() if key != "text"}
+    other_model = dict(first, models=["0" * 16 if hash else "" for hash in first["models"]])
+    cases = [
+        ("no end", lines[:-1], "ends without a line that counts its frames"),
+        ("fewer", lines[:3] + lines[-1:], "line 4: expected frame 2"),
+        ("swapped", lines[:2] + [lines[3], lines[2]] + lines[4:], "line 3: expected frame 1"),
+        ("not json", lines[:2] + ["{"] + lines[3:], "line 3: the line is no JSON object"),
+        ("pose", lines[:2] + [json.dumps(moved)] + lines[3:], "line 3: frame 1 gives the state"),
+        ("object", lines[:2] + [json.dumps(far)] + lines[3:], "object's number below"),
+        ("rotation", lines[:2] + [json.dumps(skewed)] + lines[3:], "12 numbers of a rigid motion"),
+        ("text", [json.dumps(no_text, separators=(",", ":"))] + lines[1:], "is missing or wrong"),
+        ("version", [lines[0].replace(":1,", ":2,", 1)] + lines[1:], "no recording of version 1"),
+        ("model", [json.dumps(other_model, separators=(",", ":"))] + lines[1:], "Record the scene"),
+    ]
+    for name, changed, words in cases:
+        path = folder / f"{name}.ndjson"
+        path.write_text("".join(line + "\n" for line in changed))
+        done = simulate(program, path, code=3)
+        must(words in done.stderr and path.name in done.stderr, f"{name}: {done.stderr}")
+
+
+def dropped_effects(program, folder):
+    scene = SCENES / "assembly.json"
+    whole = summary_of(simulate(program, scene))
+    less = summary_of(simulate(program, scene, "--drop", "distance"))
+    must("distance" in less["not_computed"] and "distance" not in whole["not_computed"], f"{less}")
+    kept = {effect["name"]: effect["begins"] for effect in less["effects"]}
+    for effect in whole["effects"]:
+        must(effect["name"] == "distance" or kept[effect["name"]] == effect["begins"], f"{less}")
+    wrong = simulate(program, scene, "--drop", "contacts", code=2)
+    must("--drop contacts: no pair of layers asks for it." in wrong.stderr, wrong.stderr)
+    recording = folder / "assembly.ndjson"
+    simulate(program, scene, "--record", recording)
+    simulate(program, recording, "--drop", "distance")
+
+
+def costs(program, folder):
+    scene = SCENES / "thousand.json"
+    done = simulate(program, scene, "--frames", 20, "--cost", "-j", 1)
+    summary = summary_of(done)
+    error = jsonschema.exceptions.best_match(OUTPUT_SCHEMA.iter_errors({"summary": summary}))
+    must(error is None, f"{error and error.message}")
+    must([cost["without"] for cost in summary["costs"]] ==
+         [effect["name"] for effect in summary["effects"]], f"{summary['costs']}")
+    for effect in summary["effects"]:
+        must(effect["asked_by"] and effect["frame_ms"] >= 0, f"{effect}")
+    text = simulate(program, scene, "--frames", 5, "--cost", "--format", "text").stdout
+    must("asked by" in text and "all frames take" in text and "boxes and broad phase" in text, text)
+    recording = folder / "thousand.ndjson"
+    simulate(program, scene, "--frames", 2, "--record", recording)
+    wrong = simulate(program, recording, "--cost", code=2)
+    must("--cost runs a scene again" in wrong.stderr, wrong.stderr)
+
+
+def names(program, folder):
+    scene = folder / "crates.json"
+    for path in SCENES.iterdir():
+        if path.is_file():
+            shutil.copy(path, folder)
+    before = scene.read_bytes()
+    for arguments in (["--record", scene], ["-o", scene], ["-o", folder / "x", "--record",
+                                                           folder / "a/../x"]):
+        wrong = simulate(program, scene, *arguments, code=2)
+        must("is the scene or another output" in wrong.stderr, wrong.stderr)
+    must(scene.read_bytes() == before, "the scene was replaced")
+
+
+def an_interrupt(program, folder):
+    """What was recorded before it can be replayed."""
+    recording = folder / "interrupted.ndjson"
+    running = subprocess.Popen([program, "simulate", SCENES / "crates.json", "--frames",
+                                "100000000", "--record", recording], stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE, text=True)
+    time.sleep(1)
+    running.send_signal(signal.SIGINT)
+    _, told = running.communicate(timeout=20)
+    must(running.returncode == 130, f"interrupted, it exited {running.returncode}: {told}")
+    frames = json.loads(recording.read_text().splitlines()[-1])["frames"]
+    must(frames > 0, f"{frames} frames were recorded")
+    replayed = summary_of(simulate(program, recording, "--frames", min(frames, 50)))
+    must(replayed["frames"] == min(frames, 50), f"{replayed}")
+
+
+def main():
+    program = sys.argv[1]
+    for check in (replays, moves_along, changed_recordings, dropped_effects, costs, names,
+                  an_interrupt):
+        with tempfile.TemporaryDirectory() as scratch:
+            check(program, pathlib.Path(scratch))
+
+
+if __name__ == "__main__":
+    main()
