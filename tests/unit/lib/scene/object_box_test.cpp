@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <random>
 
+#include "cdprep/motion.h"
 #include "cdprep/pairs.h"
+#include "scene/object_box.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
@@ -56,6 +59,47 @@ TEST(ObjectBox, BoxesOfModelsThatAreNearMeet) {
     EXPECT_GT(near, 600);
     EXPECT_GT(apart, 200);
     EXPECT_GT(apart_by_turned, 100);
+}
+
+bool holds(const WorldBox& box, const Double3& point, const Double3& origin) {
+    const std::array<double, 3> p = {point.x - origin.x, point.y - origin.y, point.z - origin.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (p[axis] < box.lower[axis] || p[axis] > box.upper[axis]) return false;
+    }
+    return true;
+}
+
+// The swept box is around all vertices at all times. By chance, the box of one end is not.
+TEST(ObjectBox, AroundAWayHoldsTheModelAtAllTimes) {
+    const test::TestMesh cube = test::moved_by(test::unit_cube(), 1, {3, -2, 1});
+    const test::OpenModel model = test::open_tiny(cube);
+    std::mt19937 random(11);
+    int outside = 0;
+    for (int round = 0; round < 400; ++round) {
+        const double far = round % 3 == 0 ? 1e7 : 0;
+        const Double3 origin = {far, 0, -far};
+        const double reach = round % 2 == 0 ? 0 : 0.25;
+        const Pose start = shifted(test::random_pose(random, 2), {far, 0, -far});
+        const Pose end = shifted(test::random_pose(random, 2), {far, 0, -far});
+        const Motion motion = Motion::between(start, end, middle_of(model.model)).value();
+        const RootBox from = root_box(model.model, start, reach);
+        const RootBox to = root_box(model.model, end, reach);
+        const WorldBox swept = world_box(swept_box(from, to), origin);
+        const WorldBox of_end = world_box(to, origin);
+        for (const double time : {0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0}) {
+            const Pose at = motion.at(time);
+            for (const Double3& vertex : cube.positions) {
+                const Double3 p = transform_point(at, vertex);
+                for (const double side : {-reach, reach}) {
+                    ASSERT_TRUE(holds(swept, {p.x + side, p.y, p.z}, origin)) << round;
+                    ASSERT_TRUE(holds(swept, {p.x, p.y + side, p.z}, origin)) << round;
+                    ASSERT_TRUE(holds(swept, {p.x, p.y, p.z + side}, origin)) << round;
+                }
+                outside += holds(of_end, p, origin) ? 0 : 1;
+            }
+        }
+    }
+    EXPECT_GT(outside, 1000);
 }
 
 TEST(ObjectBoxDeathTest, AReachThatIsNoLengthEndsTheProgram) {

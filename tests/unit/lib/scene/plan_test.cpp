@@ -200,6 +200,9 @@ TEST(Plan, DescribesMotionsChangesAndSingleObjects) {
     EXPECT_EQ(plan.layers_of(Ask::deform | Ask::tear), 3U);
     EXPECT_EQ(plan.layers_of(Ask::self), 1U);
     EXPECT_EQ(plan.reach_of(2), 2);
+    EXPECT_EQ(
+        compiled({{.effects = Ask::continuous, .impact = {.tolerance = 0.5}}}).plan->reach_of(0),
+        0.25);
     // A pair that asks for nothing of two objects: not even their boxes are looked at.
     EXPECT_FALSE(plan.filter_of(0).allows(plan.filter_of(0)));
     EXPECT_TRUE(plan.filter_of(0).allows(plan.filter_of(1)));
