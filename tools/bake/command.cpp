@@ -248,8 +248,8 @@ void add_bake(const Command& app, Exit& exit) {
         .add_option("--bounds", arguments->bounds,
                     "Bounding volumes to store in addition to axis-aligned boxes. aabb: none. obb: "
                     "oriented boxes. pss, lss, rss: spheres swept over a point, a line, a "
-                    "rectangle. auto: obb+rss with any of the effects distance, within and "
-                    "contacts; else obb")
+                    "rectangle. auto: obb+rss with any of the effects distance, within, "
+                    "contacts, continuous and haptic; else obb")
         .type_name("BOUNDS")
         .check(one_of({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
         .show_default()

@@ -80,7 +80,8 @@ Result<Effects> parse_effects(const std::string& list) {
 build::BvhBounds bounds_for(const Effects& effects) {
     const bool measures =
         std::any_of(effects.names.begin(), effects.names.end(), [](const std::string& name) {
-            return name == "distance" || name == "within" || name == "contacts";
+            return name == "distance" || name == "within" || name == "contacts" ||
+                   name == "continuous" || name == "haptic";
         });
     return measures ? build::BvhBounds::oriented_and_swept : build::BvhBounds::oriented;
 }

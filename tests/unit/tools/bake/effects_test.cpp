@@ -28,8 +28,9 @@ TEST(ParseEffects, EachNameIsKeptOnceAndSorted) {
 TEST(ParseEffects, AllStandsForEveryEffectAndNoStructure) {
     const Effects effects = parse_effects("all").value();
     EXPECT_EQ(effects.names,
-              (Names{"closest", "collide", "contacts", "corners", "distance", "inaccessible",
-                     "inside", "overlap", "pieces", "ray", "response", "touch", "within"}));
+              (Names{"closest", "collide", "contacts", "continuous", "corners", "deform",
+                     "distance", "haptic", "inaccessible", "inside", "overlap", "pieces", "ray",
+                     "response", "self", "tear", "touch", "within"}));
     for (const SectionId id : {SectionId::octree_grid, SectionId::tetra_tree, SectionId::hulls}) {
         EXPECT_FALSE(effects.sections.contains(id)) << static_cast<int>(id);
     }
@@ -56,6 +57,17 @@ TEST(ParseEffects, TheSectionsOfEachEffectServeIt) {
         EXPECT_TRUE(contains(served_by(effects.sections, false), effects.asks)) << name;
     }
     EXPECT_GT(asked, 8);
+}
+
+// Queries that measure need bounds that measure well.
+TEST(BoundsFor, MeasuringEffectsGetSweptSpheres) {
+    for (const char* list : {"distance", "within", "contacts", "continuous", "haptic,ray"}) {
+        EXPECT_EQ(bounds_for(parse_effects(list).value()), build::BvhBounds::oriented_and_swept)
+            << list;
+    }
+    for (const char* list : {"collide,overlap", "self", "deform,tear", "ray"}) {
+        EXPECT_EQ(bounds_for(parse_effects(list).value()), build::BvhBounds::oriented) << list;
+    }
 }
 
 }  // namespace
