@@ -112,7 +112,9 @@ public:
         cached.cache = &record.cache;
         record.found = bounded_distance(cached, workspace_, {.max_distance = asks_.max_distance},
                                         {.work = asks_.work, .last = &record.last});
-        hold(Ask::haptic, record.found.lower <= asks_.max_distance);
+        // A complete search that found nothing has proved that all is farther than max_distance.
+        hold(Ask::haptic, record.found.is_complete ? record.found.nearest.has_value()
+                                                   : record.found.lower <= asks_.max_distance);
     }
 
 private:

@@ -368,6 +368,7 @@ private:
         }
         EXPECT_LE(found->distance.lower, asks.max_distance);
         if (found->distance.is_complete) {
+            EXPECT_TRUE(near) << "all is proven to be farther";
             test::expect_same(found->distance.nearest, near);
             EXPECT_EQ(found->last.late, 0U);
         } else {
