@@ -2,6 +2,8 @@
 // Self, continuous and haptic in scenes of the C API, beside those of C++.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -170,6 +172,99 @@ TEST(CSceneEffects, EqualThoseOfCpp) {
     }
     EXPECT_GT(scenes.impacts, 20U);
     EXPECT_GT(scenes.bounded, 5U);
+}
+
+/// A sheet in the plane z = 0 that can tear.
+class CSheet {
+public:
+    CSheet() {
+        cdprep_live_options options;
+        cdprep_live_options_init(&options, sizeof options);
+        options.model = base_.get();
+        options.max_triangles = static_cast<std::uint32_t>(mesh_.triangles.size());
+        options.max_vertices = static_cast<std::uint32_t>(mesh_.positions.size());
+        EXPECT_EQ(cdprep_live_make(&options, nullptr, 0, &live_, nullptr), CDPREP_OK);
+    }
+    CSheet(const CSheet&) = delete;
+    CSheet& operator=(const CSheet&) = delete;
+    ~CSheet() {
+        cdprep_live_end(live_);
+    }
+    [[nodiscard]] const cdprep_model* model() const {
+        return cdprep_live_model(live_);
+    }
+    /// Brings the vertices with x > 2 to the other side of that line, and all to a height.
+    void fold(bool is_folded, double z, cdprep_workspace* workspace) {
+        std::vector<Double3> positions = mesh_.positions;
+        for (Double3& p : positions) p = {is_folded && p.x > 2 ? 4 - p.x : p.x, p.y, z};
+        cdprep_live_move moved;
+        cdprep_live_move_init(&moved, sizeof moved);
+        moved.positions = &positions[0].x;
+        moved.count = positions.size();
+        ASSERT_EQ(cdprep_live_refit(live_, &moved, workspace, nullptr), CDPREP_OK);
+    }
+    void remove_all() {
+        std::vector<std::uint32_t> numbers(mesh_.triangles.size());
+        for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
+        ASSERT_EQ(cdprep_live_remove(live_, numbers.data(), numbers.size(), nullptr), CDPREP_OK);
+    }
+
+private:
+    TestMesh mesh_ = grid_sheet(4, 4);
+    AlignedBytes file_ = bake_tiny(mesh_.positions, mesh_.triangles, {.double_precision = true});
+    CModel base_{file_};
+    cdprep_live* live_ = nullptr;
+};
+
+// By hand: a ball of radius 1 about (2, 2, 3), and a sheet that changes without a call.
+TEST(CSceneEffects, AChangeOfALiveModelIsFoundWithoutACall) {
+    CSheet sheet;
+    const AlignedBytes file = bake_tiny(icosphere(2).positions, icosphere(2).triangles);
+    const CModel ball(file);
+    const CWorkspace workspace;
+    cdprep_layer_pair pair;
+    cdprep_layer_pair_init(&pair, sizeof pair);
+    pair.effects = CDPREP_ASK_COLLIDE | CDPREP_ASK_SELF | CDPREP_ASK_TEAR;
+    cdprep_plan_options options;
+    cdprep_plan_options_init(&options, sizeof options);
+    options.layer_pairs = &pair;
+    options.layer_pair_count = 1;
+    options.max_objects = 2;
+    options.max_pairs = 3;
+    options.max_triangle_pairs = 5000;
+    cdprep_plan* plan = nullptr;
+    ASSERT_EQ(cdprep_plan_compile(&options, nullptr, nullptr, &plan, nullptr), CDPREP_OK);
+    cdprep_scene* scene = nullptr;
+    ASSERT_EQ(cdprep_scene_make(plan, nullptr, 0, &scene, nullptr), CDPREP_OK);
+    cdprep_plan_end(plan);
+    std::array<cdprep_object_options, 2> objects;
+    for (cdprep_object_options& one : objects) cdprep_object_options_init(&one, sizeof one);
+    objects[0].model = sheet.model();
+    objects[1].model = ball.get();
+    objects[1].world_from_model = rows_of(Pose::from_quaternion(1, 0, 0, 0, {2, 2, 3}).value());
+    std::array<cdprep_object, 2> ids;
+    ASSERT_EQ(cdprep_scene_add(scene, objects.data(), 2, ids.data(), nullptr), CDPREP_OK);
+    const auto holds = [&] {
+        cdprep_step step;
+        EXPECT_EQ(cdprep_scene_step(scene, workspace.get(), &step, nullptr), CDPREP_OK);
+        EXPECT_EQ(step.complete, std::uint32_t{CDPREP_YES});
+        const cdprep_scene_hit* hits = nullptr;
+        std::size_t count = 0;
+        EXPECT_EQ(cdprep_scene_hits(scene, &hits, &count, nullptr), CDPREP_OK);
+        std::uint32_t all = 0;
+        for (std::size_t i = 0; i < count; ++i) all |= hits[i].holds;
+        return all;
+    };
+    EXPECT_EQ(holds(), 0U);
+    sheet.fold(false, 2.5, workspace.get());
+    EXPECT_EQ(holds(), std::uint32_t{CDPREP_ASK_COLLIDE});
+    sheet.fold(true, 2.5, workspace.get());
+    EXPECT_EQ(holds(), std::uint32_t{CDPREP_ASK_COLLIDE | CDPREP_ASK_SELF});
+    sheet.fold(true, 0, workspace.get());
+    EXPECT_EQ(holds(), std::uint32_t{CDPREP_ASK_SELF});
+    sheet.remove_all();
+    EXPECT_EQ(holds(), 0U);
+    cdprep_scene_end(scene);
 }
 
 TEST(CSceneEffects, RefusesOptionsThatNothingReads) {
