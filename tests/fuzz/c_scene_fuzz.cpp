@@ -24,11 +24,17 @@ using namespace cdprep::test;  // NOLINT(google-build-using-namespace): a progra
 constexpr std::uint32_t kMostObjects = 7;
 constexpr std::uint32_t kLayersUsed = 3;
 constexpr std::uint32_t kSceneAsks = CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP | CDPREP_ASK_WITHIN |
-                                     CDPREP_ASK_DISTANCE | CDPREP_ASK_CONTACTS;
+                                     CDPREP_ASK_DISTANCE | CDPREP_ASK_CONTACTS |
+                                     CDPREP_ASK_CONTINUOUS | CDPREP_ASK_SELF | CDPREP_ASK_DEFORM |
+                                     CDPREP_ASK_TEAR | CDPREP_ASK_HAPTIC;
 constexpr std::size_t kRoom = 1 << 16;
 /// Of the lengths in poses, but 0. Where others are valid, exact arithmetic decides each pair of
 /// triangles, because objects are tiny beside their places or almost the same: that takes seconds.
 constexpr double kLeast = 1e-6, kMost = 1000;
+
+std::uint32_t draw_effects(Draw& draw) {
+    return (draw.byte() | draw.below(8) << 8) & kSceneAsks;
+}
 
 /// The options of a plan, and what they point to.
 class PlanInput {
@@ -76,15 +82,27 @@ private:
             {{0, 1}, {2, 1}, {0, 0}, {1, 1}, {2, 2}}};
         pair.a = kLayers[number][0];
         pair.b = kLayers[number][1];
-        pair.effects = draw.byte() & kSceneAsks;
+        pair.effects = draw_effects(draw);
         const auto asks = [&](std::uint32_t some) { return (pair.effects & some) != 0; };
+        if (pair.a != pair.b) pair.effects &= ~std::uint32_t{CDPREP_ASK_SELF};
+        if (asks(CDPREP_ASK_HAPTIC)) pair.effects &= ~std::uint32_t{CDPREP_ASK_DISTANCE};
+        if (asks(CDPREP_ASK_DEFORM | CDPREP_ASK_TEAR)) {
+            pair.effects &= ~std::uint32_t{CDPREP_ASK_CONTACTS | CDPREP_ASK_CONTINUOUS};
+        }
         pair.lists_stays = draw.below(2);
-        if (asks(CDPREP_ASK_COLLIDE | CDPREP_ASK_DISTANCE | CDPREP_ASK_CONTACTS)) {
+        if (asks(CDPREP_ASK_COLLIDE | CDPREP_ASK_DISTANCE | CDPREP_ASK_CONTACTS |
+                 CDPREP_ASK_CONTINUOUS) &&
+            !asks(CDPREP_ASK_HAPTIC)) {
             pair.body = draw.below(2);
         }
         if (asks(CDPREP_ASK_COLLIDE | CDPREP_ASK_OVERLAP)) pair.overlap = draw.below(2);
         if (asks(CDPREP_ASK_WITHIN)) pair.tolerance = draw.byte() / 128.0;
-        if (asks(CDPREP_ASK_DISTANCE)) pair.max_distance = draw.byte() / 64.0;
+        if (asks(CDPREP_ASK_DISTANCE | CDPREP_ASK_HAPTIC)) pair.max_distance = draw.byte() / 64.0;
+        if (asks(CDPREP_ASK_HAPTIC)) pair.work = 1 + 16 * draw.byte();
+        if (asks(CDPREP_ASK_CONTINUOUS)) {
+            pair.impact_tolerance = (1 + draw.byte()) / 256.0;
+            pair.impact_steps = 1 + draw.below(40);
+        }
         if (!asks(CDPREP_ASK_CONTACTS) || draw.one_in(3)) return;
         cdprep_contact_options& contacts = contacts_[number];
         cdprep_contact_options_init(&contacts, sizeof contacts);
@@ -99,6 +117,9 @@ private:
         if (draw.one_in(3)) (&pair.a)[draw.below(6)] = draw.word();
         if (draw.one_in(3)) pair.tolerance = draw.number();
         if (draw.one_in(3)) pair.max_distance = draw.number();
+        if (draw.one_in(3)) pair.impact_tolerance = draw.number();
+        if (draw.one_in(3)) pair.impact_steps = draw.word();
+        if (draw.one_in(3)) pair.work = draw.word();
         if (draw.one_in(8)) pair.head.tag = draw.word();
         if (!draw.one_in(3)) return;
         contacts_[0].tolerance = draw.number();
@@ -199,8 +220,10 @@ public:
                 set_layer();
                 break;
             case 5:
+                set_poses(cdprep_scene_put);
+                break;
             case 6:
-                set_poses();
+                set_poses(cdprep_scene_set_poses);
                 break;
             case 7:
                 pause();
@@ -311,13 +334,15 @@ private:
         // Layers that nothing asks for serve as well.
         objects_[id.slot].layer = layer;
     }
-    void set_poses() {
+    using SetPoses = int (*)(cdprep_scene*, const cdprep_object*, const cdprep_pose*, std::size_t,
+                             cdprep_error*);
+    void set_poses(SetPoses function) {
         const std::array<cdprep_object, 2> ids = {any_id(), any_id()};
         std::array<cdprep_pose, 2> poses = {
             {{{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}}, {{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}}}};
         for (cdprep_pose& pose : poses) draw_place(pose);
         const std::uint32_t count = draw_.below(3);
-        const int code = cdprep_scene_set_poses(scene_, ids.data(), poses.data(), count, &error_);
+        const int code = function(scene_, ids.data(), poses.data(), count, &error_);
         if (!is_answered(code, error_)) return;
         for (std::uint32_t i = 0; i < count; ++i) {
             MUST(exists(ids[i]));
@@ -325,7 +350,7 @@ private:
         }
     }
     void pause() {
-        const std::uint32_t effects = draw_.one_in(4) ? draw_.word() : draw_.byte() & kSceneAsks;
+        const std::uint32_t effects = draw_.one_in(4) ? draw_.word() : draw_effects(draw_);
         if (is_answered(cdprep_scene_set_paused(scene_, effects, &error_), error_)) {
             paused_ = effects;
         }
@@ -399,6 +424,9 @@ private:
         std::span<const cdprep_scene_overlap> overlaps;
         std::span<const cdprep_scene_distance> distances;
         std::span<const cdprep_scene_contact> contacts;
+        std::span<const cdprep_scene_self_overlap> own;
+        std::span<const cdprep_scene_impact> impacts;
+        std::span<const cdprep_scene_bounded> bounded;
     };
     template <class T>
     std::span<const T> read(int (*function)(const cdprep_scene*, const T**, std::size_t*,
@@ -429,7 +457,9 @@ private:
         const std::span<const cdprep_event> events = read(cdprep_scene_events);
         MUST(events.size() == expected);
         for (const cdprep_event& event : events) {
-            MUST(event.reason <= CDPREP_REASON_UNCHANGED && event.a.slot < event.b.slot);
+            MUST(event.reason <= CDPREP_REASON_UNCHANGED);
+            const bool is_of_one = event.effect == CDPREP_ASK_SELF;
+            MUST(is_of_one ? event.a.slot == event.b.slot : event.a.slot < event.b.slot);
             const Key key = {event.a.slot, event.a.generation, event.b.slot, event.b.generation,
                              event.layer_pair};
             const bool held = (effects_of(holding_, key) & event.effect) != 0;
@@ -443,13 +473,20 @@ private:
         holding_ = now;
     }
     void compare() {
-        Streams streams = {read(cdprep_scene_hits), read(cdprep_scene_overlaps),
-                           read(cdprep_scene_distances), read(cdprep_scene_contacts)};
+        Streams streams = {read(cdprep_scene_hits),
+                           read(cdprep_scene_overlaps),
+                           read(cdprep_scene_distances),
+                           read(cdprep_scene_contacts),
+                           read(cdprep_scene_self_overlaps),
+                           read(cdprep_scene_impacts),
+                           read(cdprep_scene_bounded_distances)};
         for (auto a = objects_.begin(); a != objects_.end(); ++a) {
+            compare_self(*a, streams);
             for (auto b = std::next(a); b != objects_.end(); ++b) compare_pair(*a, *b, streams);
         }
         MUST(streams.hits.empty() && streams.overlaps.empty() && streams.distances.empty() &&
              streams.contacts.empty());
+        MUST(streams.own.empty() && streams.impacts.empty() && streams.bounded.empty());
     }
 
     /// Two objects and their pair of layers.
@@ -470,6 +507,29 @@ private:
             }
         }
         return nullptr;
+    }
+    void compare_self(const Entry& object, Streams& streams) {
+        std::uint32_t number = 0;
+        const std::uint32_t layer = object.second.layer;
+        const cdprep_layer_pair* const asks = pair_of(layer, layer, number);
+        if (asks == nullptr || (asks->effects & ~paused_ & CDPREP_ASK_SELF) == 0) return;
+        static std::vector<cdprep_overlap> room(kRoom);
+        cdprep_overlap_list list = {room.data(), kRoom, 0};
+        cdprep_self_query query;
+        cdprep_self_query_init(&query, sizeof query);
+        query.model = object.second.model;
+        MUST(cdprep_self_overlaps(&query, lanes_.get(), &list, nullptr) == CDPREP_OK);
+        if (list.count == 0) return;
+        const cdprep_object id = {object.first, object.second.generation};
+        MUST(!streams.own.empty() && std::memcmp(&streams.own[0].id, &id, sizeof id) == 0);
+        const cdprep_scene_self_overlap& found = streams.own[0];
+        MUST(found.count == list.count && found.layer_pair == number);
+        for (std::size_t i = 0; i < list.count; ++i) {
+            MUST(found.items[i].a == room[i].a && found.items[i].b == room[i].b);
+        }
+        streams.own = streams.own.subspan(1);
+        const cdprep_scene_hit* const hit = take(streams.hits, id, id);
+        MUST(hit != nullptr && hit->holds == CDPREP_ASK_SELF && hit->layer_pair == number);
     }
     void compare_pair(const Entry& a, const Entry& b, Streams& streams) {
         std::uint32_t number = 0;
@@ -509,6 +569,12 @@ private:
         if ((effects & CDPREP_ASK_CONTACTS) != 0) {
             holds |= compare_contacts(pair, *asks, take(streams.contacts, id_a, id_b));
         }
+        if ((effects & CDPREP_ASK_CONTINUOUS) != 0) {
+            holds |= compare_impact(pair, take(streams.impacts, id_a, id_b));
+        }
+        if ((effects & CDPREP_ASK_HAPTIC) != 0) {
+            holds |= compare_bounded(pair, *asks, take(streams.bounded, id_a, id_b));
+        }
         const cdprep_scene_hit* const hit = take(streams.hits, id_a, id_b);
         MUST((hit != nullptr) == (holds != 0 || collision.hit == CDPREP_UNKNOWN));
         if (hit == nullptr) return;
@@ -542,6 +608,42 @@ private:
         MUST(found->nearest.lower == nearest.lower && found->nearest.upper == nearest.upper);
         MUST(is_finite(found->nearest));
         return CDPREP_ASK_DISTANCE;
+    }
+    /// What touches at the end of its way has touched. The way itself is not known here.
+    std::uint32_t compare_impact(const cdprep_pair& pair, const cdprep_scene_impact* found) {
+        if (found == nullptr) {
+            cdprep_collision collision{};
+            MUST(cdprep_collide(&pair, lanes_.get(), &collision, nullptr) == CDPREP_OK);
+            MUST(collision.hit == CDPREP_NO);
+            return 0;
+        }
+        const cdprep_impact& impact = found->impact;
+        MUST(impact.kind >= CDPREP_IMPACT_TOUCHING && impact.kind <= CDPREP_IMPACT_UNFINISHED);
+        MUST(impact.lower >= 0 && impact.lower <= 1 && impact.upper >= impact.lower);
+        if (impact.kind == CDPREP_IMPACT_TOUCHING) MUST(impact.upper <= 1);
+        return CDPREP_ASK_CONTINUOUS;
+    }
+    std::uint32_t compare_bounded(const cdprep_pair& pair, const cdprep_layer_pair& asks,
+                                  const cdprep_scene_bounded* found) {
+        cdprep_distance_options options;
+        cdprep_distance_options_init(&options, sizeof options);
+        options.max_distance = asks.max_distance;
+        cdprep_nearest nearest{};
+        MUST(cdprep_distance(&pair, &options, lanes_.get(), &nearest, nullptr) == CDPREP_OK);
+        if (found == nullptr) {
+            MUST(nearest.found == CDPREP_NO);
+            return 0;
+        }
+        MUST(found->bounded.lower <= asks.max_distance);
+        if (nearest.found == CDPREP_YES) MUST(found->bounded.lower <= nearest.upper);
+        if (found->bounded.complete == CDPREP_YES) {
+            MUST(found->has_last == CDPREP_YES && found->late == 0);
+            MUST(nearest.found == CDPREP_YES && found->bounded.nearest.lower == nearest.lower &&
+                 found->bounded.nearest.upper == nearest.upper);
+        } else {
+            MUST(found->late > 0);
+        }
+        return CDPREP_ASK_HAPTIC;
     }
     std::uint32_t compare_contacts(cdprep_pair pair, const cdprep_layer_pair& asks,
                                    const cdprep_scene_contact* found) {
