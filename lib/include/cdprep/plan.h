@@ -35,7 +35,8 @@ inline constexpr Ask kSceneChanges = Ask::deform | Ask::tear;
 /// `self` is about each object of one layer, and its own surface: a and b are that layer.
 /// `continuous` tells when two objects touch on the way from their last poses to the present ones.
 /// `haptic` is a distance within a limit of work. Contacts, and `continuous`, are refused together
-/// with Ask::deform and Ask::tear: pieces and motions do not follow a surface that changes.
+/// with Ask::deform and Ask::tear: pieces and motions do not follow a surface that changes. If only
+/// another pair of layers says that a model changes, `continuous` moves its present shape.
 struct LayerPair {
     std::uint32_t a = 0;  ///< a layer, below kLayers
     std::uint32_t b = 0;

@@ -88,7 +88,9 @@ struct SceneBoundedDistance {
     ObjectId b;
     std::uint32_t pair;
     BoundedDistance distance;
-    LastDistance last;  ///< the last complete answer; the same one, if this one is complete
+    /// The last complete answer; the same one, if this one is complete. If a model has changed
+    /// since then, it is about the old shape.
+    LastDistance last;
 };
 
 /// The contacts of two objects, in the world. Normals point from the object with the lower slot to
@@ -199,9 +201,9 @@ public:
     /// Removes an object. The next step ends its events. Returns false if there is none with this
     /// id.
     bool remove(ObjectId object) noexcept;
-    /// Moves an object. Returns false if there is none with this id. For `continuous`, it moves
-    /// from its pose in the last step to this one, as Motion::between() does. The centre is that of
-    /// the model's box.
+    /// Moves an object. Returns false if there is none with this id. For `continuous`, its way
+    /// begins at its pose in the last complete step. After put(), it begins where put() left it.
+    /// It moves as Motion::between() says. The centre is that of the model's box.
     bool set_pose(ObjectId object, const Pose& world_from_model) noexcept;
     /// Puts an object at a pose, without a way for `continuous`. Returns false if there is none
     /// with this id.

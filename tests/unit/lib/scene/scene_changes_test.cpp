@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Random scenes of rigid and of live models, with all effects that need a shape that changes, a
-// motion or a limit of work. The oracles are single queries and brute force.
+// Random scenes of rigid and of live models that move, change, and have limits of work. The oracles
+// are single queries and brute force.
 #include <gtest/gtest.h>
 
 #include <algorithm>
