@@ -191,7 +191,8 @@ def check_panels(browser, page, events):
                         ".getBoundingClientRect(); return [r.x, r.y, r.width, r.height]; })()")
     browser.click(box[0] + box[2] / 2, box[1] + box[3] / 2)
     must(browser.value("run.objects[state.chosen][0]") == "tumbling", "a click in the picture")
-    must(text_of(browser, "not-computed").startswith("Not computed: overlap, distance, contacts."),
+    must(text_of(browser, "not-computed").startswith("Not computed: overlap, distance, contacts, "
+                                                   "continuous, self, haptic."),
          text_of(browser, "not-computed"))
     browser.value("document.getElementById('tab-plan').click()")
     plan = text_of(browser, "panel-plan")
@@ -325,7 +326,7 @@ def check_colours(browser, page):
         for inks, grounds, least in (
                 (("--ink", "--muted", "--accent"), ("--paper", "--panel"), 4.5),
                 ([f"--effect-{name}" for name in ("collide", "overlap", "within", "distance",
-                                                  "contacts")],
+                                                  "contacts", "continuous", "self", "haptic")],
                  ("--scene", "--paper", "--panel", "--casing"), 3)):
             for ink in inks:
                 for ground in grounds:

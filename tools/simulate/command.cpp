@@ -315,8 +315,9 @@ Exit run(const Arguments& arguments) {
                                  "--cost runs a scene again and again. Give the scene file, not a "
                                  "recording."});
     }
+    const fs::path output_file = arguments.output == "-" ? fs::path() : arguments.output;
     const Result<Done> apart = check_outputs(
-        arguments.scene, {arguments.output, arguments.record, arguments.html, arguments.svg});
+        arguments.scene, {output_file, arguments.record, arguments.html, arguments.svg});
     if (!apart) return fail("simulate", apart.error());
     Result<ReportOutput> output = ReportOutput::open(arguments.output);
     if (!output) return fail("simulate", output.error());

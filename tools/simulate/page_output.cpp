@@ -40,6 +40,11 @@ Result<Done> check_outputs(const std::filesystem::path& scene,
     std::vector<std::filesystem::path> taken = {scene};
     for (const std::filesystem::path& path : outputs) {
         if (path.empty()) continue;
+        if (path == "-") {
+            return Error{ErrorCode::bad_argument,
+                         "An output is named '-'. The report alone goes to standard output, "
+                         "without -o. Choose a file."};
+        }
         if (is_among(path, taken)) {
             return Error{ErrorCode::bad_argument,
                          path.string() +

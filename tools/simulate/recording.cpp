@@ -175,6 +175,9 @@ Result<Done> Recording::read_last() {
                      file_.name() + ": the recording ends without a line that counts its frames."};
     }
     frames_ = frames->get<std::uint64_t>();
+    if (frames_ == 0) {
+        return Error{ErrorCode::unreadable, file_.name() + ": the recording has no frame."};
+    }
     return Done{};
 }
 

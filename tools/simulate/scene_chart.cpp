@@ -20,6 +20,8 @@ constexpr double kRight = kSceneChartWidth - 20;
 constexpr double kTop = 40;
 constexpr double kBottom = kSceneChartHeight - 48;
 constexpr double kKeyWidth = 120;
+constexpr double kKeyHeight = 17;
+constexpr std::size_t kKeyColumns = 6;
 constexpr int kTicks = 6;
 
 /// Returns the mean seconds of the stages before one, and of it, in a frame of a span.
@@ -118,20 +120,23 @@ private:
 
     [[nodiscard]] std::string key() const {
         std::string text;
-        double x = kLeft;
-        for (std::size_t i = 0; i < timeline_.stages().size(); ++i, x += kKeyWidth) {
-            text += "<rect x=\"" + units(x) +
-                    "\" y=\"14\" width=\"12\" height=\"12\" class=\"stage s" +
+        for (std::size_t i = 0; i < timeline_.stages().size(); ++i) {
+            const double x = kLeft + kKeyWidth * static_cast<double>(i % kKeyColumns);
+            const double y = 2 + kKeyHeight * static_cast<double>(i / kKeyColumns);
+            text += "<rect x=\"" + units(x) + "\" y=\"" + units(y) +
+                    "\" width=\"12\" height=\"12\" class=\"stage s" +
                     std::to_string(i % kColours.size()) + "\"/>\n" +
-                    words(x + 18, 24, "start", "tick", timeline_.stages()[i]);
+                    words(x + 18, y + 10, "start", "tick", timeline_.stages()[i]);
         }
         return text;
     }
 
 public:
-    // The colours of Okabe and Ito are distinguishable with any colour vision.
-    static constexpr std::array<const char*, 7> kColours = {
-        "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#555555"};
+    // The colours of Okabe and Ito are distinguishable with any colour vision. A plan with more
+    // than four effects takes others, too.
+    static constexpr std::array<const char*, 11> kColours = {
+        "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9",
+        "#555555", "#f0e442", "#8f5bb5", "#a6761d", "#1b1b1b"};
 
 private:
     const SceneTimeline& timeline_;

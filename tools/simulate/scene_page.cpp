@@ -272,6 +272,14 @@ public:
             " are not listed. The lanes count them.");
     }
 
+    void add_changes(const scenes::SceneFile& file,
+                     std::span<const scenes::ChangingObjects> changing) {
+        for (const scenes::ChangingObjects& one : changing) {
+            const std::string name = printable(file.objects[one.objects.front()].name);
+            add("'" + name + "' deforms or tears, but is drawn as it was at rest.");
+        }
+    }
+
 private:
     void add(std::string text) {
         sentences.push_back(std::move(text));
@@ -322,6 +330,7 @@ std::string ScenePage::finish(const scenes::Simulation& simulation) {
     words.add_frames(frames_, count_, file_.objects.size());
     words.add_models(file_, geometry, models_);
     words.add_events(events_left_out_);
+    words.add_changes(file_, simulation.changing());
     left_out_ = std::move(words.sentences);
 
     const std::string name = std::filesystem::path(file_.name).filename().string();
@@ -358,11 +367,11 @@ std::string ScenePage::finish(const scenes::Simulation& simulation) {
         {"@license@", escaped(page::kLicense)},
         {"@chart@", scene_chart(timeline_, file_.step_s)},
         {"@chart_words@", escaped(scene_chart_words(timeline_))},
-        {"@data@", element("scene-data", compact(data)) +
-                       element("model-data", compact(triangles)) +
-                       element("frame-data", "[" + frames + "]") +
-                       element("plan-data", plan_json(file_, plan, models_)) +
-                       element("plan-text", compact(plan_text(file_, plan, models_)))},
+        {"@data@",
+         element("scene-data", compact(data)) + element("model-data", compact(triangles)) +
+             element("frame-data", "[" + frames + "]") +
+             element("plan-data", plan_json(file_, plan, models_, simulation.changing())) +
+             element("plan-text", compact(plan_text(file_, plan, models_, simulation.changing())))},
         {"@three@", std::string(page::kThree)},
         {"@controls@", std::string(page::kControls)},
         {"@js@", std::string(page::kElements) + std::string(page::kView) +

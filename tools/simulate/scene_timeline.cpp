@@ -45,12 +45,14 @@ std::vector<StageTime> stage_times(const scenes::Simulation& simulation) {
     const auto seconds = [](std::uint64_t nanoseconds) {
         return 1e-9 * static_cast<double>(nanoseconds);
     };
+    const std::size_t threads = simulation.thread_count();
     std::vector<StageTime> times = {{"boxes", seconds(counts.box_ticks)}};
     for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
         if (!contains(simulation.plan().effects(), kSceneEffects[i])) continue;
-        times.push_back({scenes::effect_name(kSceneEffects[i]), seconds(counts.ticks[i])});
+        times.push_back(
+            {scenes::effect_name(kSceneEffects[i]), seconds(counts.ticks[i] / threads)});
     }
-    times.push_back({"rest of pairs", seconds(rest_of_pairs(counts, simulation.thread_count()))});
+    times.push_back({"rest of pairs", seconds(rest_of_pairs(counts, threads))});
     times.push_back({"lists", seconds(counts.list_ticks)});
     return times;
 }

@@ -252,7 +252,9 @@ class SceneView extends View {
       const positions = triangles.lit || this.positions_of(object);
       for (const number of numbers) {
         const place = triangles.place ? triangles.place.get(number) : number;
+        // A torn model has triangles that the one at rest lacks.
         if (place === undefined) continue;
+        if (!triangles.lit && place * 3 + 2 >= triangles.indices.length) continue;
         for (let k = 0; k < 3; ++k) {
           const vertex = triangles.lit ? place * 3 + k : triangles.indices[place * 3 + k];
           point.fromArray(positions, vertex * 3).applyMatrix4(this.matrices[object]);
