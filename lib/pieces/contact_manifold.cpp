@@ -142,11 +142,12 @@ Polygon clipped(const Polygon& polygon, const Double3& on, const Double3& inward
     return result;
 }
 
-/// Returns the part of a polygon that is over another one, seen along the other's normal.
-Polygon over(const Polygon& base, Polygon polygon) {
+/// Returns the part of a polygon that is over another one, seen along a direction near the other's
+/// normal.
+Polygon over(const Polygon& base, Polygon polygon, const Double3& way) {
     for (std::size_t i = 0; i < base.count && polygon.count > 0; ++i) {
         const Corner& p = base.corner[i];
-        polygon = clipped(polygon, p.at, cross(base.normal, base.next(i).at - p.at), p.side);
+        polygon = clipped(polygon, p.at, cross(way, base.next(i).at - p.at), p.side);
     }
     return polygon;
 }
@@ -186,15 +187,14 @@ void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature
     const double across = std::max(across_a, across_b);
     if (across >= kNearlyAcross) {
         const Polygon& base = a_is_base ? of_a : of_b;
-        const Polygon part = over(base, a_is_base ? of_b : of_a);
+        // Along the contact's normal, so that no point is deeper than the contact.
+        const bool leans = across < kAcross;
+        const Double3 way = !leans ? base.normal : a_is_base ? n : -n;
+        const Polygon part = over(base, a_is_base ? of_b : of_a, way);
         for (std::size_t i = 0; i < part.count; ++i) {
             const Corner& p = part.corner[i];
             double height = dot(base.normal, p.at - base.corner[0].at);
-            Double3 way = base.normal;
-            if (across < kAcross) {  // the way along the contact's normal
-                height /= across;
-                way = a_is_base ? n : -n;
-            }
+            if (leans) height /= across;
             const Double3 foot = p.at - height * way;
             if (height > tolerance) continue;
             candidates.add(a_is_base ? ManifoldPoint{foot, p.at, height, p.id}

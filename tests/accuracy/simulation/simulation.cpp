@@ -9,6 +9,7 @@
 //   CASES       resting, stacks, impacts, threads, pile; with --full also piles and mixed, which
 //               take minutes. Only those that are named, if any are
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -41,12 +42,20 @@ int main(int count, char** arguments) {
         void (*play)(Table&, const Extent&);
         bool is_default;
     };
+    const std::array groups = {
+        Group{"resting", play_resting, true},           Group{"stacks", play_stacks, true},
+        Group{"impacts", play_impacts, true},           Group{"threads", play_threads, true},
+        Group{"pile", play_small_pile, true},           Group{"piles", play_piles, extent.is_full},
+        Group{"mixed", play_mixed_pile, extent.is_full}};
+    for (const std::string& word : asked) {
+        if (std::ranges::any_of(groups, [&](const Group& group) { return word == group.name; })) {
+            continue;
+        }
+        std::fprintf(stderr, "simulation_cases: '%s' is no option and no group.\n", word.c_str());
+        return 2;
+    }
     Table table;
-    for (const Group& group :
-         {Group{"resting", play_resting, true}, Group{"stacks", play_stacks, true},
-          Group{"impacts", play_impacts, true}, Group{"threads", play_threads, true},
-          Group{"pile", play_small_pile, true}, Group{"piles", play_piles, extent.is_full},
-          Group{"mixed", play_mixed_pile, extent.is_full}}) {
+    for (const Group& group : groups) {
         const bool is_named = std::find(asked.begin(), asked.end(), group.name) != asked.end();
         if (asked.empty() ? group.is_default : is_named) group.play(table, extent);
     }

@@ -77,10 +77,12 @@ void play_mass_ratios(Table& table, const Extent& extent, Engine engine) {
         if (!extent.is_full && iterations != 50) continue;
         const std::string how = ", " + std::to_string(iterations) + " iterations: overlap";
         const double seconds = extent.is_full ? 10 : 3;
+        const bool promised = engine == Engine::cdprep && iterations >= 50;
+        const Promise promise = promised ? Promise::kept : Promise::measured;
         table.add({"S02", "1000 kg on 1 kg" + how, name_of(engine),
-                   play_two(engine, iterations, 1, 1000, seconds), 0.01});
+                   play_two(engine, iterations, 1, 1000, seconds), 0.01, promise});
         table.add({"S02", "1 kg on 1000 kg" + how, name_of(engine),
-                   play_two(engine, iterations, 1000, 1, seconds), 0.01});
+                   play_two(engine, iterations, 1000, 1, seconds), 0.01, promise});
     }
 }
 

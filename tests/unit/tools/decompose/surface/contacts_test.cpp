@@ -135,6 +135,26 @@ TEST(Contacts, FacesNearlyParallelHaveFourPointsWhereEdgesCross) {
     EXPECT_GT(upper.y - lower.y, 0.9);
 }
 
+// The same cubes, deeper and deeper: no point claims more than the contact's proven bound.
+TEST(Contacts, NoManifoldPointIsDeeperThanItsContact) {
+    const OpenModel cube = open_with_pieces(unit_cube());
+    const Pose turned = Pose::from_quaternion(1, 0.01, 5e-5, 0.01, {0, 0, 0}).value();
+    const Double3 end = transform_point(turned, {0.5, 0, 0});
+    std::size_t deep = 0;
+    for (int step = 0; step <= 60; ++step) {
+        const double x = 0.5 + 0.008 * step, z = 1 - 0.005 * step;
+        const Pose pose =
+            Pose::from_quaternion(1, 0.01, 5e-5, 0.01, Double3{x, 0, z} - end).value();
+        for (const Contact& contact : all_contacts(cube, cube, Placement::b_moves(pose), 0.05)) {
+            deep += contact.lower < 0 ? 1 : 0;
+            for (std::uint32_t i = 0; i < contact.point_count; ++i) {
+                EXPECT_GE(contact.points[i].distance, contact.lower - 1e-12) << step;
+            }
+        }
+    }
+    EXPECT_GT(deep, 50U);
+}
+
 TEST(Contacts, BeyondTheToleranceThereIsNone) {
     const OpenModel cube = open_with_pieces(unit_cube());
     EXPECT_EQ(all_contacts(cube, cube, shifted({0, 0, 1.25}), 0.25).size(), 1U);
