@@ -622,7 +622,8 @@ TEST_F(CHostile, OptionsOfWorkspacesAndOpeningAreChecked) {
     cdprep_open_options_init(&open, sizeof open);
     std::vector<Mistake<O>> wrong = struct_mistakes<O>("options");
     wrong.push_back({"mode", [](O& o) { o.mode = 77; }, CDPREP_WHY_OUT_OF_RANGE, "options.mode"});
-    wrong.push_back({"ask", [](O& o) { o.ask = 1U << 6; }, CDPREP_WHY_OUT_OF_RANGE, "options.ask"});
+    wrong.push_back(
+        {"ask", [](O& o) { o.ask = 1U << 19; }, CDPREP_WHY_OUT_OF_RANGE, "options.ask"});
     wrong.push_back(
         {"ask", [](O& o) { o.ask = CDPREP_ASK_RESPONSE; }, CDPREP_WHY_NOT_BAKED, "options.ask"});
     wrong.push_back(
@@ -687,7 +688,7 @@ std::vector<Mistake<cdprep_build_options>> build_mistakes() {
             "precision", [=](B& b) { b.precision = value; }, CDPREP_WHY_OUT_OF_RANGE,
             "options.precision");
     }
-    for (const std::uint32_t bits : {1U << 6, 1U << 19, 1U << 31, UINT32_MAX}) {
+    for (const std::uint32_t bits : {1U << 19, 1U << 24, 1U << 31, UINT32_MAX}) {
         add(
             "unknown bits", [=](B& b) { b.ask = bits; }, CDPREP_WHY_OUT_OF_RANGE, "options.ask");
     }
