@@ -50,7 +50,7 @@ set(tools_rooms
  text"
     "query: bake cli compare/cells command_line mesh scene_file text write"
     "simulate: cli command_line import page scene_file text"
-    "simulate/dynamics: mesh")
+    "simulate/dynamics: mesh text")
 
 # A library of others: the pattern of its headers, then the folders that may know it.
 set(libraries

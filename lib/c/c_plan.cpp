@@ -153,6 +153,42 @@ int refuse_unused(Call& call, const Name& name, const char* effects) noexcept {
                        "is set, but only %s uses it; leave it at its default.", effects);
 }
 
+int refuse_together(Call& call, const Name& name, const char* why) noexcept {
+    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name, "%s", why);
+}
+
+/// Refuses effects that are not built together, and options without which an effect does nothing.
+int check_together(Call& call, const Name& name, const cdprep_layer_pair& pair) noexcept {
+    const auto has = [&](std::uint32_t asks) { return (pair.effects & asks) != 0; };
+    const Name effects = name.of("effects");
+    if (has(CDPREP_ASK_DEFORM | CDPREP_ASK_TEAR) &&
+        has(CDPREP_ASK_CONTACTS | CDPREP_ASK_CONTINUOUS)) {
+        return refuse_together(
+            call, effects,
+            "has CDPREP_ASK_CONTACTS or _CONTINUOUS with _DEFORM or _TEAR, which "
+            "is not built. Ask for _OVERLAP, _WITHIN or _DISTANCE.");
+    }
+    if (has(CDPREP_ASK_SELF) && pair.a != pair.b) {
+        return refuse_together(
+            call, effects,
+            "has CDPREP_ASK_SELF, which is about single objects: a and b must be "
+            "one layer.");
+    }
+    if (has(CDPREP_ASK_CONTINUOUS) && pair.impact_steps == 0) {
+        return refuse_together(call, name.of("impact_steps"), "is 0; it must be at least 1.");
+    }
+    if (!has(CDPREP_ASK_HAPTIC)) return CDPREP_OK;
+    if (has(CDPREP_ASK_DISTANCE) || pair.body == CDPREP_SOLID) {
+        return refuse_together(call, effects,
+                               "has CDPREP_ASK_HAPTIC, which is about surfaces and not built with "
+                               "_DISTANCE.");
+    }
+    if (pair.work == 0) {
+        return refuse_together(call, name.of("work"), "is 0; CDPREP_ASK_HAPTIC needs at least 1.");
+    }
+    return CDPREP_OK;
+}
+
 /// Refuses fields that no effect of the pair uses.
 int check_meaning(Call& call, const Name& name, const cdprep_layer_pair& pair) noexcept {
     const auto has = [&](std::uint32_t asks) { return (pair.effects & asks) != 0; };
@@ -221,6 +257,7 @@ int read_layer_pair(Call& call, const Name& name, const cdprep_layer_pair* from,
                            "is 0x%x; a scene computes only the bits 0x%x.", pair.effects, kEffects);
     }
     if (const int code = check_meaning(call, name, pair)) return code;
+    if (const int code = check_together(call, name, pair)) return code;
     ContactOptions contacts;
     if (const int code = read_contacts(call, name, pair, contacts)) return code;
     std::uint16_t& given = asked.given_for(pair.a, pair.b);

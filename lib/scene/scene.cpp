@@ -265,12 +265,11 @@ std::uint64_t Scene::state_hash() const noexcept {
         for (const TrianglePair& pair : found.triangles) hash.add(pair.a, pair.b);
     };
     for (const SceneSelfOverlaps& found : self_overlaps()) add_own(found);
+    // The bounds of an impact depend on the order of the search, and that on the instruction set.
     for (const SceneImpact& found : impacts()) {
         hash.add(found.a);
         hash.add(found.b);
         hash.add(static_cast<std::uint64_t>(found.impact.kind));
-        hash.add(found.impact.lower);
-        hash.add(found.impact.upper);
     }
     for (const SceneBoundedDistance& found : bounded_distances()) {
         hash.add(found.a);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -12,6 +13,14 @@
 
 namespace cdprep::scenes {
 namespace {
+
+/// The nearest float; infinity for numbers beyond all floats, which a refit refuses.
+float as_float(double x) {
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    if (std::fabs(x) <= kLargest) return static_cast<float>(x);
+    return std::isnan(x) ? std::numeric_limits<float>::quiet_NaN()
+                         : static_cast<float>(std::copysign(HUGE_VAL, x));
+}
 
 Double3 sum(const Double3& a, const Double3& b, double sign) {
     return {a.x + sign * b.x, a.y + sign * b.y, a.z + sign * b.z};
@@ -162,7 +171,7 @@ void ChangingModel::set_positions(const State& state) {
     if (state.is_torn) open();
     for (std::size_t i = 0; i < floats_.size(); ++i) {
         const Double3& p = positions_[i];
-        floats_[i] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+        floats_[i] = {as_float(p.x), as_float(p.y), as_float(p.z)};
     }
 }
 

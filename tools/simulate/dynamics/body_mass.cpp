@@ -2,9 +2,11 @@
 #include "simulate/dynamics/body_mass.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mesh/vectors.h"
+#include "text/number_text.h"
 
 namespace cdprep::dynamics {
 namespace {
@@ -83,6 +85,23 @@ BodyMass mass_of_solid(const format::MassProperties& solid, double mass) {
     return made;
 }
 
+// Bullet's numbers are floats, and so are the inverses of masses and moments.
+constexpr double kLeastMass = 1e-30;
+constexpr double kMostMass = 1e30;
+constexpr double kLeastMoment = 1e-37;
+constexpr double kMostMoment = 1e37;
+
+bool has_usable_moments(const BodyMass& mass) {
+    const Double3& m = mass.moments;
+    return std::ranges::all_of(std::array{m.x, m.y, m.z}, [](double moment) {
+        return moment >= kLeastMoment && moment <= kMostMoment;
+    });
+}
+
+Error refused(const RigidBody& body, const std::string& why) {
+    return {ErrorCode::bad_argument, body.name + ": " + why};
+}
+
 /// Turns rows and columns p and q of a symmetric matrix so that its entry (p, q) vanishes.
 void rotate_away(std::array<double, 9>& m, std::array<double, 9>& axes, std::size_t p,
                  std::size_t q) {
@@ -124,7 +143,7 @@ PrincipalAxes principal_axes(const std::array<double, 6>& tensor) noexcept {
 
 Result<BodyMass> mass_of(const RigidBody& body) {
     const std::optional<Box> box = box_of(*body.model);
-    if (!box) return Error{ErrorCode::bad_argument, body.name + ": the model has no triangles."};
+    if (!box) return refused(body, "the model has no triangles.");
     BodyMass made;
     made.centre = mesh::middle_of(box->lower, box->upper);
     if (body.kind == BodyKind::moving) {
@@ -132,12 +151,19 @@ Result<BodyMass> mass_of(const RigidBody& body) {
         if (solid == nullptr && !body.mass) return no_mass(body);
         const double mass =
             body.mass.value_or(solid != nullptr ? body.density * std::fabs(solid->volume) : 0);
-        if (!(mass > 0) || !std::isfinite(mass)) {
-            return Error{ErrorCode::bad_argument, body.name + ": the mass is " +
-                                                      std::to_string(mass) +
-                                                      ", but it must be above 0 and finite."};
+        if (!(mass >= kLeastMass && mass <= kMostMass)) {
+            return refused(body, "the mass is " + report::number_text(mass) + ", but it must be " +
+                                     report::number_text(kLeastMass) + " to " +
+                                     report::number_text(kMostMass) + ".");
         }
         made = solid != nullptr ? mass_of_solid(*solid, mass) : mass_of_box(*box, mass);
+        // Components of opposite windings may add up to no solid.
+        if (!has_usable_moments(made) && body.mass) made = mass_of_box(*box, mass);
+        if (!has_usable_moments(made)) {
+            return refused(body,
+                           "the moments of inertia are not those of a solid that the solver "
+                           "can turn. Give a mass in the scene, or repair the mesh.");
+        }
     }
     made.radius = radius_about(made.centre, *box);
     return made;

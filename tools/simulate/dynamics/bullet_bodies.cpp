@@ -10,6 +10,7 @@
 #include "mesh/vectors.h"
 #include "simulate/dynamics/bullet_world.h"
 #include "simulate/dynamics/contact_scene.h"
+#include "text/number_text.h"
 
 namespace cdprep::dynamics {
 namespace {
@@ -26,10 +27,7 @@ double length(const Double3& p) {
 }
 
 std::string text(double number) {
-    std::string digits = std::to_string(number);
-    while (digits.ends_with('0')) digits.pop_back();
-    if (digits.ends_with('.')) digits.pop_back();
-    return digits;
+    return report::number_text(number);
 }
 
 /// Returns why the options are out of range, or an empty text.
@@ -37,7 +35,9 @@ std::string fault_of(const DynamicsOptions& o) {
     const auto positive = [](double number) { return std::isfinite(number) && number > 0; };
     if (!positive(o.step_s)) return "The step is " + text(o.step_s) + " s, but it must be above 0.";
     if (o.substeps == 0 || o.iterations == 0 || o.threads == 0) {
-        return "Substeps, iterations and threads are at least 1.";
+        return "There are " + std::to_string(o.substeps) + " substeps, " +
+               std::to_string(o.iterations) + " iterations and " + std::to_string(o.threads) +
+               " threads, but at least 1 of each is needed.";
     }
     if (!positive(o.rest_gap)) {
         return "The rest gap is " + text(o.rest_gap) + ", but it must be above 0.";
@@ -48,6 +48,28 @@ std::string fault_of(const DynamicsOptions& o) {
         return "The contact tolerance is " + text(o.tolerance) + ", but at a speed of " +
                text(o.most_speed) + " it must be at least " + text(needed) +
                ": the rest gap and the way of a substep.";
+    }
+    return {};
+}
+
+/// Returns why a body's numbers are out of range, or an empty text.
+std::string fault_of(const RigidBody& body) {
+    struct Number {
+        const char* name;
+        double value;
+        double most;
+    };
+    constexpr double kMost = 1e6;  // of friction: no surfaces come near
+    for (const Number& number :
+         {Number{"friction", body.friction, kMost}, Number{"restitution", body.restitution, 1},
+          Number{"linear damping", body.linear_damping, 1},
+          Number{"angular damping", body.angular_damping, 1}}) {
+        if (number.value >= 0 && number.value <= number.most) continue;
+        return "the " + std::string(number.name) + " is " + text(number.value) +
+               ", but it must be 0 to " + text(number.most) + ".";
+    }
+    if (!std::isfinite(length(body.velocity)) || !std::isfinite(length(body.angular_velocity))) {
+        return "a velocity is not finite.";
     }
     return {};
 }
@@ -147,6 +169,9 @@ BulletBodies::~BulletBodies() {
 }
 
 Result<std::uint32_t> BulletBodies::add_body(const RigidBody& body) {
+    if (const std::string fault = fault_of(body); !fault.empty()) {
+        return refused(body.name + ": " + fault);
+    }
     const bool continuous =
         body.is_continuous || std::any_of(bodies_.begin(), bodies_.end(), [](const auto& other) {
             return other->given.is_continuous;

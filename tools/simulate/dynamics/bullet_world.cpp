@@ -66,8 +66,10 @@ double gravity_of(const BulletBody& body, const Double3& gravity, const Double3&
 /// Applies an impulse so that the point leaves with its speed. The total never pulls.
 void rebound(Bounce& bounce) {
     btManifoldPoint& p = *bounce.point;
-    const btVector3 n = p.m_normalWorldOnB, on_a = p.m_positionWorldOnA,
-                    on_b = p.m_positionWorldOnB;
+    // The bodies have moved since the contact was found.
+    const btVector3 n = p.m_normalWorldOnB;
+    const btVector3 on_a = bounce.a->getCenterOfMassPosition() + bounce.arm_a;
+    const btVector3 on_b = bounce.b->getCenterOfMassPosition() + bounce.arm_b;
     const btScalar speed = n.dot(velocity_at(*bounce.a, on_a) - velocity_at(*bounce.b, on_b));
     const btScalar denominator =
         bounce.a->computeImpulseDenominator(on_a, n) + bounce.b->computeImpulseDenominator(on_b, n);
@@ -76,8 +78,8 @@ void rebound(Bounce& bounce) {
     const btScalar total = std::max(p.m_appliedImpulse + wanted, btScalar(0));
     const btVector3 impulse = n * (total - p.m_appliedImpulse);
     p.m_appliedImpulse = total;
-    bounce.a->applyImpulse(impulse, on_a - bounce.a->getCenterOfMassPosition());
-    bounce.b->applyImpulse(-impulse, on_b - bounce.b->getCenterOfMassPosition());
+    bounce.a->applyImpulse(impulse, bounce.arm_a);
+    bounce.b->applyImpulse(-impulse, bounce.arm_b);
 }
 
 }  // namespace
@@ -231,7 +233,10 @@ void Manifolds::prepare(btManifoldPoint& point, BulletBody& a, BulletBody& b) {
         gravity_of(b, options_.gravity, doubles(n)) - gravity_of(a, options_.gravity, doubles(n));
     const double gap = std::max(double{point.m_distance1}, 0.0);
     const double speed = std::sqrt(std::max(approach * approach + 2 * gained * gap, 0.0));
-    bounces_.push_back({&point, a.rigid.get(), b.rigid.get(), restitution * speed});
+    bounces_.push_back({&point, a.rigid.get(), b.rigid.get(),
+                        point.m_positionWorldOnA - a.rigid->getCenterOfMassPosition(),
+                        point.m_positionWorldOnB - b.rigid->getCenterOfMassPosition(),
+                        restitution * speed});
 }
 
 void Manifolds::set(BulletBody& a, BulletBody& b, std::pair<std::uint32_t, std::uint32_t> pair,

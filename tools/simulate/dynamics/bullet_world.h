@@ -111,7 +111,8 @@ struct Bounce {
     btManifoldPoint* point;
     btRigidBody* a;
     btRigidBody* b;
-    double speed;  ///< of the approach at the surface
+    btVector3 arm_a, arm_b;  ///< from the centres to the contact, before the bodies move
+    double speed;            ///< of the approach at the surface
 };
 
 /// The manifolds of all pairs of bodies.
