@@ -95,6 +95,47 @@ TEST_F(RigidBodiesTest, AFreeBodyFliesAlongAParabola) {
     EXPECT_NEAR(bodies->velocity(body).z, 3 - 9.81 / 2, 1e-5);
 }
 
+// By hand: without friction the floor pushes upward alone, through the centre of a box that lands
+// flat. So it keeps its speed along the floor and does not turn.
+TEST_F(RigidBodiesTest, AnObliqueBounceMakesNoSpin) {
+    const auto bodies = make({.gravity = {0, 0, 0}, .sleeps = false});
+    RigidBody slippery = floor();
+    slippery.friction = 0;
+    ASSERT_TRUE(bodies->add_body(slippery));
+    RigidBody box = cube({-1, 0, 0.7});
+    box.friction = 0;
+    box.restitution = 0.8;
+    box.velocity = {2, 0, -2};
+    const auto body = bodies->add_body(box).value();
+    for (int frame = 0; frame < 30; ++frame) ASSERT_TRUE(bodies->step());
+    EXPECT_NEAR(bodies->velocity(body).x, 2, 1e-4);
+    EXPECT_NEAR(bodies->velocity(body).z, 1.6, 1e-4);
+    const Double3 spin = bodies->angular_velocity(body);
+    for (const double turn : {spin.x, spin.y, spin.z}) EXPECT_NEAR(turn, 0, 1e-4);
+}
+
+TEST_F(RigidBodiesTest, RefuseNumbersThatBulletCannotHold) {
+    const auto bodies = make();
+    const auto sentence_of = [&](auto change) {
+        RigidBody box = cube({0, 0, 5});
+        box.name = "box";
+        change(box);
+        const auto added = bodies->add_body(box);
+        return added ? std::string() : added.error().message;
+    };
+    EXPECT_EQ(sentence_of([](RigidBody& b) { b.friction = -1; }),
+              "box: the friction is -1, but it must be 0 to 1000000.");
+    EXPECT_EQ(sentence_of([](RigidBody& b) { b.restitution = 1.5; }),
+              "box: the restitution is 1.5, but it must be 0 to 1.");
+    EXPECT_EQ(sentence_of([](RigidBody& b) { b.velocity.y = HUGE_VAL; }),
+              "box: a velocity is not finite.");
+    EXPECT_EQ(sentence_of([](RigidBody& b) { b.mass = 1e-46; }),
+              "box: the mass is 1e-46, but it must be 1e-30 to 1e+30.");
+    EXPECT_EQ(sentence_of([](RigidBody& b) { b.mass = 1e39; }),
+              "box: the mass is 1e+39, but it must be 1e-30 to 1e+30.");
+    EXPECT_EQ(bodies->body_count(), 0U);
+}
+
 // By hand: friction holds at this acceleration, so a box rides with its floor.
 TEST_F(RigidBodiesTest, ADrivenFloorCarriesABox) {
     const auto bodies = make();
