@@ -28,7 +28,8 @@ constexpr SectionSet kSource = {
 constexpr SectionSet kBvh = {SectionId::bvh_nodes};
 constexpr SectionSet kPair = {SectionId::bvh_nodes, SectionId::bvh_leaves};
 constexpr SectionSet kNumbered = {SectionId::source_triangle};
-/// The sections from which a live model starts.
+/// The sections from which a live model starts. It reads no kTighter, but a bake for one has it.
+/// Queries of the bake itself then name the same triangles as those of any other bake.
 constexpr SectionSet kLive = {SectionId::bvh_nodes, SectionId::bvh_leaves, SectionId::triangles,
                               SectionId::source_triangle, SectionId::source_vertex};
 
@@ -81,9 +82,9 @@ constexpr std::array<Needs, 24> kNeeds = {{
     {Ask::self, "self", "--effects self", with(with(kPair, kNumbered), {SectionId::triangles}),
      Vertices::positions, with(with(kGeometry, kTighter), kSource)},
     {Ask::deform, "deform", "--effects deform", kLive, Vertices::positions,
-     with(kGeometry, {SectionId::components})},
+     with(with(kGeometry, kTighter), {SectionId::components})},
     {Ask::tear, "tear", "--effects tear", kLive, Vertices::positions,
-     with(kGeometry, {SectionId::components})},
+     with(with(kGeometry, kTighter), {SectionId::components})},
     {Ask::haptic, "haptic", "--effects haptic", with(kPair, kNumbered), Vertices::corners,
      with(with(kGeometry, kTighter), kSource)},
     {Ask::inside, "inside", "--effects inside", kBvh, Vertices::corners,
