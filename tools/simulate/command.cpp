@@ -349,8 +349,8 @@ void add_study_options(const Command& command, Arguments& arguments, const Optio
     command
         .add_option("--record", arguments.record,
                     "Also write a recording: the scene, and the poses and events of each frame. "
-                    "`cdprep simulate FILE` replays it and compares the results. It appears also "
-                    "after an interrupt")
+                    "`cdprep simulate FILE` replays it, with the same import options, and compares "
+                    "the results. It also appears after an interrupt or an error")
         .type_name("FILE")
         .excludes(plan)
         .group("Report");

@@ -13,9 +13,10 @@
 
 namespace cdprep::scenes {
 
-/// Writes a simulation as lines of JSON (recording.schema.json): the scene file, then the poses
-/// that changed and the events of each frame, then how many frames there are. Equal simulations
-/// have equal recordings, on any number of threads: there is no time and no count of work in them.
+/// Writes a simulation as lines of JSON (recording.schema.json). The first line has the scene file.
+/// A line for each frame has the poses that changed and the events. The last line counts the
+/// frames. There are no times and no counts of work. So equal simulations have equal recordings, on
+/// any number of threads. With `continuous` and `haptic`, that holds for one instruction set.
 class Recorder {
 public:
     /// `folder` leads from the folder of the recording to that of the scene file.

@@ -36,7 +36,8 @@ inline constexpr Ask kSceneChanges = Ask::deform | Ask::tear;
 /// `continuous` tells when two objects touch on the way from their last poses to the present ones.
 /// `haptic` is a distance within a limit of work. Contacts, and `continuous`, are refused together
 /// with Ask::deform and Ask::tear: pieces and motions do not follow a surface that changes. If only
-/// another pair of layers says that a model changes, `continuous` moves its present shape.
+/// another pair of layers says that a model changes, `continuous` moves its present shape. `haptic`
+/// is refused together with `distance`, and with solid bodies.
 struct LayerPair {
     std::uint32_t a = 0;  ///< a layer, below kLayers
     std::uint32_t b = 0;
@@ -69,8 +70,8 @@ struct SceneLimits {
     /// asked about itself counts as a pair.
     std::uint32_t pairs = 0;
     std::uint32_t threads = 1;  ///< tasks that a step runs at a time; at least one
-    /// Of `overlap` with `self`, and of `contacts`: the maximum length of all lists together. Takes
-    /// memory only if a pair of layers asks for the effect.
+    /// The maximum length of all lists of `overlap` and `self` together, and of all lists of
+    /// `contacts`. Takes memory only if a pair of layers asks for the effect.
     std::uint32_t triangle_pairs = 0;
     std::uint32_t contacts = 0;
 };
@@ -121,8 +122,8 @@ public:
                                                          std::uint32_t b) const noexcept;
     /// Returns what the objects of a layer are asked for: open their models for this.
     [[nodiscard]] Ask asks_of(std::uint32_t layer) const noexcept;
-    /// Returns the layers with which a layer is paired. A pair that asks for nothing but `self`
-    /// counts as none.
+    /// Returns the layers with which a layer is paired. A pair counts as none if it asks for no
+    /// effect of two objects, but for `self`, Ask::deform or Ask::tear.
     [[nodiscard]] BoxFilter filter_of(std::uint32_t layer) const noexcept;
     /// Returns the margin by which the boxes of a layer's objects are enlarged, in units of the
     /// models.

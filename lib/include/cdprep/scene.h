@@ -88,8 +88,8 @@ struct SceneBoundedDistance {
     ObjectId b;
     std::uint32_t pair;
     BoundedDistance distance;
-    /// The last complete answer; the same one, if this one is complete. If a model has changed
-    /// since then, it is about the old shape.
+    /// The last complete answer since their boxes met; the same one, if this one is complete. If a
+    /// model has changed since then, it is about the old shape.
     LastDistance last;
 };
 
@@ -111,7 +111,9 @@ enum class EventKind : std::uint32_t {
 
 /// The reason of an event.
 enum class EventReason : std::uint32_t {
-    moved,      ///< an object moved or was added, or step_with() got other pairs
+    /// An object moved, changed or was added, or step_with() got other pairs. With `continuous`,
+    /// also in the step after the last motion.
+    moved,
     removed,    ///< an object was removed
     relayered,  ///< an object is in another layer than in the last step
     paused,     ///< the effect was paused or resumed
@@ -230,7 +232,8 @@ public:
     SceneStep step_with(std::span<const BoxPair> candidates, std::span<Workspace> workspaces,
                         ParallelFor parallel_for = serial_for) noexcept;
     /// Returns the box of each slot in the next step, for such a broad phase, relative to the
-    /// plan's origin. Free slots have absent boxes.
+    /// plan's origin. With `continuous`, a box contains the whole way. Free slots have absent
+    /// boxes.
     [[nodiscard]] std::span<const WorldBox> boxes() noexcept;
 
     [[nodiscard]] std::span<const SceneHit> hits() const noexcept;
@@ -251,9 +254,9 @@ public:
     /// Returns the object in a slot, or the id of no object if there is none.
     [[nodiscard]] ObjectId object_at(std::uint32_t slot) const noexcept;
     /// Returns a hash of all hits, lists, distances, impacts and events. It leaves out witness
-    /// points, features and the points of manifolds. It is equal for any number of threads and any
-    /// instruction set. Answers of `haptic` may differ between instruction sets, as their work
-    /// does.
+    /// points, features, the points of manifolds and the bounds of impacts. It is equal for any
+    /// number of threads and any instruction set. Exceptions are answers of `haptic` and impacts
+    /// that are `near`: they may differ between instruction sets.
     [[nodiscard]] std::uint64_t state_hash() const noexcept;
 
 private:

@@ -21,8 +21,8 @@ enum { CDPREP_LAYERS = 32 }; /* the number of layers of a scene; an object is in
  * CDPREP_ASK_CONTINUOUS tells when two objects touch on the way from their last poses to the
  * present ones. CDPREP_ASK_HAPTIC is a distance within a limit of work. CDPREP_ASK_DEFORM and
  * CDPREP_ASK_TEAR compute nothing. They say that models of the layers may change between two steps,
- * so that each step looks for changes. Contacts and continuous are not built together with them,
- * nor is haptic with distance. */
+ * so that each step looks for changes. Contacts and continuous are not built together with them.
+ * Haptic is not built together with distance or CDPREP_SOLID. */
 typedef struct cdprep_layer_pair {
     cdprep_head head;
     uint32_t a, b; /* 0: below CDPREP_LAYERS */
@@ -187,7 +187,9 @@ CDPREP_API int cdprep_scene_set_layer(cdprep_scene* scene, cdprep_object id, uin
                                       cdprep_error* error);
 
 /* Sets the poses of objects, from model to world coordinates: poses[i] is that of ids[i]. If an
- * id repeats, its last pose counts. An object counts as moved even if its pose is the same.
+ * id repeats, its last pose counts. An object counts as moved even if its pose is the same. For
+ * CDPREP_ASK_CONTINUOUS, it moves from its pose in the last complete step to this one. The middle
+ * of its model's box moves straight. The object turns the shorter way, by pi at most.
  * Errors: CDPREP_WHY_STALE, CDPREP_WHY_NOT_FINITE, CDPREP_WHY_OUT_OF_RANGE, CDPREP_WHY_NOT_RIGID;
  * then no pose is set. */
 CDPREP_API int cdprep_scene_set_poses(cdprep_scene* scene, const cdprep_object* ids,
@@ -297,7 +299,9 @@ enum {
 };
 /* The reason of an event. */
 enum {
-    CDPREP_REASON_MOVED = 0,     /* an object moved, or was added */
+    /* An object moved, changed or was added, or cdprep_scene_step_with() got other pairs. With
+     * CDPREP_ASK_CONTINUOUS, also in the step after the last motion. */
+    CDPREP_REASON_MOVED = 0,
     CDPREP_REASON_REMOVED = 1,   /* an object was removed */
     CDPREP_REASON_RELAYERED = 2, /* an object is in another layer than in the last step */
     CDPREP_REASON_PAUSED = 3,    /* the effect was paused or resumed */
@@ -343,15 +347,19 @@ CDPREP_API int cdprep_scene_bounded_distances(const cdprep_scene* scene,
 CDPREP_API int cdprep_scene_events(const cdprep_scene* scene, const cdprep_event** events,
                                    size_t* count, cdprep_error* error);
 
-/* Stores a hash of these arrays, without nearest points, features and the points of manifolds. It
- * is equal on every machine and for any number of lanes. Takes O(elements) time. */
+/* Stores a hash of these arrays, without nearest points, features, the points of manifolds and the
+ * bounds of impacts. It is equal on every machine and for any number of lanes. Exceptions are
+ * bounded distances and impacts that are CDPREP_IMPACT_NEAR: they may differ between instruction
+ * sets. Takes O(elements) time. */
 CDPREP_API int cdprep_scene_hash(const cdprep_scene* scene, uint64_t* hash, cdprep_error* error);
 
 /* Indices into cdprep_counts.n for cdprep_scene_counts(). All but the first are of the last step
  * that was complete. */
 enum {
-    CDPREP_SCENE_OBJECTS = 0,    /* objects in the scene now */
-    CDPREP_SCENE_MOVED = 1,      /* objects that moved, were added, removed or relayered */
+    CDPREP_SCENE_OBJECTS = 0, /* objects in the scene now */
+    /* Objects that moved, changed, were added, removed or relayered. With CDPREP_ASK_CONTINUOUS,
+     * also in the step after their last motion. */
+    CDPREP_SCENE_MOVED = 1,
     CDPREP_SCENE_CANDIDATES = 2, /* pairs of objects whose boxes meet, and objects of self */
     CDPREP_SCENE_KEPT = 3,       /* of the candidates: neither object moved, so none is asked */
     CDPREP_SCENE_APART = 4,      /* of the candidates: turned boxes are apart, so none is asked */
@@ -458,7 +466,8 @@ CDPREP_API int cdprep_broad_phase_update(cdprep_broad_phase* broad_phase,
 
 /* Stores the address of an array of boxes and the number of its elements, which is max_objects. Box
  * i is that of slot i in the next step, relative to the plan's origin. It contains the object as it
- * is now, and its part of the tolerances. Free slots have absent boxes. The array belongs to the
+ * is now, and its part of the tolerances. With CDPREP_ASK_CONTINUOUS, it contains the whole way.
+ * Free slots have absent boxes. The array belongs to the
  * scene, and stays until the scene changes. Takes O(changed objects) time. Errors:
  * CDPREP_WHY_BUSY. */
 CDPREP_API int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** boxes,
