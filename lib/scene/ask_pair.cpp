@@ -21,9 +21,6 @@ void timed(const ListWriters& lists, Ask effect, const Query& query) noexcept {
 
 /// The way of an object, or nothing if it is too long to compute.
 std::optional<Motion> motion_of(const Model& model, const Pose& start, const Pose& end) noexcept {
-    if (start.rotation() == end.rotation() && start.translation() == end.translation()) {
-        return Motion(end);
-    }
     const Result<Motion> motion = Motion::between(start, end, middle_of(model));
     return motion ? std::optional(*motion) : std::nullopt;
 }

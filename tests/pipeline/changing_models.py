@@ -15,13 +15,7 @@ import tempfile
 
 from shared_models import bake, must, run
 from simulate import (OUTPUT_SCHEMA, SCENE_SCHEMA, SCENES, asked, check_schema, plan_of, pose_text,
-                      simulate, write_scene)
-
-TIMES = {"step_ms", "refit_ms"}
-
-
-def without_times(summary):
-    return {key: value for key, value in summary.items() if key not in TIMES}
+                      simulate, without_times, write_scene)
 
 
 def as_float(number):

@@ -250,6 +250,7 @@ private:
 
     Result<Done> finish_recording() {
         if (!recorder_) return Done{};
+        if (is_interrupted()) end_by_itself();  // the recording may take longer than an interrupt
         Result<Done> done = record_->append(recorder_->finish());
         return done ? record_->finish() : done;
     }

@@ -124,7 +124,7 @@ TEST_F(RigidBodiesTest, RefuseNumbersThatBulletCannotHold) {
         return added ? std::string() : added.error().message;
     };
     EXPECT_EQ(sentence_of([](RigidBody& b) { b.friction = -1; }),
-              "box: the friction is -1, but it must be 0 to 1000000.");
+              "box: the friction is -1, but it must be 0 to 1e+06.");
     EXPECT_EQ(sentence_of([](RigidBody& b) { b.restitution = 1.5; }),
               "box: the restitution is 1.5, but it must be 0 to 1.");
     EXPECT_EQ(sentence_of([](RigidBody& b) { b.velocity.y = HUGE_VAL; }),
