@@ -330,6 +330,7 @@ Exit run(const Arguments& arguments) {
 
 std::vector<std::string> effect_words() {
     std::vector<std::string> words;
+    words.reserve(kSceneEffects.size());
     for (const Ask effect : kSceneEffects) words.push_back(scenes::effect_name(effect));
     return words;
 }

@@ -157,10 +157,11 @@ Result<Done> Recording::check_models(const SceneFile& file,
         const std::string found = hash_of(models[i]);
         const std::string recorded = i < hashes_.size() ? hashes_[i] : "";
         if (found == recorded) continue;
-        return Error{ErrorCode::unreadable, file_.name() + ": the model " +
-                                                file.models[i].string() + " has hash '" + found +
-                                                "', but that of '" + recorded +
-                                                "' was recorded. Record the scene anew."};
+        std::string sentence = file_.name() + ": the model ";
+        sentence += file.models[i].string();
+        sentence += " has hash '" + found + "', but that of '";
+        sentence += recorded + "' was recorded. Record the scene anew.";
+        return Error{ErrorCode::unreadable, sentence};
     }
     return Done{};
 }

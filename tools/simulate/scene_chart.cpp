@@ -121,8 +121,9 @@ private:
     [[nodiscard]] std::string key() const {
         std::string text;
         for (std::size_t i = 0; i < timeline_.stages().size(); ++i) {
-            const double x = kLeft + kKeyWidth * static_cast<double>(i % kKeyColumns);
-            const double y = 2 + kKeyHeight * static_cast<double>(i / kKeyColumns);
+            const std::size_t row = i / kKeyColumns, column = i % kKeyColumns;
+            const double x = kLeft + kKeyWidth * static_cast<double>(column);
+            const double y = 2 + kKeyHeight * static_cast<double>(row);
             text += "<rect x=\"" + units(x) + "\" y=\"" + units(y) +
                     "\" width=\"12\" height=\"12\" class=\"stage s" +
                     std::to_string(i % kColours.size()) + "\"/>\n" +

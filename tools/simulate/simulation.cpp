@@ -188,7 +188,7 @@ Result<Done> Simulation::grow(SceneStep step, std::uint64_t frame) {
         if (frame == 0) return Done{};
         step = scene_->step(workspaces_, parallel_for_);
         while (--back > 0 && step.complete) {
-            const Result<Done> moved = move(time_of(frame - back), history_[back]);
+            Result<Done> moved = move(time_of(frame - back), history_[back]);
             if (!moved) return moved;
             step = scene_->step(workspaces_, parallel_for_);
         }
@@ -200,7 +200,7 @@ Result<Done> Simulation::step(std::uint64_t frame, std::span<const GivenPose> gi
     is_first_frame_ = frame == 0;
     auto poses = poses_at(time_of(frame), given);
     if (!poses) return poses.error();
-    std::ranges::rotate(history_, history_.end() - 1);
+    std::rotate(history_.begin(), history_.end() - 1, history_.end());
     history_[0] = std::move(poses).value();
     if (frame > 0) work_ = {};
     if (frame > 0 || !given.empty()) {

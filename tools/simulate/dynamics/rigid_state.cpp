@@ -50,7 +50,7 @@ RigidState state_of(const Pose& world_from_model, const Double3& centre) noexcep
 
 Result<Pose> pose_of(const RigidState& state, const Double3& centre) {
     const auto [w, x, y, z] = state.turn;
-    const Result<Pose> rotation = Pose::from_quaternion(w, x, y, z, {0, 0, 0});
+    Result<Pose> rotation = Pose::from_quaternion(w, x, y, z, {0, 0, 0});
     if (!rotation) return rotation;
     const Double3 t = mesh::minus(state.centre, rotated(rotation->rotation(), centre));
     return Pose::from_quaternion(w, x, y, z, t);
