@@ -51,10 +51,10 @@ enum class BodyKind : std::uint8_t {
 struct RigidBody {
     const Model* model = nullptr;  ///< must serve Ask::contacts, and outlive the bodies
     std::string name = "body";     ///< for messages
-    Pose world_from_model;
+    Pose world_from_model = {};
     BodyKind kind = BodyKind::moving;
     /// Of the whole body. Unset: density times the volume that the file has.
-    std::optional<double> mass;
+    std::optional<double> mass = {};
     double density = 1000;      ///< mass per cubic model unit
     double friction = 0.5;      ///< of two bodies: the geometric mean
     double restitution = 0;     ///< of two bodies: the larger one

@@ -18,7 +18,9 @@ namespace {
 // By the definition: the axes turn the diagonal back into the tensor.
 TEST(PrincipalAxes, MakeTheTensorAgain) {
     const std::array<double, 6> tensor = {5, 4, 3, 0.5, -0.7, 0.2};  // xx yy zz xy yz zx
-    const auto [axes, moments] = principal_axes(tensor);
+    const PrincipalAxes found = principal_axes(tensor);
+    const auto& axes = found.axes;
+    const Double3& moments = found.moments;
     const auto entry = [&](std::size_t i, std::size_t j) {
         return axes[3 * i] * moments.x * axes[3 * j] +
                axes[3 * i + 1] * moments.y * axes[3 * j + 1] +
