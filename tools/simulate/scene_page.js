@@ -151,7 +151,7 @@ function effect_table() {
              make('td', {class: 'holds'}, cell(spans.holds, k)), make('td', {}, cell(spans.begins, k)),
              make('td', {}, cell(spans.ends, k)), make('td', {}, whole(now.calls[k])))
       : make('tr', {class: 'off'}, make('td', {}, effect.name),
-             make('td', {colspan: 4}, 'not computed: nobody asks; 0 calls')));
+             make('td', {colspan: 4}, 'not computed: no pair of layers asks')));
   const head = ['Effect', 'Pairs', 'Begin', 'End', 'Calls'].map((name) => make('th', {scope: 'col'}, name));
   return make('table', {class: 'plain', id: 'effect-table'}, make('thead', {}, make('tr', {}, ...head)),
               make('tbody', {}, ...rows));

@@ -24,7 +24,8 @@ struct DynamicsOptions {
     std::uint32_t substeps = 4;     ///< a frame is moved in so many equal parts
     std::uint32_t iterations = 50;  ///< of the solver, in each substep
     /// Surfaces as near as this have contacts. At least rest_gap + most_speed * (the time of a
-    /// substep): then no contact comes as a surprise.
+    /// substep): then contacts are known before bodies meet. Slow bodies, which include
+    /// driven ones, have a smaller tolerance of their own.
     double tolerance = 0.01;
     /// How far apart bodies rest. A body that rests apart has contacts between nearest features,
     /// which change least from one substep to the next.
@@ -60,8 +61,9 @@ struct RigidBody {
     double restitution = 0;     ///< of two bodies: the larger one
     double linear_damping = 0;  ///< the share of the velocity lost in a second, 0 to 1
     double angular_damping = 0;
-    /// Never passes through a surface, however fast: its motion ends at the first contact. The
-    /// models of all bodies must then serve Ask::distance.
+    /// Does not pass through surfaces that stand still: its motion ends at the first contact. Other
+    /// bodies count as standing, and it turns by pi at most in a substep. The models of all bodies
+    /// must then serve Ask::distance.
     bool is_continuous = false;
     Double3 velocity = {0, 0, 0};          ///< of the centre of mass
     Double3 angular_velocity = {0, 0, 0};  ///< radians per second, in the world
