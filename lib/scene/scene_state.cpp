@@ -102,8 +102,8 @@ std::uint64_t Scene::State::self_count() const noexcept {
     return count;
 }
 
-/// Fills `next` with records of these pairs and of the objects that are asked about themselves, in
-/// the order of slots. Returns how many there are. If they do not fit, there are none.
+/// Fills `next` with records of these pairs, and of objects that are asked about themselves. They
+/// are in the order of slots. Returns how many there are. If they do not fit, there are none.
 std::uint64_t Scene::State::list_candidates(std::span<const BoxPair> candidates) noexcept {
     next.count = 0;
     const std::uint64_t count = candidates.size() + self_count();
@@ -419,8 +419,8 @@ void Scene::State::list_results() noexcept {
 
 // A step ------------------------------------------------------------------------------------------
 
-/// Forgets what has changed. An object that has come to the end of its way is asked again in the
-/// next step, where it has none.
+/// Forgets what has changed. An object that had a way is asked again in the next step, because it
+/// has none there.
 void Scene::State::accept_changes() noexcept {
     std::uint32_t left = 0;
     for (std::uint32_t i = 0; i < changed_count; ++i) {

@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <span>
 
 #include "support/aligned_bytes.h"
 #include "support/meshes.h"
 
 #include "cdprep/cdprep.h"
+#include "cdprep/pose.h"
 
 namespace cdprep::test {
+
+/// Returns a pose of C++ as one of C.
+inline cdprep_pose rows_in_c(const Pose& pose) {
+    cdprep_pose to{};
+    std::copy(pose.rotation().begin(), pose.rotation().end(), std::begin(to.rows));
+    to.rows[9] = pose.translation().x;
+    to.rows[10] = pose.translation().y;
+    to.rows[11] = pose.translation().z;
+    return to;
+}
 
 /// A model that is opened through the C API. Ends the test program on failure. The bytes must
 /// outlive the model.

@@ -115,8 +115,7 @@ private:
         }
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             // The plan drops a pair without effects.
-            const bool asks = pairs[i].asked.effects != Ask::nothing || !pairs[i].unbuilt.empty();
-            if (scene().has_pairs && !asks) continue;
+            if (scene().has_pairs && pairs[i].asked.effects == Ask::nothing) continue;
             LayerPair asked = {.a = pairs[i].asked.a, .b = pairs[i].asked.b};
             if (const auto error = choose(i, pairs[i].asked, asked)) return *error;
             pairs[i] = {.asked = asked};

@@ -106,8 +106,8 @@ struct ChangingObjects {
     ChangingModel live;
 };
 
-/// Makes the live models of all objects that change and that a pair of layers asks for, in the
-/// order of the first object of each. Objects with the same model and change have the same shape at
+/// Makes the live models of the objects that change, if a pair of layers asks for them. They are in
+/// the order of their first objects. Objects with the same model and change have the same shape at
 /// each time, so they share one. An error names the object.
 [[nodiscard]] Result<std::vector<ChangingObjects>> make_changing_models(
     const SceneFile& scene, const Plan& plan, std::span<const SceneModel> models);

@@ -19,9 +19,8 @@ Ask needs_of(const SceneFile& scene, const FileObject& object, Ask asks) {
     return live | (asks & Ask::solid);
 }
 
-/// Returns why objects cannot change as their motions say: a sentence for the first object of each
-/// pair of layers that does not ask for it. A pair that does is checked by the plan: it knows what
-/// live models do not serve.
+/// Returns why objects cannot change as their motions say. There is a sentence for each pair of
+/// layers that does not ask for it, about its first object. The plan checks the other pairs.
 std::vector<std::string> change_refusals(const SceneFile& scene) {
     std::vector<std::string> refusals;
     std::set<std::pair<std::size_t, Ask>> seen;
@@ -81,14 +80,6 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                                              .limits = limits,
                                              .origin = origin,
                                              .layer_names = layers});
-    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-        const LayerPair& pair = pairs[i];
-        for (const std::string& effect : scene.pairs[i].unbuilt) {
-            compiled.refusals.push_back("Pair " + std::to_string(i) + " of layers, '" +
-                                        names[pair.a] + "' and '" + names[pair.b] +
-                                        "': " + unbuilt_effect(effect));
-        }
-    }
     for (std::string& refusal : change_refusals(scene)) {
         compiled.refusals.push_back(std::move(refusal));
     }

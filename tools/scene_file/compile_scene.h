@@ -16,8 +16,8 @@ struct ModelNeeds {
     std::uint32_t objects = 0;  ///< all, also in layers without a pair
 };
 
-/// Returns what each model of a scene must serve. The model of an object that deforms or tears is
-/// the base of a live model, and must serve as such.
+/// Returns what each model of a scene must serve. The model of an object that deforms or tears must
+/// serve as the base of a live model.
 [[nodiscard]] std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan);
 
 /// Returns whether a pair of layers asks for the object. Others are not added to a scene.

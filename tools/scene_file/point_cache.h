@@ -29,10 +29,10 @@ struct SamplePair {
 
 /// A Point Cache 2 file (PC2), mapped: the positions of points in some samples.
 ///
-/// The file has 32 bytes, then x, y and z as floats for each point of each sample. The 32 bytes are
-/// "POINTCACHE2" and a zero, the version 1, the number of points, the start frame, the frames per
-/// sample, and the number of samples. The two about frames are floats, and are not used. The other
-/// numbers are int32. All is little-endian.
+/// The file has 32 bytes, then x, y and z as floats for each point of each sample. The 32 bytes
+/// begin with "POINTCACHE2" and a zero. Then come the version 1 and the number of points. The start
+/// frame and the frames per sample follow; both are floats and not used. The last is the number of
+/// samples. The other numbers are int32. All is little-endian.
 class PointCache {
 public:
     /// Opens a file and checks every byte that is used. Fails with `unreadable` for a file of

@@ -172,10 +172,7 @@ private:
 
     static void read_effect(const JsonElement& element, AskedPair& pair) {
         const auto number = element.one_of(kEffectWords, "an effect");
-        if (!number) return;
-        const Ask effect = effect_of(kEffectWords[*number]);
-        pair.asked.effects = pair.asked.effects | effect;
-        if (effect == Ask::nothing) pair.unbuilt.push_back(kEffectWords[*number]);
+        if (number) pair.asked.effects = pair.asked.effects | effect_of(kEffectWords[*number]);
     }
 
     static void read_contacts(const JsonElement& element, ContactOptions& options) {

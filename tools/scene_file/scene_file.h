@@ -19,9 +19,8 @@ inline constexpr std::uint32_t kMostObjects = 1U << 20;
 
 /// What the objects of two layers are asked about each other.
 struct AskedPair {
-    LayerPair asked = {};                   ///< its layers are numbers of SceneFile::layers
-    std::vector<std::string> unbuilt = {};  ///< effects in the file that the library does not know
-    bool tells_begins = true;               ///< events to report
+    LayerPair asked = {};      ///< its layers are numbers of SceneFile::layers
+    bool tells_begins = true;  ///< events to report
     bool tells_ends = true;
 };
 

@@ -24,9 +24,9 @@ struct Tear {
     auto operator<=>(const Tear&) const = default;
 };
 
-/// Returns -1, 0 or 1 for a point on the near side, on the plane or on the far side of a tear.
-/// Coordinates are at most format::kMaxCoordinate. The result is exact if coordinates that are not
-/// 0 differ by a factor of at most 2^450, and likewise those of the normal.
+/// Returns the side of a point: -1 near, 0 on the plane, 1 far. Coordinates are at most
+/// format::kMaxCoordinate. The result is exact if coordinates that are not 0 differ by a factor of
+/// at most 2^450. The same must hold for those of the normal.
 [[nodiscard]] int side_of(const Tear& tear, const Double3& point) noexcept;
 
 /// Returns how far the far side moves. The near side moves as far the other way.
@@ -57,7 +57,7 @@ struct Cut {
 ///
 /// Vertices in the plane are found exactly. A triangle that touches the plane belongs to the side
 /// of its other vertices. One that lies in the plane belongs to the near side. If both sides use a
-/// vertex in the plane, the far side gets a copy: its triangles there are replaced as well. All
+/// vertex in the plane, the far side gets a copy. Its triangles there are replaced as well. All
 /// other triangles keep their numbers.
 ///
 /// The plane misses the model unless triangles have vertices on both sides of it. It may part a

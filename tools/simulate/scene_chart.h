@@ -10,9 +10,9 @@ namespace cdprep::report {
 inline constexpr int kSceneChartWidth = 860;
 inline constexpr int kSceneChartHeight = 360;
 
-/// Returns a chart of the time a frame: the stages stacked, and a line for the longest frame of
-/// each span. It is the content of an SVG element of kSceneChartWidth by kSceneChartHeight units,
-/// drawn with the classes of scene_chart_style().
+/// Returns a chart of the time of a frame. The stages are stacked, and a line shows the longest
+/// frame of each span. It is the content of an SVG element of kSceneChartWidth by kSceneChartHeight
+/// units, drawn with the classes of scene_chart_style().
 [[nodiscard]] std::string scene_chart(const SceneTimeline& timeline, double step_s);
 
 /// Returns a sentence on how to read the chart.

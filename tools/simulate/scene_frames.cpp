@@ -16,10 +16,6 @@ constexpr std::size_t kPoseBytes = 32;
 constexpr std::size_t kHitBytes = 12;
 constexpr std::size_t kLineBytes = 40;  ///< of a contact or a distance
 
-bool are_equal(const Pose& p, const Pose& q) {
-    return p.rotation() == q.rotation() && p.translation() == q.translation();
-}
-
 std::uint32_t effect_bits(Ask effects) {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
@@ -164,7 +160,7 @@ SceneFrames::SceneFrames(const scenes::SceneFile& file, std::uint64_t count,
 void SceneFrames::add_pose(ShownFrame& shown, std::uint32_t object, const Pose& pose) {
     if (object >= poses_.size()) return;
     std::optional<Pose>& last = poses_[object];
-    if (last && are_equal(*last, pose)) return;
+    if (last && scenes::are_equal(*last, pose)) return;
     last = pose;
     shown.moved.push_back({object, pose});
 }

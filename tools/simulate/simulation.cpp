@@ -91,8 +91,8 @@ const Model& Simulation::model_of(std::uint32_t object) const noexcept {
     return *models_[file_->objects[object].model].model;
 }
 
-/// Makes a scene, and adds the objects as they are at a time: with these poses by slot or, if there
-/// are none, those of their motions.
+/// Makes a scene, and adds the objects as they are at a time. `poses` are theirs by slot. If there
+/// are none, they have those of their motions.
 Result<Done> Simulation::fill(double time_s, const std::vector<Pose>& poses) {
     scene_.reset();
     objects_.clear();

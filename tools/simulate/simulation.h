@@ -102,7 +102,7 @@ private:
     std::vector<std::uint32_t> objects_;  ///< by slot
     std::vector<ObjectId> ids_;           ///< by slot
     std::vector<Pose> poses_;             ///< by slot, as the scene has them
-    /// By slot, of this frame, the last one and the one before: what growing repeats.
+    /// The poses of this frame, the last one and the one before. Growing repeats these frames.
     std::array<std::vector<Pose>, 3> history_;
     std::vector<ChangingObjects> changing_;
     std::vector<std::uint32_t> changing_of_;  ///< by object: its number in changing_, or kUnchanged

@@ -19,15 +19,6 @@ namespace {
 
 constexpr std::uint32_t kObjects = 10;
 
-cdprep_pose rows_of(const Pose& pose) {
-    cdprep_pose to{};
-    std::copy(pose.rotation().begin(), pose.rotation().end(), std::begin(to.rows));
-    to.rows[9] = pose.translation().x;
-    to.rows[10] = pose.translation().y;
-    to.rows[11] = pose.translation().z;
-    return to;
-}
-
 /// One scene in C and in C++, of the same objects.
 class TwoScenes {
 public:
@@ -70,7 +61,7 @@ public:
     void move() {
         for (std::uint32_t i = 0; i < kObjects; ++i) {
             const Pose pose = random_pose(random_, 3);
-            const cdprep_pose rows = rows_of(pose);
+            const cdprep_pose rows = rows_in_c(pose);
             if (i % 3 == 0) {
                 EXPECT_EQ(cdprep_scene_put(c_scene_, &ids_[i], &rows, 1, nullptr), CDPREP_OK);
                 EXPECT_TRUE(scene_.put(scene_.object_at(i), pose));
@@ -143,7 +134,7 @@ private:
         cdprep_object_options options;
         cdprep_object_options_init(&options, sizeof options);
         options.model = model_.get();
-        options.world_from_model = rows_of(pose);
+        options.world_from_model = rows_in_c(pose);
         ids_.emplace_back();
         EXPECT_EQ(cdprep_scene_add(c_scene_, &options, 1, &ids_.back(), nullptr), CDPREP_OK);
         EXPECT_TRUE(scene_.add({&own_.model, 0, pose}));
@@ -241,7 +232,7 @@ TEST(CSceneEffects, AChangeOfALiveModelIsFoundWithoutACall) {
     for (cdprep_object_options& one : objects) cdprep_object_options_init(&one, sizeof one);
     objects[0].model = sheet.model();
     objects[1].model = ball.get();
-    objects[1].world_from_model = rows_of(Pose::from_quaternion(1, 0, 0, 0, {2, 2, 3}).value());
+    objects[1].world_from_model = rows_in_c(Pose::from_quaternion(1, 0, 0, 0, {2, 2, 3}).value());
     std::array<cdprep_object, 2> ids;
     ASSERT_EQ(cdprep_scene_add(scene, objects.data(), 2, ids.data(), nullptr), CDPREP_OK);
     const auto holds = [&] {

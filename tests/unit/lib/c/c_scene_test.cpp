@@ -110,15 +110,6 @@ struct CPairs {
     }
 };
 
-cdprep_pose in_c(const Pose& pose) {
-    cdprep_pose to{};
-    std::copy(pose.rotation().begin(), pose.rotation().end(), std::begin(to.rows));
-    to.rows[9] = pose.translation().x;
-    to.rows[10] = pose.translation().y;
-    to.rows[11] = pose.translation().z;
-    return to;
-}
-
 ObjectId in_cpp(const cdprep_object& id) {
     return {id.slot, id.generation};
 }
@@ -174,7 +165,7 @@ public:
         cdprep_object_options_init(&options, sizeof options);
         options.model = c_models_[model]->get();
         options.layer = layer;
-        options.world_from_model = in_c(pose);
+        options.world_from_model = rows_in_c(pose);
         cdprep_object id{};
         const int code = cdprep_scene_add(c_scene_, &options, 1, &id, nullptr);
         const auto added = scene_.add({&models_[model], layer, pose});
@@ -198,7 +189,7 @@ public:
             EXPECT_TRUE(scene_.set_layer(in_cpp(id), layer));
         } else {
             const Pose pose = random_pose(random_, kReach_);
-            const cdprep_pose to = in_c(pose);
+            const cdprep_pose to = rows_in_c(pose);
             EXPECT_EQ(cdprep_scene_set_poses(c_scene_, &id, &to, 1, nullptr), CDPREP_OK);
             EXPECT_TRUE(scene_.set_pose(in_cpp(id), pose));
         }

@@ -103,7 +103,6 @@ TEST(ReadScene, KeepsEffectsThatAreNotBuilt) {
     const SceneFile scene =
         folder.scene(one_object("", R"("effects": ["tear", "response", "haptic"])"));
     EXPECT_EQ(scene.pairs[0].asked.effects, Ask::tear | Ask::response | Ask::haptic);
-    EXPECT_EQ(scene.pairs[0].unbuilt, std::vector<std::string>());
 }
 
 TEST(ReadScene, ReadsOptionsOfEffects) {

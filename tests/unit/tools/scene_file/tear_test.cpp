@@ -283,7 +283,7 @@ TEST(CutByPlane, ChangesNothingWhereItMisses) {
     EXPECT_TRUE(cut_mesh({}, {}).misses);
 }
 
-// Two bodies on both sides of a plane are parted without a cut.
+// Each body lies on one side of the plane: no triangle is cut, and each keeps its vertices.
 TEST(CutByPlane, PartsBodiesThatItDoesNotCross) {
     const TestMesh two =
         test::joined(test::unit_cube(), test::moved_by(test::unit_cube(), 1, {3, 0, 0}));
