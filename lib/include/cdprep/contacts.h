@@ -176,8 +176,8 @@ struct ContactsVerdict {
 ///
 /// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
 /// are the corners of one face, clipped by the other. Each distance is that between the two faces
-/// there, along the normal. A face may lean by 0.03 radians against the normal, as where two faces
-/// that are nearly parallel have edges that cross. The deepest point is first, then those that span
+/// there, along the normal. A face may lean by 0.03 radians against the normal. Faces that are
+/// nearly parallel do, where their edges cross. The deepest point is first, then those that span
 /// the largest area.
 ///
 /// The answer is the same on every processor. With Body::surface, a piece inside another's hull
