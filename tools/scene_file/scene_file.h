@@ -35,6 +35,42 @@ struct Change {
 /// The change of an object whose model stays as it is.
 inline constexpr std::uint32_t kUnchanged = 0xffffffffU;
 
+/// What `response` reads of every object, whether it is a body or not.
+struct Material {
+    double friction = 0.5;   ///< at least 0; of two objects: the geometric mean
+    double restitution = 0;  ///< 0 to 1; of two objects: the larger one
+
+    auto operator<=>(const Material&) const = default;
+};
+
+/// A rigid body that `response` moves: contacts push it, gravity pulls it.
+struct BodyMotion {
+    /// Of the whole body. Unset: the density times the volume of the model.
+    std::optional<double> mass = {};
+    std::optional<double> density = {};  ///< per cubic model unit; unset: of water
+    double linear_damping = 0;           ///< the share of the velocity lost in a second, 0 to 1
+    double angular_damping = 0;
+    Double3 velocity{};  ///< at first, of the centre of mass
+    Double3 turn{};      ///< at first, radians per second, in the world
+    bool is_continuous = false;
+};
+
+/// The body of an object that is none.
+inline constexpr std::uint32_t kNoBody = 0xffffffffU;
+
+/// How `response` moves bodies. Lengths are in model units. What is unset follows from the others.
+struct Dynamics {
+    std::optional<Double3> gravity;  ///< needed if there are bodies
+    std::uint32_t substeps = 4;
+    std::uint32_t iterations = 50;
+    std::optional<double> rest_gap = {};     ///< unset: half a millimetre
+    std::optional<double> most_speed = {};   ///< unset: 2 metres per second
+    std::optional<double> tolerance = {};    ///< unset: what most_speed needs, and a tenth more
+    std::optional<double> sleep_speed = {};  ///< unset: 1 centimetre per second
+    std::uint32_t most_contacts = 32;
+    bool sleeps = true;
+};
+
 struct FileObject {
     std::string name;                   ///< unique; copies are "NAME[x,y,z]"
     std::uint32_t model = 0;            ///< its number in SceneFile::models
@@ -42,6 +78,8 @@ struct FileObject {
     std::uint32_t motion = 0;           ///< its number in SceneFile::motions
     Double3 offset{};                   ///< of a copy, in the world
     std::uint32_t change = kUnchanged;  ///< its number in SceneFile::changes
+    std::uint32_t body = kNoBody;       ///< its number in SceneFile::bodies
+    Material material = {};
 };
 
 /// The content of a scene file. Lengths are in model units.
@@ -58,6 +96,8 @@ struct SceneFile {
     std::vector<std::filesystem::path> models;  ///< mesh files or baked files, each once
     std::vector<Motion> motions;
     std::vector<Change> changes;  ///< each once
+    Dynamics dynamics;
+    std::vector<BodyMotion> bodies;
     std::vector<FileObject> objects;
 };
 
