@@ -46,17 +46,19 @@ std::uint32_t boundary_loops(const Model& model) {
 }
 
 Error no_mass(const RigidBody& body) {
+    const std::string begin = body.name + ": response needs mass, and the ";
     const std::uint32_t loops = boundary_loops(*body.model);
-    if (loops == 0) {
+    if (body.model->is_balanced() && loops == 0) {
         return {ErrorCode::bad_argument,
-                body.name +
-                    ": response needs mass, and the file has no mass properties. Bake it again "
-                    "with --effects response, or give a mass in the scene."};
+                begin +
+                    "file has no mass properties. Bake it again with --effects response, or give "
+                    "a mass in the scene."};
     }
+    const std::string holes =
+        " (" + std::to_string(loops) + " boundary loop" + (loops == 1 ? "" : "s") + ")";
     return {ErrorCode::bad_argument,
-            body.name + ": response needs mass, and the mesh is open (" + std::to_string(loops) +
-                " boundary loop" + (loops == 1 ? "" : "s") +
-                "). Give a mass in the scene, or repair it (--repair closed)."};
+            begin + "mesh is open" + (loops == 0 ? "" : holes) +
+                ". Give a mass in the scene, or repair it (--repair closed)."};
 }
 
 /// A solid box.

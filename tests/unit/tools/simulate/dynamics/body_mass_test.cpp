@@ -65,8 +65,8 @@ TEST(BodyMass, OfAnOpenModelIsThatOfItsBox) {
         study::make_memory_model(test::mesh_of(test::grid_sheet(2, 1)), {.pieces = true}).value();
     RigidBody body{.model = &made.model, .name = "sheet"};
     EXPECT_EQ(mass_of(body).error().message,
-              "sheet: response needs mass, and the file has no mass properties. Bake it again with "
-              "--effects response, or give a mass in the scene.");
+              "sheet: response needs mass, and the mesh is open. Give a mass in the scene, or "
+              "repair it (--repair closed).");
     body.mass = 12;
     const BodyMass mass = mass_of(body).value();
     EXPECT_EQ(mass.mass, 12);
