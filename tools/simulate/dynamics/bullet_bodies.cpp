@@ -180,6 +180,7 @@ Result<std::uint32_t> BulletBodies::add_body(const RigidBody& body) {
     if (const auto refusal = body.model->refusal(asks)) return refused(refusal->message);
     const Result<BodyMass> mass = mass_of(body);
     if (!mass) return mass.error();
+    if (Result<Done> added = scene_.add(body); !added) return added.error();
     bodies_.push_back(std::make_unique<BulletBody>(body, *mass));
     btRigidBody& made = *bodies_.back()->rigid;
     const double angular = mass->radius > 0 ? options_.sleep_speed / mass->radius : 1;
@@ -190,7 +191,6 @@ Result<std::uint32_t> BulletBodies::add_body(const RigidBody& body) {
         made.forceActivationState(DISABLE_DEACTIVATION);
     }
     if (body.kind == BodyKind::driven) made.forceActivationState(ISLAND_SLEEPING);
-    scene_.add(body);
     return body_count() - 1;
 }
 

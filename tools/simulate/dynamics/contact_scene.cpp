@@ -3,68 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace cdprep::dynamics {
 namespace {
-
-// A model that serves Ask::solid also has contacts where a component is inside it. Solids come
-// first.
-enum Layer : std::uint32_t {
-    slow_solid,
-    fast_solid,
-    still_solid,
-    slow_surface,
-    fast_surface,
-    still_surface,
-    layer_count
-};
-
-bool is_solid(std::uint32_t layer) {
-    return layer < slow_surface;
-}
-bool is_still(std::uint32_t layer) {
-    return layer == still_solid || layer == still_surface;
-}
-bool is_slow(std::uint32_t layer) {
-    return !(layer == fast_solid || layer == fast_surface);
-}
-
-std::uint32_t layer_of(const RigidBody& body) {
-    const bool solid = body.model->serves(Ask::solid);
-    if (body.kind == BodyKind::moving) return solid ? fast_solid : fast_surface;
-    return solid ? still_solid : still_surface;
-}
 
 /// The part of the way of a substep that slow bodies go.
 constexpr double kSlowShare = 0.125;
 
 double slow_way(const DynamicsOptions& options) {
     return kSlowShare * (options.tolerance - options.rest_gap);
-}
-
-LayerPair layer_pair(std::uint32_t a, std::uint32_t b, const DynamicsOptions& options) {
-    LayerPair pair;
-    pair.a = a;
-    pair.b = b;
-    pair.effects = Ask::contacts;
-    pair.body = is_solid(a) && is_solid(b) ? Body::solid : Body::surface;
-    const bool slow = is_slow(a) && is_slow(b);
-    pair.contacts = {.tolerance = slow ? options.rest_gap + slow_way(options) : options.tolerance,
-                     .manifold = Manifold::four,
-                     .most = options.most_contacts,
-                     .cluster_angle = options.cluster_angle};
-    return pair;
-}
-
-std::vector<LayerPair> layer_pairs(const DynamicsOptions& options) {
-    std::vector<LayerPair> pairs;
-    for (std::uint32_t a = 0; a < layer_count; ++a) {
-        for (std::uint32_t b = a; b < layer_count; ++b) {
-            if (!(is_still(a) && is_still(b))) pairs.push_back(layer_pair(a, b, options));
-        }
-    }
-    return pairs;
 }
 
 }  // namespace
@@ -81,9 +30,65 @@ ContactScene::ContactScene(const DynamicsOptions& options, ParallelFor parallel_
     limits_ = {.objects = 0, .pairs = 64, .threads = options.threads, .contacts = 1024};
 }
 
-void ContactScene::add(const RigidBody& body) {
-    objects_.push_back({body.model, layer_of(body), body.world_from_model});
+/// Returns the number of a layer, also of one that does not occur yet.
+std::uint32_t ContactScene::layer_of(const BodyLayer& layer) {
+    const auto at = std::ranges::find(layers_, layer);
+    const auto number = static_cast<std::uint32_t>(at - layers_.begin());
+    if (at == layers_.end()) layers_.push_back(layer);
+    return number;
+}
+
+Result<Done> ContactScene::add(const RigidBody& body) {
+    const std::size_t before = layers_.size();
+    const bool still = body.kind != BodyKind::moving;
+    BodyLayer layer{body.group, body.model->serves(Ask::solid), still, Pace::slow};
+    std::uint32_t number = layer_of(layer);
+    layer.pace = Pace::fast;
+    if (!still) number = layer_of(layer);  // until its speed is known
+    const std::size_t needed = layers_.size();
+    if (needed > kLayers) {
+        layers_.resize(before);
+        return Error{ErrorCode::bad_argument, body.name + ": the groups and kinds of bodies need " +
+                                                  std::to_string(needed) + " layers; at most " +
+                                                  std::to_string(kLayers) + " are possible."};
+    }
+    objects_.push_back({body.model, number, body.world_from_model});
     scene_.reset();
+    return Done{};
+}
+
+bool ContactScene::push_each_other(const BodyLayer& a, const BodyLayer& b) const {
+    if (a.still && b.still) return false;
+    return options_.groups.empty() || std::ranges::any_of(options_.groups, [&](const auto& pair) {
+               return std::minmax(pair.first, pair.second) == std::minmax(a.group, b.group);
+           });
+}
+
+/// A model that serves Ask::solid also has contacts where a component is inside it.
+LayerPair ContactScene::layer_pair(std::uint32_t a, std::uint32_t b) const {
+    const BodyLayer &first = layers_[a], &second = layers_[b];
+    const bool slow = first.pace == Pace::slow && second.pace == Pace::slow;
+    LayerPair pair;
+    pair.a = a;
+    pair.b = b;
+    pair.effects = Ask::contacts;
+    pair.body = first.solid && second.solid ? Body::solid : Body::surface;
+    pair.contacts = {
+        .tolerance = slow ? options_.rest_gap + slow_way(options_) : options_.tolerance,
+        .manifold = Manifold::four,
+        .most = options_.most_contacts,
+        .cluster_angle = options_.cluster_angle};
+    return pair;
+}
+
+std::vector<LayerPair> ContactScene::layer_pairs() const {
+    std::vector<LayerPair> pairs;
+    for (std::uint32_t a = 0; a < layers_.size(); ++a) {
+        for (std::uint32_t b = a; b < layers_.size(); ++b) {
+            if (push_each_other(layers_[a], layers_[b])) pairs.push_back(layer_pair(a, b));
+        }
+    }
+    return pairs;
 }
 
 void ContactScene::set_pose(std::uint32_t object, const Pose& world_from_model) {
@@ -92,10 +97,9 @@ void ContactScene::set_pose(std::uint32_t object, const Pose& world_from_model) 
 }
 
 void ContactScene::set_pace(std::uint32_t object, Pace pace) {
-    const bool solid = is_solid(objects_[object].layer);
-    const std::uint32_t slow = solid ? slow_solid : slow_surface;
-    const std::uint32_t fast = solid ? fast_solid : fast_surface;
-    const std::uint32_t layer = pace == Pace::slow ? slow : fast;
+    BodyLayer wanted = layers_[objects_[object].layer];
+    wanted.pace = pace;
+    const std::uint32_t layer = layer_of(wanted);
     if (layer == objects_[object].layer) return;
     objects_[object].layer = layer;
     if (scene_) scene_->set_layer(ids_[object], layer);
@@ -105,7 +109,7 @@ void ContactScene::set_pace(std::uint32_t object, Pace pace) {
 Result<Done> ContactScene::fill() {
     scene_.reset();
     limits_.objects = static_cast<std::uint32_t>(objects_.size());
-    const std::vector<LayerPair> pairs = layer_pairs(options_);
+    const std::vector<LayerPair> pairs = layer_pairs();
     Plan::Compiled compiled = Plan::compile({.pairs = pairs, .limits = limits_});
     if (!compiled.plan) return Error{ErrorCode::bad_argument, compiled.refusals.front()};
     plan_ = std::make_unique<const Plan>(std::move(*compiled.plan));

@@ -24,7 +24,8 @@ class ContactScene {
 public:
     ContactScene(const DynamicsOptions& options, ParallelFor parallel_for);
 
-    void add(const RigidBody& body);
+    /// Fails with bad_argument if the groups and kinds of the bodies need too many layers.
+    [[nodiscard]] Result<Done> add(const RigidBody& body);
     void set_pose(std::uint32_t object, const Pose& world_from_model);
     /// Of a moving body.
     void set_pace(std::uint32_t object, Pace pace);
@@ -42,6 +43,20 @@ public:
     }
 
 private:
+    /// The bodies that have contacts in the same distance with the same others.
+    struct BodyLayer {
+        std::uint32_t group;
+        bool solid;  ///< the models serve Ask::solid
+        bool still;  ///< fixed or driven
+        Pace pace;   ///< of still ones: slow
+
+        bool operator==(const BodyLayer&) const = default;
+    };
+
+    [[nodiscard]] std::uint32_t layer_of(const BodyLayer& layer);
+    [[nodiscard]] bool push_each_other(const BodyLayer& a, const BodyLayer& b) const;
+    [[nodiscard]] LayerPair layer_pair(std::uint32_t a, std::uint32_t b) const;
+    [[nodiscard]] std::vector<LayerPair> layer_pairs() const;
     [[nodiscard]] Result<Done> fill();
     void grow(const SceneStep& step);
 
@@ -49,6 +64,7 @@ private:
     ParallelFor parallel_for_;
     SceneLimits limits_;
     std::vector<Workspace> workspaces_;
+    std::vector<BodyLayer> layers_;  ///< those that occur, in the order of their bodies
     std::vector<SceneObject> objects_;
     std::vector<ObjectId> ids_;
     std::unique_ptr<const Plan> plan_;  ///< outlives the scene

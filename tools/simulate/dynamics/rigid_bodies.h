@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/model.h"
@@ -40,6 +42,8 @@ struct DynamicsOptions {
     double sleep_speed = 1e-2;
     /// Threads that parallel_for uses at a time. Results do not depend on it.
     std::uint32_t threads = 1;
+    /// The pairs of groups whose bodies push each other. Empty: all bodies push all others.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> groups = {};
 };
 
 enum class BodyKind : std::uint8_t {
@@ -54,6 +58,7 @@ struct RigidBody {
     std::string name = "body";     ///< for messages
     Pose world_from_model = {};
     BodyKind kind = BodyKind::moving;
+    std::uint32_t group = 0;  ///< of DynamicsOptions::groups
     /// Of the whole body. Unset: density times the volume that the file has.
     std::optional<double> mass = {};
     double density = 1000;      ///< mass per cubic model unit
@@ -109,7 +114,7 @@ public:
     virtual ~RigidBodies() = default;
 
     /// Adds a body and returns its number: 0, 1, and so on. Fails with bad_argument if the model
-    /// does not serve the contacts, or a moving body has no mass. A closed model's mass is in the
+    /// does not serve the contacts, a moving body has no mass, or there are too many groups. A closed model's mass is in the
     /// file. An open model needs body.mass; its centre and inertia are then those of its box.
     [[nodiscard]] virtual Result<std::uint32_t> add_body(const RigidBody& body) = 0;
 

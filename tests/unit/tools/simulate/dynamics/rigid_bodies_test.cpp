@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "study/memory_model.h"
 #include "support/meshes.h"
@@ -112,6 +113,56 @@ TEST_F(RigidBodiesTest, AnObliqueBounceMakesNoSpin) {
     EXPECT_NEAR(bodies->velocity(body).z, 1.6, 1e-4);
     const Double3 spin = bodies->angular_velocity(body);
     for (const double turn : {spin.x, spin.y, spin.z}) EXPECT_NEAR(turn, 0, 1e-4);
+}
+
+// The second cube is in a group that the floor does not push.
+TEST_F(RigidBodiesTest, OnlyPairedGroupsPushEachOther) {
+    const auto bodies = make({.groups = {{1, 0}}});
+    ASSERT_TRUE(bodies->add_body(floor()));
+    RigidBody held = cube({-1, 0, 0.6}), falls = cube({1, 0, 0.6});
+    held.group = 1;
+    falls.group = 2;
+    ASSERT_TRUE(bodies->add_body(held));
+    ASSERT_TRUE(bodies->add_body(falls));
+    for (int frame = 0; frame < 30; ++frame) ASSERT_TRUE(bodies->step());
+    EXPECT_NEAR(bodies->centre_of_mass(1).z, 0.5, 1e-3);
+    EXPECT_NEAR(bodies->centre_of_mass(2).z, 0.6 - 9.81 / 8, 1e-6);
+    EXPECT_EQ(bodies->counts().pairs, 4U) << "one pair of bodies in each substep";
+}
+
+// Groups that all push each other are as none.
+TEST_F(RigidBodiesTest, GroupsChangeNothingThatIsPaired) {
+    std::vector<std::uint64_t> hashes;
+    for (const bool has_groups : {false, true}) {
+        DynamicsOptions options;
+        if (has_groups) options.groups = {{0, 1}, {1, 1}};
+        const auto bodies = make(options);
+        ASSERT_TRUE(bodies->add_body(floor()));
+        for (const double z : {0.6, 1.7}) {
+            RigidBody box = cube({0.1 * z, 0, z});
+            box.group = has_groups ? 1 : 0;
+            ASSERT_TRUE(bodies->add_body(box));
+        }
+        for (int frame = 0; frame < 60; ++frame) ASSERT_TRUE(bodies->step());
+        hashes.push_back(bodies->state_hash());
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+// By hand: each group of cubes needs two layers, one for slow and one for fast ones.
+TEST_F(RigidBodiesTest, RefuseTooManyGroups) {
+    const auto bodies = make();
+    RigidBody box = cube({0, 0, 5});
+    box.name = "box";
+    for (box.group = 0; box.group < 16; ++box.group) ASSERT_TRUE(bodies->add_body(box));
+    const auto refused = bodies->add_body(box);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message,
+              "box: the groups and kinds of bodies need 34 layers; at most 32 are possible.");
+    box.group = 3;
+    EXPECT_TRUE(bodies->add_body(box));
+    EXPECT_EQ(bodies->body_count(), 17U);
+    EXPECT_TRUE(bodies->step());
 }
 
 TEST_F(RigidBodiesTest, RefuseNumbersThatBulletCannotHold) {
