@@ -42,7 +42,7 @@ Result<std::vector<Part>> parts_of(const scenes::SceneFile& scene, const Plan& p
     std::vector<Part> parts;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         const scenes::FileObject& object = scene.objects[i];
-        if (!scenes::is_asked(plan, object)) continue;
+        if (plan.asks_of(object.layer) == Ask::nothing) continue;
         const Result<Pose> pose = scenes::pose_of(scene, object, 0);
         if (!pose) return pose.error();
         parts.push_back({i, object.layer, &*models[object.model].model, *pose});

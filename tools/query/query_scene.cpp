@@ -48,6 +48,7 @@ public:
     Exit run() {
         if (const auto exit = read()) return *exit;
         if (const auto error = choose_pairs()) return fail("query", *error);
+        scenes::drop_effect(scene(), Ask::response);  // bodies are asked where they begin
         // First without models: nothing is baked for a plan that does not exist.
         Plan::Compiled compiled = scenes::compile_scene(scene(), {});
         if (!compiled.plan) return fail_all(compiled.refusals, ErrorCode::bad_argument);

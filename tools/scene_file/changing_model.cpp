@@ -222,7 +222,7 @@ Result<std::vector<ChangingObjects>> make_changing_models(const SceneFile& scene
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> numbers;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         const FileObject& object = scene.objects[i];
-        if (object.change == kUnchanged || !is_asked(plan, object)) continue;
+        if (object.change == kUnchanged || !is_asked(scene, plan, object)) continue;
         const auto [at, is_new] = numbers.try_emplace({object.model, object.change}, all.size());
         if (is_new) {
             Result<ChangingModel> made =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene_file/compile_scene.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <string_view>
@@ -19,6 +20,62 @@ Ask needs_of(const SceneFile& scene, const FileObject& object, Ask asks) {
     return live | (asks & Ask::solid);
 }
 
+/// Returns what the model of an object must serve so that it can push others. `has_continuous`
+/// tells whether any body is.
+ModelNeeds needs_of_response(const SceneFile& scene, const FileObject& object,
+                             bool has_continuous) {
+    ModelNeeds needs{.asks = Ask::contacts, .wishes = Ask::solid};
+    if (has_continuous) needs.asks = needs.asks | Ask::distance;
+    if (object.body == kNoBody) return needs;
+    // With a given mass, the file still tells how it is distributed.
+    Ask& mass = scene.bodies[object.body].mass ? needs.wishes : needs.asks;
+    mass = mass | Ask::response;
+    return needs;
+}
+
+std::string quoted(const std::string& name) {
+    return "'" + report::printable(name) + "'";
+}
+
+std::string words_for(const SceneFile& scene, std::size_t pair) {
+    const LayerPair& asked = scene.pairs[pair].asked;
+    return "Pair " + std::to_string(pair) + " of layers, " + quoted(scene.layers[asked.a]) +
+           " and " + quoted(scene.layers[asked.b]);
+}
+
+/// Returns why objects of responding layers cannot push each other. There is a sentence for each
+/// layer, about its first such object, and one for each pair of layers without a body.
+std::vector<std::string> body_refusals(const SceneFile& scene) {
+    std::vector<std::string> refusals;
+    std::set<std::pair<std::uint32_t, bool>> seen;
+    std::set<std::uint32_t> with_bodies;
+    for (const FileObject& object : scene.objects) {
+        const bool is_body = object.body != kNoBody;
+        if (is_body) with_bodies.insert(object.layer);
+        const bool moves_alone = is_body && !responds(scene, object.layer);
+        const bool changes = object.change != kUnchanged && responds(scene, object.layer);
+        if (!moves_alone && !changes) continue;
+        if (!seen.insert({object.layer, changes}).second) continue;
+        const std::string start =
+            "Object " + quoted(object.name) + " in layer " + quoted(scene.layers[object.layer]);
+        refusals.push_back(moves_alone ? start +
+                                             " is a body, but no pair of this layer asks for "
+                                             "response."
+                                       : start +
+                                             " deforms or tears. The response of such models is "
+                                             "not built: pieces do not follow the surface.");
+    }
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+        const LayerPair& pair = scene.pairs[i].asked;
+        if (!contains(pair.effects, Ask::response)) continue;
+        if (with_bodies.contains(pair.a) || with_bodies.contains(pair.b)) continue;
+        refusals.push_back(words_for(scene, i) +
+                           ": response needs bodies, but no object of these layers has the motion "
+                           "\"body\".");
+    }
+    return refusals;
+}
+
 /// Returns why objects cannot change as their motions say. There is a sentence for each pair of
 /// layers that does not ask for it, about its first object. The plan checks the other pairs.
 std::vector<std::string> change_refusals(const SceneFile& scene) {
@@ -33,14 +90,12 @@ std::vector<std::string> change_refusals(const SceneFile& scene) {
             if (pair.a != object.layer && pair.b != object.layer) continue;
             if (pair.effects == Ask::nothing || (pair.effects & wanted) != Ask::nothing) continue;
             if (!seen.insert({i, wanted}).second) continue;
-            const auto layer = [&](std::uint32_t number) {
-                return "'" + report::printable(scene.layers[number]) + "'";
-            };
-            refusals.push_back("Object '" + report::printable(object.name) + "' in layer " +
-                               layer(object.layer) + (tears ? " tears" : " deforms") + ". Add " +
+            refusals.push_back("Object " + quoted(object.name) + " in layer " +
+                               quoted(scene.layers[object.layer]) +
+                               (tears ? " tears" : " deforms") + ". Add " +
                                (tears ? "tear" : "deform") + " to the effects of pair " +
-                               std::to_string(i) + " of layers, " + layer(pair.a) + " and " +
-                               layer(pair.b) + ".");
+                               std::to_string(i) + " of layers, " + quoted(scene.layers[pair.a]) +
+                               " and " + quoted(scene.layers[pair.b]) + ".");
         }
     }
     return refusals;
@@ -50,23 +105,39 @@ std::vector<std::string> change_refusals(const SceneFile& scene) {
 
 std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan) {
     std::vector<ModelNeeds> needs(scene.models.size());
+    const bool has_continuous = std::ranges::any_of(scene.bodies, &BodyMotion::is_continuous);
     for (const FileObject& object : scene.objects) {
         ModelNeeds& model = needs[object.model];
         model.asks = model.asks | needs_of(scene, object, plan.asks_of(object.layer));
+        if (responds(scene, object.layer)) {
+            const ModelNeeds more = needs_of_response(scene, object, has_continuous);
+            model.asks = model.asks | more.asks;
+            model.wishes = model.wishes | more.wishes;
+        }
         model.layers |= 1U << object.layer;
         ++model.objects;
     }
     return needs;
 }
 
-bool is_asked(const Plan& plan, const FileObject& object) noexcept {
-    return plan.asks_of(object.layer) != Ask::nothing;
+bool is_asked(const SceneFile& scene, const Plan& plan, const FileObject& object) {
+    return plan.asks_of(object.layer) != Ask::nothing || responds(scene, object.layer);
+}
+
+bool responds(const SceneFile& scene, std::uint32_t layer) {
+    return std::ranges::any_of(scene.pairs, [&](const AskedPair& pair) {
+        const bool has_layer = pair.asked.a == layer || pair.asked.b == layer;
+        return has_layer && contains(pair.asked.effects, Ask::response);
+    });
 }
 
 Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                              std::span<const ModelUse> models) {
     std::vector<LayerPair> pairs;
-    for (const AskedPair& pair : scene.pairs) pairs.push_back(pair.asked);
+    for (const AskedPair& pair : scene.pairs) {
+        pairs.push_back(pair.asked);
+        pairs.back().effects = scene_effects(pair);
+    }
     std::vector<std::string> names;
     for (const std::string& layer : scene.layers) names.push_back(report::printable(layer));
     const std::vector<std::string_view> layers(names.begin(), names.end());
@@ -80,8 +151,10 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                                              .limits = limits,
                                              .origin = origin,
                                              .layer_names = layers});
-    for (std::string& refusal : change_refusals(scene)) {
-        compiled.refusals.push_back(std::move(refusal));
+    for (auto* find_refusals : {change_refusals, body_refusals}) {
+        for (std::string& refusal : find_refusals(scene)) {
+            compiled.refusals.push_back(std::move(refusal));
+        }
     }
     if (!compiled.refusals.empty()) compiled.plan.reset();
     for (std::string& refusal : compiled.refusals) refusal.insert(0, scene.name + ": ");
@@ -89,6 +162,9 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
 }
 
 void drop_effect(SceneFile& scene, Ask effect) {
+    if (effect == Ask::response) {
+        for (FileObject& object : scene.objects) object.body = kNoBody;
+    }
     const LayerPair unused;
     for (AskedPair& pair : scene.pairs) {
         LayerPair& asked = pair.asked;

@@ -12,8 +12,13 @@ namespace cdprep::scenes {
 /// What the objects of a model are asked for.
 struct ModelNeeds {
     Ask asks = Ask::nothing;    ///< nothing: no object of the model is looked at
+    Ask wishes = Ask::nothing;  ///< what is used if the model serves it
     std::uint32_t layers = 0;   ///< of its objects: bit i for layer i
     std::uint32_t objects = 0;  ///< all, also in layers without a pair
+
+    [[nodiscard]] Ask wanted() const noexcept {
+        return asks | wishes;
+    }
 };
 
 /// Returns what each model of a scene must serve. The model of an object that deforms or tears must
@@ -21,15 +26,25 @@ struct ModelNeeds {
 [[nodiscard]] std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan);
 
 /// Returns whether a pair of layers asks for the object. Others are not added to a scene.
-[[nodiscard]] bool is_asked(const Plan& plan, const FileObject& object) noexcept;
+[[nodiscard]] bool is_asked(const SceneFile& scene, const Plan& plan, const FileObject& object);
 
-/// Compiles the plan of a scene file. Every refusal begins with the name of the file. Without
-/// `models`, their needs are not checked. Also refuses objects that deform or tear unless
-/// each pair of their layer asks for it.
+/// Returns what a pair asks of the library's scene: all but `response`, which moves bodies.
+[[nodiscard]] inline Ask scene_effects(const AskedPair& pair) noexcept {
+    return without(pair.asked.effects, Ask::response);
+}
+
+/// Returns whether a pair of layers asks that objects of a layer push others.
+[[nodiscard]] bool responds(const SceneFile& scene, std::uint32_t layer);
+
+/// Compiles the plan of a scene file, but for `response`, which the library does not compute. Every
+/// refusal begins with the name of the file. Without `models`, their needs are not checked. Also
+/// refuses objects that deform or tear unless each pair of their layer asks for it. Refuses bodies
+/// that nothing can push, and `response` of layers in which nothing is a body.
 [[nodiscard]] Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                                            std::span<const ModelUse> models = {});
 
-/// Drops an effect from all pairs of layers, and the options that no effect reads then.
+/// Drops an effect from all pairs of layers, and the options that no effect reads then. Without
+/// `response`, bodies stay where they are.
 void drop_effect(SceneFile& scene, Ask effect);
 
 }  // namespace cdprep::scenes

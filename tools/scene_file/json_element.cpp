@@ -28,6 +28,32 @@ std::string listed(std::span<const std::string> words) {
     return text;
 }
 
+bool is_in(Range range, double number) {
+    switch (range) {
+        case Range::any:
+            return true;
+        case Range::zero_or_more:
+            return number >= 0;
+        case Range::above_zero:
+            return number > 0;
+        default:
+            return number >= 0 && number <= 1;
+    }
+}
+
+const char* words_for(Range range) {
+    switch (range) {
+        case Range::any:
+            return "a number";
+        case Range::zero_or_more:
+            return "a number, 0 or more";
+        case Range::above_zero:
+            return "a number above 0";
+        default:
+            return "a number from 0 to 1";
+    }
+}
+
 }  // namespace
 
 JsonElement::JsonElement(const JsonFile& file, std::vector<std::string>& errors)
@@ -101,13 +127,9 @@ std::optional<std::string> JsonElement::text() const {
 std::optional<double> JsonElement::number(Range range) const {
     if (value_->is_number()) {
         const auto found = value_->get<double>();
-        if (range == Range::any || found > 0 || (range == Range::zero_or_more && found == 0)) {
-            return found;
-        }
+        if (is_in(range, found)) return found;
     }
-    refuse_value(range == Range::any            ? "a number"
-                 : range == Range::zero_or_more ? "a number, 0 or more"
-                                                : "a number above 0");
+    refuse_value(words_for(range));
     return std::nullopt;
 }
 

@@ -14,8 +14,8 @@
 
 namespace cdprep::scenes {
 
-/// The numbers that a value may be.
-enum class Range : std::uint8_t { any, zero_or_more, above_zero };
+/// The numbers that a value may be. A share is from 0 to 1.
+enum class Range : std::uint8_t { any, zero_or_more, above_zero, share };
 
 /// A value of a JSON file that is read and checked. Every function that returns nothing has added
 /// an error: file, line, JSON pointer, the value found and what is allowed.
@@ -48,6 +48,9 @@ public:
 
     [[nodiscard]] bool is_text() const {
         return value_->is_string();
+    }
+    [[nodiscard]] bool is_word(std::string_view word) const {
+        return *value_ == word;
     }
 
 private:

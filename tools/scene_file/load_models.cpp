@@ -84,7 +84,7 @@ private:
             loaded.origin = ModelOrigin::baked;
             return open_sections(path, loaded);
         }
-        Result<cli::BakeOptions> bake = bake_options_for(loaded.needs.asks, options_.import);
+        Result<cli::BakeOptions> bake = bake_options_for(loaded.needs.wanted(), options_.import);
         if (!bake) return bake.error();
         if (assembly != nullptr) read_part(*assembly, assembly->models[done_], *bake);
         const auto begins = [&](const char* stage) {
@@ -96,9 +96,10 @@ private:
             if (!image) return image.error();
             loaded.image.emplace(std::move(image).value());
             const std::string name = path.string();
-            return keep(Model::open(loaded.image->bytes(),
-                                    {.sections = sections_for(loaded.needs.asks), .name = name}),
-                        loaded);
+            return keep(
+                Model::open(loaded.image->bytes(),
+                            {.sections = sections_for(loaded.needs.wanted()), .name = name}),
+                loaded);
         }
         loaded.origin = ModelOrigin::cached;
         const Result<fs::path> cached =
@@ -109,7 +110,7 @@ private:
     }
 
     static std::optional<Error> open_sections(const fs::path& path, SceneModel& loaded) {
-        return keep(Model::open(path, sections_for(loaded.needs.asks)), loaded);
+        return keep(Model::open(path, sections_for(loaded.needs.wanted())), loaded);
     }
 
     static std::optional<Error> keep(Result<Model> opened, SceneModel& loaded) {

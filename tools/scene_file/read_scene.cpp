@@ -11,6 +11,7 @@
 #include "import/source_file.h"
 #include "scene_file/effect_words.h"
 #include "scene_file/json_element.h"
+#include "scene_file/read_body.h"
 #include "scene_file/read_change.h"
 
 namespace cdprep::scenes {
@@ -55,13 +56,14 @@ private:
         // Unknown keys are errors, but hide no others.
         static_cast<void>(
             root.is_object_of({"$schema", "cdprep_scene", "metres_per_unit", "step_s", "duration_s",
-                               "limits", "layers", "pairs", "objects"}));
+                               "gravity", "dynamics", "limits", "layers", "pairs", "objects"}));
         if (const auto schema = root.find("$schema")) static_cast<void>(schema->text());
         read_above_zero(root, "metres_per_unit", scene_.metres_per_unit);
         read_above_zero(root, "step_s", scene_.step_s);
         if (const auto duration = root.find("duration_s")) {
             scene_.duration_s = duration->number(Range::zero_or_more).value_or(0);
         }
+        scene_.dynamics = read_dynamics(root);
         if (const auto limits = root.find("limits")) read_limits(*limits);
         read_layers(root);
         scene_.has_pairs = root.find("pairs").has_value();
@@ -69,6 +71,11 @@ private:
             for_each_item(root, "pairs", [&](const JsonElement& pair) { read_pair(pair); });
         }
         for_each_item(root, "objects", [&](const JsonElement& object) { read_object(object); });
+        if (!scene_.bodies.empty() && !root.find("gravity")) {
+            root.refuse(
+                "there are bodies, but the key 'gravity' is missing: for example "
+                "[0, 0, -9.81] in metres, or [0, 0, 0] for none.");
+        }
     }
 
     static bool is_one(const JsonElement& version) {
@@ -212,7 +219,8 @@ private:
 
     void read_object(const JsonElement& element) {
         FileObject object;
-        if (!element.is_object_of({"name", "model", "layer", "pose", "motion", "instances"})) {
+        if (!element.is_object_of(
+                {"name", "model", "layer", "pose", "motion", "material", "instances"})) {
             return;
         }
         const auto name = element.require("name");
@@ -223,7 +231,11 @@ private:
         }
         object.motion = static_cast<std::uint32_t>(scene_.motions.size());
         scene_.motions.push_back(read_placing(element));
-        if (const auto motion = element.find("motion")) object.change = read_change_of(*motion);
+        if (const auto motion = element.find("motion")) {
+            object.change = read_change_of(*motion);
+            object.body = read_body_of(*motion);
+        }
+        object.material = read_material(element);
         const auto instances = element.find("instances");
         const Grid grid = instances ? read_grid(*instances) : Grid{};
         if (scene_.objects.size() + grid.size() > kMostObjects) {
@@ -318,14 +330,24 @@ private:
         return at->second;
     }
 
+    /// Returns the number of a new body.
+    std::uint32_t read_body_of(const JsonElement& motion) {
+        const std::optional<BodyMotion> body = read_body(motion);
+        if (!body) return kNoBody;
+        scene_.bodies.push_back(*body);
+        return static_cast<std::uint32_t>(scene_.bodies.size() - 1);
+    }
+
     static Motion read_motion(const JsonElement& element, const Pose& start, bool has_pose) {
         if (element.is_text()) {
-            static_cast<void>(element.one_of(Names{"fixed"}, "a motion in one word"));
+            static_cast<void>(element.one_of(Names{"fixed", "body"}, "a motion in one word"));
             return Motion::fixed(start);
         }
-        if (!element.is_object_of({"path", "velocity", "turn_rad_per_s", "deform", "tear"})) {
+        if (!element.is_object_of(
+                {"path", "velocity", "turn_rad_per_s", "deform", "tear", "body"})) {
             return Motion::fixed(start);
         }
+        if (element.find("body")) return Motion::fixed(start);
         if (element.find("path")) return read_path(element, start, has_pose);
         const auto read_vector = [&](const char* key) {
             const auto member = element.find(key);
@@ -336,7 +358,7 @@ private:
         if (!element.find("velocity") && !element.find("turn_rad_per_s") &&
             !element.find("deform") && !element.find("tear")) {
             element.refuse(
-                "a motion has a path, a velocity, a turn_rad_per_s, a deform or a tear.");
+                "a motion has a path, a velocity, a turn_rad_per_s, a deform, a tear or a body.");
         }
         return Motion::steady(start, velocity, read_vector("turn_rad_per_s"));
     }

@@ -40,8 +40,8 @@ TEST(CompileScene, FindsWhatEachModelMustServe) {
     EXPECT_EQ(needs[0].layers, 0b11u);
     EXPECT_EQ(needs[0].objects, 2u);
     EXPECT_EQ(needs[1].asks, Ask::nothing);
-    EXPECT_TRUE(is_asked(*compiled.plan, scene.objects[0]));
-    EXPECT_FALSE(is_asked(*compiled.plan, scene.objects[2]));
+    EXPECT_TRUE(is_asked(scene, *compiled.plan, scene.objects[0]));
+    EXPECT_FALSE(is_asked(scene, *compiled.plan, scene.objects[2]));
 }
 
 // The sentences name the file and the pair.
@@ -52,8 +52,10 @@ TEST(CompileScene, ListsAllRefusals) {
     EXPECT_FALSE(compiled.plan);
     ASSERT_EQ(compiled.refusals.size(), 2u);
     const std::string place = "s.json: Pair 0 of layers, 'a' and 'b': ";
-    EXPECT_EQ(compiled.refusals[0], place + unbuilt_effect("response"));
-    EXPECT_EQ(compiled.refusals[1], place + unbuilt_effect("inside"));
+    EXPECT_EQ(compiled.refusals[0], place + unbuilt_effect("inside"));
+    EXPECT_EQ(compiled.refusals[1], place +
+                                        "response needs bodies, but no object of these layers has "
+                                        "the motion \"body\".");
 }
 
 TEST(CompileScene, RefusesModelsThatDoNotServe) {
@@ -110,6 +112,60 @@ TEST(CompileScene, RefusesChangesThatNobodyAsksFor) {
                          "of layers, 'a' and 'b'.",
                          "s.json: Object 'y' in layer 'b' tears. Add tear to the effects of pair 1 "
                          "of layers, 'b' and 'c'."}));
+}
+
+/// x and z are bodies, the second one with a mass. Layers a and b respond.
+SceneFile scene_of_bodies() {
+    SceneFile scene = scene_of({{.asked = {.a = 0, .b = 1, .effects = Ask::response}}});
+    scene.bodies = {{}, {.mass = 2, .is_continuous = true}};
+    scene.objects[0].body = 0;
+    scene.objects[0].model = 1;
+    return scene;
+}
+
+// The library computes no response: its plan is that of the other effects.
+TEST(CompileScene, FindsWhatBodiesNeed) {
+    SceneFile scene = scene_of_bodies();
+    const Plan::Compiled compiled = compile_scene(scene, kLimits);
+    ASSERT_TRUE(compiled.plan);
+    EXPECT_TRUE(compiled.plan->pairs().empty());
+    EXPECT_TRUE(is_asked(scene, *compiled.plan, scene.objects[0]));
+    EXPECT_TRUE(is_asked(scene, *compiled.plan, scene.objects[1]));
+    EXPECT_FALSE(is_asked(scene, *compiled.plan, scene.objects[2]));
+    std::vector<ModelNeeds> needs = needs_of_models(scene, *compiled.plan);
+    EXPECT_EQ(needs[0].asks, Ask::contacts | Ask::distance) << "a body is continuous";
+    EXPECT_EQ(needs[0].wishes, Ask::solid);
+    EXPECT_EQ(needs[1].asks, Ask::contacts | Ask::distance | Ask::response);
+    scene.bodies[1].is_continuous = false;
+    scene.objects[0].body = 1;
+    needs = needs_of_models(scene, *compiled.plan);
+    EXPECT_EQ(needs[0].asks, Ask::contacts);
+    EXPECT_EQ(needs[1].asks, Ask::contacts);
+    EXPECT_EQ(needs[1].wishes, Ask::solid | Ask::response) << "how its mass is distributed";
+}
+
+// By hand.
+TEST(CompileScene, RefusesBodiesThatNothingPushes) {
+    SceneFile scene = scene_of_bodies();
+    scene.objects[2].body = 1;
+    scene.changes = {{.deform = Twist{}}};
+    scene.objects[1].change = 0;
+    const Plan::Compiled compiled = compile_scene(scene, kLimits);
+    EXPECT_FALSE(compiled.plan);
+    const std::vector<std::string> expected = {
+        "s.json: Object 'y' in layer 'b' deforms. Add deform to the effects of pair 0 of layers, "
+        "'a' and 'b'.",
+        "s.json: Object 'y' in layer 'b' deforms or tears. The response of such models is not "
+        "built: pieces do not follow the surface.",
+        "s.json: Object 'z' in layer 'c' is a body, but no pair of this layer asks for response."};
+    EXPECT_EQ(compiled.refusals, expected);
+}
+
+TEST(DropEffect, LeavesBodiesWhereTheyAre) {
+    SceneFile scene = scene_of_bodies();
+    drop_effect(scene, Ask::response);
+    EXPECT_EQ(scene.objects[0].body, kNoBody);
+    EXPECT_TRUE(compile_scene(scene, kLimits).plan);
 }
 
 // Pieces do not follow a surface that changes: the plan refuses the two together.

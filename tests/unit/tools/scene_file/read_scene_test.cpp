@@ -156,8 +156,8 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
          {"line 2: /cdprep_scene: found \"1\"; expected a whole number from 0 to 2147483648."}},
         {"{\"cdprep_scene\": 1,\n\"layer\": [],\n\"step_s\": 0, \"duration_s\": -1}",
          {"line 2: /layer: 'layer' is not a key here. Choose from $schema, cdprep_scene, "
-          "metres_per_unit, step_s, duration_s, limits, layers, pairs or objects. Did you mean "
-          "'layers'?",
+          "metres_per_unit, step_s, duration_s, gravity, dynamics, limits, layers, pairs or "
+          "objects. Did you mean 'layers'?",
           "line 3: /step_s: found 0; expected a number above 0.",
           "line 3: /duration_s: found -1; expected a number, 0 or more.",
           "line 1: the key 'layers' is missing.", "line 1: the key 'objects' is missing."}},
@@ -207,12 +207,13 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
         {one_object(", \"pose\": {\"matrix\": [[1, 0, 0, 0]]}"),
          {"line 4: /objects/0/pose/matrix: found [[1,0,0,0]]; expected an array of 3 rows of 4 "
           "numbers."}},
-        {one_object(", \"motion\": \"body\""),
-         {"line 4: /objects/0/motion: 'body' is not a motion in one word. Choose from fixed."}},
+        {one_object(", \"motion\": \"free\""),
+         {"line 4: /objects/0/motion: 'free' is not a motion in one word. Choose from fixed or "
+          "body."}},
         {one_object(", \"motion\": {}"),
-         {"line 4: /objects/0/motion: a motion has a path, a velocity, a turn_rad_per_s, a deform "
-          "or a "
-          "tear."}},
+         {"line 4: /objects/0/motion: a motion has a path, a velocity, a turn_rad_per_s, a deform, "
+          "a "
+          "tear or a body."}},
         {one_object(", \"motion\": {\"path\": [], \"velocity\": [0, 0, 1]}, \"pose\": {}"),
          {"line 4: /objects/0/motion: a path excludes velocity and turn_rad_per_s.",
           "line 4: /objects/0/motion: an object with a path has no pose of its own; its keys "
@@ -236,7 +237,7 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
           "line 5: /objects/1/name: another object has the name 'c'."}},
         {one_object(", \"mass\": 3"),
          {"line 4: /objects/0/mass: 'mass' is not a key here. Choose from name, model, layer, "
-          "pose, motion or instances."}},
+          "pose, motion, material or instances."}},
     };
     for (const Mistake& mistake : mistakes) {
         const SceneReading reading = folder.read(mistake.text);
@@ -247,6 +248,107 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
         for (std::size_t i = 0; i < mistake.errors.size(); ++i) {
             EXPECT_EQ(reading.errors[i].substr(0, 8 + mistake.errors[i].size()),
                       "s.json: " + mistake.errors[i]);
+        }
+    }
+}
+
+TEST(ReadScene, ReadsBodies) {
+    const Folder folder;
+    const SceneFile scene = folder.scene(R"({"cdprep_scene": 1, "layers": ["a"],
+        "gravity": [0, -9.75, 1],
+        "dynamics": {"substeps": 2, "iterations": 3, "rest_gap": 0.25, "most_speed": 5,
+                     "tolerance": 6, "sleep_speed": 0, "most_contacts": 7, "sleeps": false},
+        "objects": [
+        {"name": "floor", "model": "gate.obj", "layer": "a", "material": {"friction": 3}},
+        {"name": "crate", "model": "crate.obj", "layer": "a", "motion": "body",
+         "instances": {"counts": [2, 1, 1], "spacing": [1, 0, 0]}},
+        {"name": "ball", "model": "crate.obj", "layer": "a", "pose": {"translation": [1, 2, 3]},
+         "material": {"friction": 0, "restitution": 1},
+         "motion": {"body": {"mass": 4, "linear_damping": 0.5, "angular_damping": 1,
+                             "velocity": [1, 2, 3], "turn_rad_per_s": [4, 5, 6],
+                             "continuous": true}}},
+        {"name": "light", "model": "crate.obj", "layer": "a",
+         "motion": {"body": {"density": 100}}}]})");
+    EXPECT_EQ(scene.dynamics.gravity, (Double3{0, -9.75, 1}));
+    EXPECT_EQ(scene.dynamics.substeps, 2u);
+    EXPECT_EQ(scene.dynamics.iterations, 3u);
+    EXPECT_EQ(scene.dynamics.rest_gap, 0.25);
+    EXPECT_EQ(scene.dynamics.most_speed, 5);
+    EXPECT_EQ(scene.dynamics.tolerance, 6);
+    EXPECT_EQ(scene.dynamics.sleep_speed, 0);
+    EXPECT_EQ(scene.dynamics.most_contacts, 7u);
+    EXPECT_FALSE(scene.dynamics.sleeps);
+    std::vector<std::uint32_t> bodies;
+    for (const FileObject& object : scene.objects) bodies.push_back(object.body);
+    EXPECT_EQ(bodies, (std::vector<std::uint32_t>{kNoBody, 0, 0, 1, 2}));
+    EXPECT_EQ(scene.objects[0].material, (Material{.friction = 3}));
+    EXPECT_EQ(scene.objects[1].material, Material{});
+    EXPECT_EQ(scene.objects[3].material, (Material{.friction = 0, .restitution = 1}));
+    ASSERT_EQ(scene.bodies.size(), 3u);
+    EXPECT_FALSE(scene.bodies[0].mass || scene.bodies[0].density || scene.bodies[0].is_continuous);
+    const BodyMotion& ball = scene.bodies[1];
+    EXPECT_EQ(ball.mass, 4);
+    EXPECT_EQ(ball.linear_damping, 0.5);
+    EXPECT_EQ(ball.angular_damping, 1);
+    EXPECT_EQ(ball.velocity, (Double3{1, 2, 3}));
+    EXPECT_EQ(ball.turn, (Double3{4, 5, 6}));
+    EXPECT_TRUE(ball.is_continuous);
+    EXPECT_EQ(scene.bodies[2].density, 100);
+    EXPECT_EQ(pose_of(scene, scene.objects[3], 1)->translation(), (Double3{1, 2, 3}))
+        << "a body starts at its pose";
+}
+
+/// An object with this body on line 4.
+std::string falling(const std::string& body) {
+    return one_object(", \"motion\": {\"body\": {" + body + "}}");
+}
+
+// By hand: each sentence.
+TEST(ReadScene, NamesMistakesOfBodies) {
+    const Folder folder;
+    const std::string body = "line 4: /objects/0/motion/body";
+    const std::string no_gravity =
+        "line 1: there are bodies, but the key 'gravity' is missing: for example [0, 0, -9.81] in "
+        "metres, or [0, 0, 0] for none.";
+    const std::vector<Mistake> mistakes = {
+        {one_object(", \"motion\": \"body\""), {no_gravity}},
+        {falling("\"mass\": 0"), {body + "/mass: found 0; expected a number above 0.", no_gravity}},
+        {falling("\"mass\": 1, \"density\": 2"),
+         {body + "/density: a body has a mass or a density, not both.", no_gravity}},
+        {falling("\"linear_damping\": 1.5, \"angular_damping\": -1, \"continuous\": 1"),
+         {body + "/linear_damping: found 1.5; expected a number from 0 to 1.",
+          body + "/angular_damping: found -1; expected a number from 0 to 1.",
+          body + "/continuous: found 1; expected true or false.", no_gravity}},
+        {falling("\"friction\": 1"),
+         {body + "/friction: 'friction' is not a key here. Choose from mass, density, "
+                 "linear_damping, angular_damping, velocity, turn_rad_per_s or continuous.",
+          no_gravity}},
+        {one_object(", \"motion\": {\"body\": {}, \"velocity\": [1, 2, 3]}"),
+         {"line 4: /objects/0/motion/velocity: a body excludes velocity: it is rigid, and contacts "
+          "and gravity move it. Its first velocities belong into 'body'.",
+          no_gravity}},
+        {one_object(", \"material\": {\"friction\": -1, \"restitution\": 2}"),
+         {"line 4: /objects/0/material/friction: found -1; expected a number, 0 or more.",
+          "line 4: /objects/0/material/restitution: found 2; expected a number from 0 to 1."}},
+        {"{\"cdprep_scene\": 1, \"layers\": [], \"objects\": [], \"gravity\": 9.81,\n"
+         "\"dynamics\": {\"substeps\": 0, \"rest_gap\": 0, \"sleeps\": 1, \"steps\": 3}}",
+         {"line 1: /gravity: found 9.81; expected an array of 3 numbers.",
+          "line 2: /dynamics/steps: 'steps' is not a key here. Choose from substeps, iterations, "
+          "rest_gap, most_speed, tolerance, sleep_speed, most_contacts or sleeps. Did you mean "
+          "'substeps'?"}},
+        {"{\"cdprep_scene\": 1, \"layers\": [], \"objects\": [],\n"
+         "\"dynamics\": {\"substeps\": 0, \"rest_gap\": 0, \"sleeps\": 1}}",
+         {"line 2: /dynamics/substeps: found 0; expected a whole number from 1 to 2147483648.",
+          "line 2: /dynamics/rest_gap: found 0; expected a number above 0.",
+          "line 2: /dynamics/sleeps: found 1; expected true or false."}},
+    };
+    for (const Mistake& mistake : mistakes) {
+        const SceneReading reading = folder.read(mistake.text);
+        ASSERT_EQ(reading.errors.size(), mistake.errors.size())
+            << mistake.text << "\n"
+            << ::testing::PrintToString(reading.errors);
+        for (std::size_t i = 0; i < mistake.errors.size(); ++i) {
+            EXPECT_EQ(reading.errors[i], "s.json: " + mistake.errors[i]);
         }
     }
 }
