@@ -49,7 +49,7 @@ set(tools_rooms
     "compare: cli compare/cells decompose/surface hull import command_line mesh page query study\
  text"
     "query: bake cli compare/cells command_line mesh scene_file text write"
-    "simulate: cli command_line import page scene_file text"
+    "simulate: cli command_line import page scene_file simulate/dynamics text"
     "simulate/dynamics: mesh text")
 
 # A library of others: the pattern of its headers, then the folders that may know it.

@@ -83,7 +83,12 @@ public:
         if (const auto failed = load(*compiled.plan)) return *failed;
         std::vector<std::string> names;
         compiled = scenes::compile_scene(scene_, limits(), scenes::uses_of(scene_, models_, names));
-        if (!compiled.plan) return refuse(compiled.refusals);
+        if (!replay_) {
+            for (std::string& refusal : scenes::response_refusals(scene_, models_)) {
+                compiled.refusals.push_back(std::move(refusal));
+            }
+        }
+        if (!compiled.refusals.empty()) return refuse(compiled.refusals);
         return arguments_.plan ? show_plan(*compiled.plan) : simulate(*compiled.plan);
     }
 
@@ -193,8 +198,9 @@ private:
         const Result<std::uint64_t> counted = frame_count();
         if (!counted) return fail("simulate", counted.error());
         const std::uint64_t frames = *counted;
-        auto simulation =
-            scenes::Simulation::make(scene_, models_, thread_count(), threads_.parallel_for());
+        const auto bodies = replay_ ? scenes::BodyPoses::given : scenes::BodyPoses::computed;
+        auto simulation = scenes::Simulation::make(scene_, models_, thread_count(),
+                                                   threads_.parallel_for(), bodies);
         if (!simulation) return fail("simulate", simulation.error());
         // Without an effect, models may be baked with fewer sections.
         if (replay_ && arguments_.drop.empty()) {
@@ -330,8 +336,9 @@ Exit run(const Arguments& arguments) {
 
 std::vector<std::string> effect_words() {
     std::vector<std::string> words;
-    words.reserve(kSceneEffects.size());
+    words.reserve(kSceneEffects.size() + 1);
     for (const Ask effect : kSceneEffects) words.push_back(scenes::effect_name(effect));
+    words.push_back(scenes::effect_name(Ask::response));
     return words;
 }
 
@@ -400,10 +407,12 @@ void add_simulate(const Command& app, Exit& exit) {
         "A scene file is JSON: objects with models, layers, poses and motions, and for pairs of "
         "layers the effects to compute. Objects of layers that are not paired are never looked "
         "at. Events do not depend on the number of threads. Motions may deform and tear models: "
-        "a shear, a twist, a vertex stream (PC2), or a cut along a plane.",
+        "a shear, a twist, a vertex stream (PC2), or a cut along a plane. With response, bodies "
+        "fall, push each other and come to rest.",
         {"cdprep simulate samples/scenes/crates.json --plan",
          "cdprep simulate samples/scenes/crates.json --frames 100",
          "cdprep simulate samples/scenes/cut.json --format text",
+         "cdprep simulate samples/scenes/pile.json --html pile.html",
          "cdprep simulate samples/scenes/crates.json -o events.ndjson --html crates.html",
          "cdprep simulate samples/scenes/crates.json --format text --cost"});
     command.add_option("scene", arguments->scene, "A scene file (JSON), or a recording of one")

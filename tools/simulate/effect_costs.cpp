@@ -22,14 +22,24 @@ Ask effects_of(const SceneFile& file) {
     return all;
 }
 
+/// The poses of the bodies in each frame.
+using BodyPath = std::vector<std::vector<GivenPose>>;
+
+/// Measures one run. A scene without `response` gets the poses of the bodies from `path`. A scene
+/// with it writes them there, the same ones in each run.
 Result<double> time_of_frames(const SceneFile& file, std::span<const SceneModel> models,
-                              const CostOptions& options) {
+                              const CostOptions& options, BodyPath& path) {
     auto simulation = Simulation::make(file, models, options.threads, options.parallel_for);
     if (!simulation) return simulation.error();
+    const Response* response = simulation->response();
     double seconds = 0;
     for (std::uint64_t frame = 0; frame < options.frames; ++frame) {
-        if (const Result<Done> done = simulation->step(frame); !done) return done.error();
-        seconds += simulation->step_seconds();
+        std::span<const GivenPose> given;
+        if (response == nullptr && frame < path.size()) given = path[frame];
+        if (const Result<Done> done = simulation->step(frame, given); !done) return done.error();
+        seconds += simulation->frame_seconds();
+        if (response == nullptr || frame < path.size()) continue;
+        path.emplace_back(response->poses().begin(), response->poses().end());
     }
     return seconds;
 }
@@ -57,19 +67,22 @@ Result<std::vector<EffectCost>> measure_costs(const SceneFile& file,
                                               const CostOptions& options) {
     std::vector<Variant> variants = {{file}};
     std::vector<Ask> effects;
-    for (const Ask effect : kSceneEffects) {
+    std::vector<Ask> known(kSceneEffects.begin(), kSceneEffects.end());
+    known.push_back(Ask::response);
+    for (const Ask effect : known) {
         if (!contains(effects_of(file), effect)) continue;
         effects.push_back(effect);
         variants.push_back({file});
         drop_effect(variants.back().file, effect);
     }
+    BodyPath path;
     const std::uint64_t all = options.rounds * variants.size();
     for (std::uint64_t run = 0; run < all; ++run) {
         const std::size_t place = run % variants.size();
         const bool is_backwards = run / variants.size() % 2 == 1;
         Variant& variant = variants[is_backwards ? variants.size() - 1 - place : place];
         if (const Result<Done> begins = options.begins(run, all); !begins) return begins.error();
-        const Result<double> seconds = time_of_frames(variant.file, models, options);
+        const Result<double> seconds = time_of_frames(variant.file, models, options, path);
         if (!seconds) return seconds.error();
         variant.seconds.push_back(*seconds);
     }

@@ -30,7 +30,8 @@ struct CostOptions {
 
 /// Measures each effect of a scene by running the scene without it. A round runs the whole scene
 /// and then each scene that lacks an effect, over the same frames. So slow changes of the machine
-/// do not count as costs. Every other round runs them backwards.
+/// do not count as costs. Every other round runs them backwards. Without `response`, the bodies
+/// move as in the whole scene: their poses are kept for all frames.
 [[nodiscard]] Result<std::vector<EffectCost>> measure_costs(const SceneFile& file,
                                                             std::span<const SceneModel> models,
                                                             const CostOptions& options);

@@ -8,6 +8,7 @@
 
 #include "cdprep/scene.h"
 #include "scene_file/effect_words.h"
+#include "simulate/response.h"
 
 namespace cdprep::report {
 
@@ -27,11 +28,13 @@ namespace cdprep::report {
 }
 
 /// Returns the names of the effects that a scene could compute, but no pair of layers asks for.
-[[nodiscard]] inline std::vector<std::string> not_computed(const Plan& plan) {
+[[nodiscard]] inline std::vector<std::string> not_computed(const scenes::SceneFile& scene,
+                                                           const Plan& plan) {
     std::vector<std::string> names;
     for (const Ask effect : kSceneEffects) {
         if (!contains(plan.effects(), effect)) names.push_back(scenes::effect_name(effect));
     }
+    if (!scenes::has_response(scene)) names.push_back(scenes::effect_name(Ask::response));
     return names;
 }
 

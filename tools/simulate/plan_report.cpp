@@ -162,6 +162,62 @@ Json pair_json(const SceneFile& scene, const LayerPair& pair) {
     return json;
 }
 
+/// The objects of layers that respond.
+struct RespondingObjects {
+    std::uint64_t bodies = 0;
+    std::uint64_t driven = 0;
+    std::uint64_t fixed = 0;
+};
+
+RespondingObjects count_responding(const SceneFile& scene) {
+    RespondingObjects counts;
+    for (const scenes::FileObject& object : scene.objects) {
+        if (!scenes::responds(scene, object.layer)) continue;
+        if (object.body != scenes::kNoBody) {
+            ++counts.bodies;
+        } else if (scene.motions[object.motion].moves()) {
+            ++counts.driven;
+        } else {
+            ++counts.fixed;
+        }
+    }
+    return counts;
+}
+
+std::string response_text(const SceneFile& scene) {
+    const RespondingObjects counts = count_responding(scene);
+    const dynamics::DynamicsOptions options = scenes::dynamics_options_of(scene);
+    std::string text = "response: " + counted(counts.bodies, "body", "bodies") + ", " +
+                       std::to_string(counts.driven) + " driven, " + std::to_string(counts.fixed) +
+                       " fixed; " + counted(options.substeps, "substep", "substeps") +
+                       " a frame, " + counted(options.iterations, "iteration", "iterations") +
+                       "; contacts within " + number_text(options.tolerance) + "; layers";
+    for (const scenes::AskedPair& pair : scene.pairs) {
+        if (!contains(pair.asked.effects, Ask::response)) continue;
+        text += " " + printable(scene.layers[pair.asked.a]) + "-" +
+                printable(scene.layers[pair.asked.b]);
+    }
+    return text + "\n";
+}
+
+Json response_json(const SceneFile& scene) {
+    const RespondingObjects counts = count_responding(scene);
+    const dynamics::DynamicsOptions options = scenes::dynamics_options_of(scene);
+    const Double3& g = options.gravity;
+    return {{"bodies", counts.bodies},
+            {"driven", counts.driven},
+            {"fixed", counts.fixed},
+            {"substeps", options.substeps},
+            {"iterations", options.iterations},
+            {"gravity", {g.x, g.y, g.z}},
+            {"rest_gap", options.rest_gap},
+            {"most_speed", options.most_speed},
+            {"tolerance", options.tolerance},
+            {"sleep_speed", options.sleep_speed},
+            {"most_contacts", options.most_contacts},
+            {"sleeps", options.sleeps}};
+}
+
 /// Returns the word of the scene file for a deformation, or nothing.
 const char* deform_word(const Change& change) {
     constexpr std::array kWords = {"shear", "twist", "stream"};
@@ -223,6 +279,7 @@ std::string plan_text(const SceneFile& scene, const Plan& plan, std::span<const 
                 "': " + counted(objects[i], "object", "objects") + "\n";
     }
     text += plan.describe();
+    if (scenes::has_response(scene)) text += response_text(scene);
     for (std::size_t i = 0; i < models.size(); ++i) {
         text += model_text(scene.models[i].string(), models[i]);
     }
@@ -239,8 +296,12 @@ std::string plan_json(const SceneFile& scene, const Plan& plan, std::span<const 
         json["layers"].push_back({{"name", scene.layers[i]}, {"objects", objects[i]}});
     }
     json["pairs"] = Json::array();
-    for (const LayerPair& pair : plan.pairs()) json["pairs"].push_back(pair_json(scene, pair));
-    json["not_computed"] = not_computed(plan);
+    for (const scenes::AskedPair& pair : scene.pairs) {
+        if (pair.asked.effects == Ask::nothing) continue;
+        json["pairs"].push_back(pair_json(scene, pair.asked));
+    }
+    if (scenes::has_response(scene)) json["response"] = response_json(scene);
+    json["not_computed"] = not_computed(scene, plan);
     json["models"] = Json::array();
     for (std::size_t i = 0; i < models.size(); ++i) {
         json["models"].push_back(model_json(scene.models[i].string(), models[i]));

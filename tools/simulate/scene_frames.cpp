@@ -172,7 +172,7 @@ Result<Done> SceneFrames::add_poses(ShownFrame& shown, const scenes::Simulation&
     for (std::uint32_t i = 0; i < poses_.size(); ++i) {
         const scenes::FileObject& object = file_.objects[i];
         // The simulation has the objects that it was asked for, in the order of the file.
-        if (is_asked(simulation.plan(), object)) {
+        if (is_asked(file_, simulation.plan(), object)) {
             add_pose(shown, i, poses[slot++]);
             continue;
         }
@@ -192,7 +192,7 @@ Result<Done> SceneFrames::add(std::uint64_t frame, const scenes::Simulation& sim
     take_poses(shown, std::exchange(left_out_, {}));
     Results(file_, simulation, objects(), limits_, shown).copy();
     shown.counts = simulation.scene().counts();
-    shown.seconds = simulation.step_seconds();
+    shown.seconds = simulation.frame_seconds();
     bytes_ += shown.bytes();
     frames_.push_back(std::move(shown));
     while (bytes_ > limits_.bytes && stride_ < count_) thin();

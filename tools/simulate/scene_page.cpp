@@ -169,7 +169,8 @@ Json objects_json(const scenes::SceneFile& file, const Plan& plan, std::uint32_t
     Json json = Json::array();
     for (std::uint32_t i = 0; i < count; ++i) {
         const scenes::FileObject& object = file.objects[i];
-        json.push_back({object.name, object.model, object.layer, is_asked(plan, object) ? 1 : 0});
+        json.push_back(
+            {object.name, object.model, object.layer, is_asked(file, plan, object) ? 1 : 0});
     }
     return json;
 }

@@ -13,7 +13,7 @@ namespace {
 TimelineSpan span_of(const scenes::Simulation& simulation) {
     TimelineSpan span;
     span.frames = 1;
-    span.longest = simulation.step_seconds();
+    span.longest = simulation.frame_seconds();
     for (const SceneHit& hit : simulation.scene().hits()) {
         for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
             if (contains(hit.holds, kSceneEffects[i])) ++span.holds[i];
@@ -46,7 +46,11 @@ std::vector<StageTime> stage_times(const scenes::Simulation& simulation) {
         return 1e-9 * static_cast<double>(nanoseconds);
     };
     const std::size_t threads = simulation.thread_count();
-    std::vector<StageTime> times = {{"boxes", seconds(counts.box_ticks)}};
+    std::vector<StageTime> times;
+    if (simulation.response() != nullptr) {
+        times.push_back({"response", simulation.response_seconds()});
+    }
+    times.push_back({"boxes", seconds(counts.box_ticks)});
     for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
         if (!contains(simulation.plan().effects(), kSceneEffects[i])) continue;
         times.push_back(

@@ -45,9 +45,15 @@ Simulation::Simulation(const SceneFile& file, std::span<const SceneModel> models
 }
 
 Result<Simulation> Simulation::make(const SceneFile& file, std::span<const SceneModel> models,
-                                    std::uint32_t threads, ParallelFor parallel_for) {
+                                    std::uint32_t threads, ParallelFor parallel_for,
+                                    BodyPoses body_poses) {
     Simulation simulation(file, models, threads, parallel_for);
     if (Result<Done> made = simulation.make_changing(); !made) return made.error();
+    if (body_poses == BodyPoses::computed && has_response(file)) {
+        auto response = Response::make(file, models, threads, parallel_for);
+        if (!response) return response.error();
+        simulation.response_.emplace(std::move(response).value());
+    }
     if (Result<Done> filled = simulation.fill(0, {}); !filled) return filled.error();
     return simulation;
 }
@@ -106,7 +112,7 @@ Result<Done> Simulation::fill(double time_s, const std::vector<Pose>& poses) {
     if (const auto changed = change(time_s); !changed) return changed.error();
     for (std::uint32_t i = 0; i < file_->objects.size(); ++i) {
         const FileObject& object = file_->objects[i];
-        if (!is_asked(*plan_, object)) continue;
+        if (!is_asked(*file_, *plan_, object)) continue;
         const Result<Pose> pose =
             poses.empty() ? pose_of(*file_, object, time_s) : poses[objects_.size()];
         if (!pose) return pose.error();
@@ -198,6 +204,11 @@ Result<Done> Simulation::grow(SceneStep step, std::uint64_t frame) {
 
 Result<Done> Simulation::step(std::uint64_t frame, std::span<const GivenPose> given) {
     is_first_frame_ = frame == 0;
+    if (response_ && frame > 0) {
+        if (Result<Done> done = response_->step(time_of(frame)); !done) return done;
+        response_seconds_ = response_->seconds();
+        given = response_->poses();
+    }
     auto poses = poses_at(time_of(frame), given);
     if (!poses) return poses.error();
     std::rotate(history_.begin(), history_.end() - 1, history_.end());

@@ -11,13 +11,14 @@
 #include "cdprep/scene.h"
 #include "scene_file/changing_model.h"
 #include "scene_file/load_models.h"
+#include "simulate/response.h"
 
 namespace cdprep::scenes {
 
-/// A pose that does not follow from the motion of an object: one of a recording.
-struct GivenPose {
-    std::uint32_t object;  ///< its number in SceneFile::objects
-    Pose pose;
+/// Where the poses of bodies come from.
+enum class BodyPoses : std::uint8_t {
+    computed,  ///< from contacts and gravity, if a pair of layers asks for `response`
+    given,     ///< from the caller
 };
 
 /// Returns whether two poses have the same numbers.
@@ -28,15 +29,17 @@ class Simulation {
 public:
     /// Adds the objects that pairs of layers ask for, as they are at time 0. All arguments must
     /// outlive the object. The models must serve the plan of the file. Objects that deform or tear
-    /// get live models: fails as make_changing_models().
+    /// get live models: fails as make_changing_models(). Also fails as Response::make().
     [[nodiscard]] static Result<Simulation> make(const SceneFile& file,
                                                  std::span<const SceneModel> models,
-                                                 std::uint32_t threads, ParallelFor parallel_for);
+                                                 std::uint32_t threads, ParallelFor parallel_for,
+                                                 BodyPoses body_poses = BodyPoses::computed);
 
     /// Computes a frame; 0 is first. Objects whose pose and shape have not changed count as not
     /// moved. If the frame needs more room, makes it, unless the file limits the pairs: then fails
     /// with over_budget. Fails with bad_argument if an object leaves the range of coordinates.
-    /// Objects with a given pose have it from this frame on, unless their motion moves them.
+    /// Objects with a given pose have it from this frame on, unless their motion moves them. With
+    /// computed poses of bodies, frames must come one after the other, and no pose is given.
     [[nodiscard]] Result<Done> step(std::uint64_t frame, std::span<const GivenPose> given = {});
 
     /// Results of the last frame. The ticks of its counts are nanoseconds.
@@ -57,9 +60,22 @@ public:
     [[nodiscard]] std::uint32_t object_number(std::size_t slot) const noexcept {
         return objects_[slot];
     }
-    /// The wall time that the library took for the last frame, poses and more room excluded.
+    /// The wall time that the library took for the last frame. Poses, more room and `response` are
+    /// excluded.
     [[nodiscard]] double step_seconds() const noexcept {
         return step_seconds_;
+    }
+    /// The bodies, or null if their poses are given or no pair of layers asks for `response`.
+    [[nodiscard]] const Response* response() const noexcept {
+        return response_ ? &*response_ : nullptr;
+    }
+    /// The wall time that `response` took for the last frame.
+    [[nodiscard]] double response_seconds() const noexcept {
+        return response_seconds_;
+    }
+    /// The sum of both.
+    [[nodiscard]] double frame_seconds() const noexcept {
+        return step_seconds_ + response_seconds_;
     }
     [[nodiscard]] std::size_t thread_count() const noexcept {
         return workspaces_.size();
@@ -104,6 +120,8 @@ private:
     std::vector<Pose> poses_;             ///< by slot, as the scene has them
     /// The poses of this frame, the last one and the one before. Growing repeats these frames.
     std::array<std::vector<Pose>, 3> history_;
+    std::optional<Response> response_;
+    double response_seconds_ = 0;
     std::vector<ChangingObjects> changing_;
     std::vector<std::uint32_t> changing_of_;  ///< by object: its number in changing_, or kUnchanged
     std::unique_ptr<const Plan> plan_;        ///< outlives the scene

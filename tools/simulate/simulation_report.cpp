@@ -33,6 +33,40 @@ double value_at(const std::vector<double>& sorted, double share) {
     return sorted[static_cast<std::size_t>(share * last)];
 }
 
+std::uint64_t nanoseconds_of(double seconds) {
+    return static_cast<std::uint64_t>(std::llround(1e9 * seconds));
+}
+
+std::size_t awake_bodies(const scenes::Response& response) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        response.moving(), [&](std::uint32_t body) { return !response.bodies().is_asleep(body); }));
+}
+
+/// Returns how deep two bodies overlap, 0 if none do.
+double deepest_contact(const scenes::Response& response) {
+    double least = 0;
+    for (const dynamics::BodyContact& contact : response.bodies().contacts()) {
+        least = std::min(least, contact.distance);
+    }
+    return std::abs(least);
+}
+
+/// Returns the work of all frames, and the bodies as they are.
+Json response_json(const scenes::Response& response, const dynamics::DynamicsCounts& counts) {
+    return {{"bodies", response.moving().size()},
+            {"awake", awake_bodies(response)},
+            {"driven", response.driven_count()},
+            {"calls", counts.pairs},
+            {"contacts", counts.contacts},
+            {"deep", counts.deep},
+            {"shortened", counts.shortened},
+            {"incomplete", counts.incomplete},
+            {"too_fast", counts.too_fast},
+            {"impacts", counts.impacts},
+            {"deepest", deepest_contact(response)},
+            {"state_hash", hexadecimal(response.bodies().state_hash())}};
+}
+
 /// The objects whose models change.
 struct ChangingCounts {
     std::uint64_t deform = 0;
@@ -60,9 +94,9 @@ ChangingCounts count_changing(const scenes::SceneFile& scene,
 
 SimulationReport::SimulationReport(const scenes::SceneFile& scene, const Plan& plan,
                                    EventFormat format)
-    : scene_(scene), format_(format), not_computed_(not_computed(plan)) {
+    : scene_(scene), format_(format), not_computed_(not_computed(scene, plan)) {
     for (const scenes::AskedPair& pair : scene.pairs) {
-        if (pair.asked.effects != Ask::nothing) pairs_.push_back(&pair);
+        if (scene_effects(pair) != Ask::nothing) pairs_.push_back(&pair);
     }
 }
 
@@ -81,10 +115,10 @@ std::string SimulationReport::time_text(std::uint64_t nanoseconds) const {
 
 std::vector<std::string> SimulationReport::asked_by(Ask effect) const {
     std::vector<std::string> names;
-    for (const scenes::AskedPair* pair : pairs_) {
-        if (!contains(pair->asked.effects, effect)) continue;
-        names.push_back(printable(scene_.layers[pair->asked.a]) + "-" +
-                        printable(scene_.layers[pair->asked.b]));
+    for (const scenes::AskedPair& pair : scene_.pairs) {
+        if (!contains(pair.asked.effects, effect)) continue;
+        names.push_back(printable(scene_.layers[pair.asked.a]) + "-" +
+                        printable(scene_.layers[pair.asked.b]));
     }
     return names;
 }
@@ -97,7 +131,8 @@ bool SimulationReport::is_told(const SceneEvent& event) const {
 
 void SimulationReport::count(const scenes::Simulation& simulation) {
     ++frames_;
-    milliseconds_.push_back(milliseconds_of(simulation.step_seconds()));
+    milliseconds_.push_back(milliseconds_of(simulation.frame_seconds()));
+    count_response(simulation);
     models_.work.add(simulation.change_work());
     models_.milliseconds.push_back(milliseconds_of(simulation.change_work().seconds));
     const SceneCounts& counts = simulation.scene().counts();
@@ -117,6 +152,20 @@ void SimulationReport::count(const scenes::Simulation& simulation) {
         changes.begins += event.kind == EventKind::begins ? 1 : 0;
         changes.ends += event.kind == EventKind::ends ? 1 : 0;
     }
+}
+
+void SimulationReport::count_response(const scenes::Simulation& simulation) {
+    if (simulation.response() == nullptr) return;
+    dynamics::DynamicsCounts& sum = response_.counts;
+    const dynamics::DynamicsCounts& counts = simulation.response()->bodies().counts();
+    sum.pairs += counts.pairs;
+    sum.contacts += counts.contacts;
+    sum.deep += counts.deep;
+    sum.shortened += counts.shortened;
+    sum.incomplete += counts.incomplete;
+    sum.too_fast += counts.too_fast;
+    sum.impacts += counts.impacts;
+    response_.seconds += simulation.response_seconds();
 }
 
 std::string SimulationReport::add_frame(std::uint64_t frame, const scenes::Simulation& simulation) {
@@ -187,6 +236,12 @@ std::string SimulationReport::summary_json(const scenes::Simulation& simulation)
                                     {"change_of_time", rounded_share(cost.change)},
                                     {"spread_of_time", rounded_share(cost.spread)}});
     }
+    if (simulation.response() != nullptr) {
+        Json& response = summary["response"];
+        response = response_json(*simulation.response(), response_.counts);
+        response["asked_by"] = asked_by(Ask::response);
+        response["frame_ms"] = milliseconds_a_frame(nanoseconds_of(response_.seconds));
+    }
     if (!simulation.changing().empty()) {
         const ChangingCounts changing = count_changing(scene_, simulation.changing());
         summary["changes"] = {{"deform", changing.deform}, {"tear", changing.tear},
@@ -196,6 +251,31 @@ std::string SimulationReport::summary_json(const scenes::Simulation& simulation)
                                {"p95", value_at(models_.milliseconds, 0.95)}};
     }
     return compact(summary);
+}
+
+/// What the numbers of the table do not say about the bodies.
+std::string SimulationReport::response_text(const scenes::Simulation& simulation) const {
+    if (simulation.response() == nullptr) return "";
+    const scenes::Response& response = *simulation.response();
+    const dynamics::DynamicsCounts& counts = response_.counts;
+    std::string text = counted(response.moving().size(), "body", "bodies") + ", " +
+                       std::to_string(awake_bodies(response)) +
+                       " awake at the end: " + counted(counts.contacts, "contact", "contacts") +
+                       ", " + std::to_string(counts.deep) + " deep, " +
+                       std::to_string(counts.shortened) + " shortened; " +
+                       counted(counts.impacts, "impact", "impacts") +
+                       "; deepest overlap at the end " + number_text(deepest_contact(response)) +
+                       "; state " + hexadecimal(response.bodies().state_hash()) + "\n";
+    if (counts.incomplete > 0) {
+        text += counted(counts.incomplete, "list", "lists") +
+                " of contacts were cut short. Raise dynamics.most_contacts.\n";
+    }
+    if (counts.too_fast > 0) {
+        text += counted(counts.too_fast, "body was", "bodies were") +
+                " faster than contacts can follow, counted in each substep. Raise "
+                "dynamics.most_speed or dynamics.substeps.\n";
+    }
+    return text;
 }
 
 std::string SimulationReport::changes_text(const scenes::Simulation& simulation) const {
@@ -233,6 +313,14 @@ std::string SimulationReport::effects_text(const scenes::Simulation& simulation)
         for (const std::string& pair : asked_by(kSceneEffects[i])) text += "  " + pair;
         text += "\n";
     }
+    if (simulation.response() != nullptr) {
+        const std::uint64_t calls = response_.counts.pairs;
+        text += row("response", std::to_string(calls).c_str(),
+                    fixed(static_cast<double>(calls) / frames, 1).c_str(), "-", "-",
+                    time_text(nanoseconds_of(response_.seconds)).c_str());
+        for (const std::string& pair : asked_by(Ask::response)) text += "  " + pair;
+        text += "\n";
+    }
     return text + "boxes and broad phase " + time_text(counts_.box_ticks) + ", rest of pairs " +
            time_text(rest_of_pairs(counts_, simulation.thread_count())) + ", lists and events " +
            time_text(counts_.list_ticks) + "\n";
@@ -259,7 +347,7 @@ std::string SimulationReport::summary_text(const scenes::Simulation& simulation)
     text += counted(frames_, "frame", "frames") + " of " +
             counted(simulation.scene().object_count(), "object", "objects") + "; " +
             counted(simulation.grown_steps(), "frame", "frames") + " needed more room\n";
-    text += changes_text(simulation);
+    text += changes_text(simulation) + response_text(simulation);
     return text + "a frame took " + fixed(value_at(milliseconds_, 0.5), 3) +
            " ms (median), 95 % below " + fixed(value_at(milliseconds_, 0.95), 3) + " ms; state " +
            hexadecimal(simulation.scene().state_hash()) + "\n";

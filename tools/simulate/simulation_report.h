@@ -39,6 +39,12 @@ private:
         std::uint64_t ends = 0;
     };
 
+    /// The work of `response` in all frames.
+    struct ResponseWork {
+        dynamics::DynamicsCounts counts;  ///< sums
+        double seconds = 0;
+    };
+
     struct ModelWork {
         scenes::ChangeWork work;           ///< the sum of all frames
         std::vector<double> milliseconds;  ///< of each frame; sorted at the end
@@ -46,6 +52,7 @@ private:
 
     [[nodiscard]] bool is_told(const SceneEvent& event) const;
     void count(const scenes::Simulation& simulation);
+    void count_response(const scenes::Simulation& simulation);
     [[nodiscard]] std::string summary_text(const scenes::Simulation& simulation) const;
     [[nodiscard]] double milliseconds_a_frame(std::uint64_t nanoseconds) const;
     [[nodiscard]] std::string time_text(std::uint64_t nanoseconds) const;
@@ -53,6 +60,7 @@ private:
     [[nodiscard]] std::string effects_text(const scenes::Simulation& simulation) const;
     [[nodiscard]] std::string costs_text() const;
     [[nodiscard]] std::string changes_text(const scenes::Simulation& simulation) const;
+    [[nodiscard]] std::string response_text(const scenes::Simulation& simulation) const;
     [[nodiscard]] std::string summary_json(const scenes::Simulation& simulation) const;
 
     const scenes::SceneFile& scene_;
@@ -64,6 +72,7 @@ private:
     std::array<Changes, kSceneEffects.size()> changes_{};
     std::vector<double> milliseconds_;  ///< of each frame; sorted at the end
     ModelWork models_;
+    ResponseWork response_;
     std::vector<scenes::EffectCost> costs_;
     bool has_event_ = false;
 };

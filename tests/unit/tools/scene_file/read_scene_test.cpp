@@ -334,8 +334,7 @@ TEST(ReadScene, NamesMistakesOfBodies) {
          "\"dynamics\": {\"substeps\": 0, \"rest_gap\": 0, \"sleeps\": 1, \"steps\": 3}}",
          {"line 1: /gravity: found 9.81; expected an array of 3 numbers.",
           "line 2: /dynamics/steps: 'steps' is not a key here. Choose from substeps, iterations, "
-          "rest_gap, most_speed, tolerance, sleep_speed, most_contacts or sleeps. Did you mean "
-          "'substeps'?"}},
+          "rest_gap, most_speed, tolerance, sleep_speed, most_contacts or sleeps."}},
         {"{\"cdprep_scene\": 1, \"layers\": [], \"objects\": [],\n"
          "\"dynamics\": {\"substeps\": 0, \"rest_gap\": 0, \"sleeps\": 1}}",
          {"line 2: /dynamics/substeps: found 0; expected a whole number from 1 to 2147483648.",

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene_file/load_models.h"
+#include "simulate/dynamics/rigid_bodies.h"
+
+namespace cdprep::scenes {
+
+/// A pose that does not follow from the motion of an object: that of a body, or one of a recording.
+struct GivenPose {
+    std::uint32_t object;  ///< its number in SceneFile::objects
+    Pose pose;
+};
+
+/// Returns whether a pair of layers asks for `response`.
+[[nodiscard]] bool has_response(const SceneFile& scene);
+
+/// Returns the options of the dynamics that a scene file states or leaves to its unit.
+[[nodiscard]] dynamics::DynamicsOptions dynamics_options_of(const SceneFile& scene);
+
+/// Returns why `response` cannot be computed with these models, a sentence for each reason. Models
+/// that are not open are not judged.
+[[nodiscard]] std::vector<std::string> response_refusals(const SceneFile& scene,
+                                                         std::span<const SceneModel> models);
+
+/// The objects of a scene that push each other, moved from frame to frame.
+class Response {
+public:
+    /// Adds the objects of all layers that respond, as they are at time 0. Bodies move freely,
+    /// objects with a motion are driven, and all others are fixed. All arguments must outlive the
+    /// object. Fails if has_response() is false, and as RigidBodies::add_body().
+    [[nodiscard]] static Result<Response> make(const SceneFile& file,
+                                               std::span<const SceneModel> models,
+                                               std::uint32_t threads, ParallelFor parallel_for);
+
+    /// Computes the frame after the last one; frame 0 is first, and computed already. `time_s` is
+    /// its time, for driven objects.
+    [[nodiscard]] Result<Done> step(double time_s);
+
+    /// Where the bodies are.
+    [[nodiscard]] std::span<const GivenPose> poses() const noexcept {
+        return poses_;
+    }
+    [[nodiscard]] const dynamics::RigidBodies& bodies() const noexcept {
+        return *bodies_;
+    }
+    /// Returns the number of the object of a body, in SceneFile::objects.
+    [[nodiscard]] std::uint32_t object_of(std::uint32_t body) const noexcept {
+        return objects_[body];
+    }
+    /// The bodies that move freely, by their places in poses().
+    [[nodiscard]] std::span<const std::uint32_t> moving() const noexcept {
+        return moving_;
+    }
+    [[nodiscard]] std::size_t driven_count() const noexcept {
+        return driven_.size();
+    }
+    /// The wall time of the last step().
+    [[nodiscard]] double seconds() const noexcept {
+        return seconds_;
+    }
+
+private:
+    Response(const SceneFile& file, std::unique_ptr<dynamics::RigidBodies> bodies)
+        : file_(&file), bodies_(std::move(bodies)) {}
+    [[nodiscard]] Result<Done> add(std::uint32_t object, const Model& model);
+    [[nodiscard]] Result<Done> drive(double time_s);
+
+    const SceneFile* file_;
+    std::unique_ptr<dynamics::RigidBodies> bodies_;
+    std::vector<std::uint32_t> objects_;  ///< by body
+    std::vector<std::uint32_t> moving_;
+    std::vector<std::uint32_t> driven_;
+    std::vector<GivenPose> poses_;  ///< of the moving bodies
+    double seconds_ = 0;
+};
+
+}  // namespace cdprep::scenes
