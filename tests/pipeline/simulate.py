@@ -67,8 +67,8 @@ def the_plans(program):
     """By hand: what the scenes ask for."""
     plan = plan_of(program, SCENES / "crates.json")
     must([layer["objects"] for layer in plan["layers"]] == [1, 2, 1, 60], f"{plan['layers']}")
-    must(plan["not_computed"] == ["overlap", "distance", "contacts", "continuous", "self", "haptic"],
-         f"{plan['not_computed']}")
+    must(plan["not_computed"] == ["overlap", "distance", "contacts", "continuous", "self", "haptic",
+                                  "response"], f"{plan['not_computed']}")
     must(plan["pairs"][0]["layers"] == ["crates", "triggers"], f"{plan['pairs']}")
     serves = {pathlib.Path(model["path"]).name: model["serves"] for model in plan["models"]}
     must(serves == {"ground.obj": ["within"], "gate.obj": ["collide", "solid"],
@@ -293,7 +293,7 @@ def refusals(program, folder):
     scene = write_scene(folder / "unbuilt.json", layers=["a", "b"], objects=[crate],
                         pairs=[{"layers": ["a", "b"], "effects": ["inside", "response"]},
                                {"layers": ["b", "a"], "effects": ["collide"], "tolerance": 3}])
-    words = ["Pair 0 of layers, 'a' and 'b': response is not built",
+    words = ["Pair 0 of layers, 'a' and 'b': response needs bodies",
              "Pair 0 of layers, 'a' and 'b': inside is not built",
              "layers 'b' and 'a' are also those of pair 0",
              "Pair 1 of layers, 'b' and 'a': tolerance has no meaning without within"]

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Writes a scene in which bodies fall into a tray and come to rest: pile.json and its meshes; metres.
+
+Without models, the bodies are jacks: smooth stars with six arms, which hook into each other. Given
+OBJ files, each body is a copy of one of them, scaled to SIZE.
+Usage: make_pile.py FOLDER [COUNT [MODEL.obj ...]]
+"""
+import json
+import math
+import pathlib
+import sys
+
+INSIDE, WALL, HEIGHT = 1.8, 0.2, 0.6  # of the tray
+SIZE = 0.8  # the diagonal of the box of a body
+LEVEL = 3  # of the icosphere that becomes a jack
+STARTS = ((-0.42, -0.42), (0.42, -0.42), (-0.42, 0.42), (0.42, 0.42), (0, 0))
+FIRST_HEIGHT, STORY = 0.6, 0.8
+
+
+def icosphere(level):
+    golden = (1 + math.sqrt(5)) / 2
+    points = [(x, y * golden, 0.0) for y in (1, -1) for x in (-1, 1)]
+    points += [(0.0, x, y * golden) for y in (1, -1) for x in (-1, 1)]
+    points += [(x * golden, 0.0, y) for x in (1, -1) for y in (-1, 1)]
+    faces = hull_faces(points)
+    for _ in range(level):
+        middles, finer = {}, []
+        for a, b, c in faces:
+            ab, bc, ca = (middle(points, middles, *edge) for edge in ((a, b), (b, c), (c, a)))
+            finer += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+        faces = finer
+    return points, faces
+
+
+def hull_faces(points):
+    """The faces of the icosahedron: its twenty nearest triples, wound outwards."""
+    edge = min(math.dist(points[0], p) for p in points[1:]) * 1.01
+    near = lambda i, j: math.dist(points[i], points[j]) < edge
+    faces = []
+    count = len(points)
+    for a in range(count):
+        for b in range(a + 1, count):
+            for c in range(b + 1, count):
+                if near(a, b) and near(b, c) and near(c, a):
+                    faces.append((a, b, c) if determinant(*(points[i] for i in (a, b, c))) > 0
+                                 else (a, c, b))
+    return faces
+
+
+def determinant(a, b, c):
+    return (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+            + a[2] * (b[0] * c[1] - b[1] * c[0]))
+
+
+def middle(points, middles, a, b):
+    key = (min(a, b), max(a, b))
+    if key not in middles:
+        middles[key] = len(points)
+        points.append(tuple((p + q) / 2 for p, q in zip(points[a], points[b])))
+    return middles[key]
+
+
+def jack():
+    points, faces = icosphere(LEVEL)
+    shaped = []
+    for point in points:
+        x, y, z = (c / math.hypot(*point) for c in point)
+        r = 0.3 + 0.7 * (x ** 8 + y ** 8 + z ** 8)
+        shaped.append((r * x, r * y, r * z))
+    return shaped, faces
+
+
+def tray():
+    """A box without a lid, with thick walls, closed."""
+    low, high = INSIDE / 2, INSIDE / 2 + WALL
+    around = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+    points = []
+    for side, z in ((high, -WALL), (high, HEIGHT), (low, HEIGHT), (low, 0)):
+        points += [(side * x, side * y, z) for x, y in around]
+    faces = [(0, 3, 2, 1), (12, 13, 14, 15)]
+    for ring in range(3):
+        for side in range(4):
+            a, b = 4 * ring + side, 4 * ring + (side + 1) % 4
+            faces.append((a, b, b + 4, a + 4))
+    return points, faces
+
+
+def read_obj(path):
+    points, faces = [], []
+    for line in pathlib.Path(path).read_text().splitlines():
+        words = line.split()
+        if words[:1] == ["v"]:
+            points.append(tuple(map(float, words[1:4])))
+        if words[:1] == ["f"]:
+            faces.append(tuple(int(word.split("/")[0]) - 1 for word in words[1:]))
+    return points, faces
+
+
+def scaled(mesh, size):
+    """The mesh about the middle of its box, whose diagonal becomes `size`."""
+    points, faces = mesh
+    low = [min(p[axis] for p in points) for axis in range(3)]
+    high = [max(p[axis] for p in points) for axis in range(3)]
+    scale = size / math.dist(low, high)
+    centre = [(a + b) / 2 for a, b in zip(low, high)]
+    return [tuple(scale * (c - m) for c, m in zip(p, centre)) for p in points], faces
+
+
+def obj(name, mesh):
+    points, faces = mesh
+    lines = [f"# {name}; metres."]
+    lines += ["v " + " ".join(f"{c:.5g}" for c in point) for point in points]
+    lines += ["f " + " ".join(str(index + 1) for index in face) for face in faces]
+    return "\n".join(lines) + "\n"
+
+
+def body(number, model):
+    x, y = STARTS[number % len(STARTS)]
+    z = FIRST_HEIGHT + STORY * (number // len(STARTS))
+    half = 0.35 * number
+    axis = [c / math.hypot(1, number, 2) for c in (1, number, 2)]
+    quaternion = [math.cos(half)] + [math.sin(half) * c for c in axis]
+    return {"name": f"{pathlib.Path(model).stem}{number + 1}", "model": model, "layer": "bodies",
+            "pose": {"translation": [x, y, round(z, 6)],
+                     "quaternion": [round(c, 9) for c in quaternion]},
+            "motion": {"body": {"mass": 10, "linear_damping": 0.05, "angular_damping": 0.05}},
+            "material": {"friction": 0.6}}
+
+
+def scene(count, models):
+    asked = {"effects": ["response", "contacts"], "contacts": {"tolerance": 0.001}, "events": []}
+    objects = [{"name": "tray", "model": "tray.obj", "layer": "trays"}]
+    objects += [body(number, models[number % len(models)]) for number in range(count)]
+    return {
+        "$schema": "../../tools/scene_file/scene.schema.json",
+        "cdprep_scene": 1,
+        "metres_per_unit": 1,
+        "duration_s": 6,
+        "gravity": [0, 0, -9.81],
+        "dynamics": {"most_speed": 8, "most_contacts": 128},
+        "layers": ["trays", "bodies"],
+        "pairs": [{"layers": ["bodies", "trays"], **asked},
+                  {"layers": ["bodies", "bodies"], **asked}],
+        "objects": objects}
+
+
+def text_of(content):
+    """JSON with a line for each member and each element of the lists of objects."""
+    members = []
+    for key, value in content.items():
+        text = json.dumps(value)
+        if key in ("pairs", "objects"):
+            text = "[\n" + ",\n".join("    " + json.dumps(item) for item in value) + "\n  ]"
+        members.append(f'  "{key}": {text}')
+    return "{\n" + ",\n".join(members) + "\n}\n"
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    count = int(sys.argv[2]) if len(sys.argv) > 2 else 20
+    given = sys.argv[3:]
+    meshes = {pathlib.Path(path).stem + ".obj": read_obj(path) for path in given}
+    for name, mesh in (meshes or {"jack.obj": jack()}).items():
+        (folder / name).write_text(obj(f"A body of a pile, {name}", scaled(mesh, SIZE)))
+    (folder / "tray.obj").write_text(obj("A box without a lid", tray()))
+    (folder / "pile.json").write_text(text_of(scene(count, list(meshes) or ["jack.obj"])))
+
+
+if __name__ == "__main__":
+    main()

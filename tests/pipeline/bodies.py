@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""cdprep simulate: bodies fall, push each other and come to rest; threads, recordings and dropped
+effects change nothing of it; what cannot be computed is refused, all at once.
+
+Usage: bodies.py CDPREP
+"""
+import json
+import math
+import pathlib
+import shutil
+import sys
+import tempfile
+
+from shared_models import bake, must, run
+from simulate import SCENES, check_schema, OUTPUT_SCHEMA, plan_of, simulate, without_times, write_scene
+
+INSIDE = 1.8  # of the tray in pile.json
+
+
+def bodies_of(summary):
+    return {key: value for key, value in summary["response"].items() if key != "frame_ms"}
+
+
+def frames_of(recording):
+    """The poses of each frame by object, as a recording has them."""
+    poses, frames = {}, []
+    for line in recording.read_text().splitlines()[1:-1]:
+        for number, *pose in json.loads(line)["poses"]:
+            poses[number] = pose
+        frames.append(dict(poses))
+    return frames
+
+
+def the_pile(program, folder):
+    """The jacks stay in the tray and come to rest; 1 and 2 threads and a replay give the same."""
+    first, second, third = (folder / f"{name}.ndjson" for name in ("first", "second", "third"))
+    events, one = simulate(program, SCENES / "pile.json", "-j", 1, "--record", first)
+    again, two = simulate(program, SCENES / "pile.json", "-j", 2, "--record", second)
+    must(first.read_bytes() == second.read_bytes() and events == again, "threads change the pile")
+    must(bodies_of(one) == bodies_of(two), f"{one['response']} {two['response']}")
+    replayed, three = simulate(program, first, "--record", third)
+    must(first.read_bytes() == third.read_bytes() and events == replayed, "the replay differs")
+    must("response" not in three, "a replay computes bodies")
+    response = one["response"]
+    must(response["bodies"] == 20 and response["driven"] == 0, f"{response}")
+    must(response["asked_by"] == ["bodies-trays", "bodies-bodies"], f"{response}")
+    must(response["incomplete"] == 0 and response["too_fast"] == 0, f"{response}")
+    must(response["awake"] == 0 and response["deepest"] <= 0.008, f"{response}")
+    frames = frames_of(first)
+    must(len(frames) == one["frames"] == 360, f"{one['frames']}")
+    for number in range(1, 21):
+        x, y, z = frames[-1][number][-3:]
+        must(max(abs(x), abs(y)) < INSIDE / 2 and 0 < z < 1, f"object {number} is at {x, y, z}")
+        moved = math.dist(frames[-1][number][-3:], frames[-31][number][-3:])
+        must(moved < 0.01, f"object {number} still moves: {moved} in half a second")
+
+
+def ball_scene(folder, name, effects, **members):
+    """Two crates fall, 1 and 3 metres, upon a floor."""
+    body = {"body": {"mass": 2}}
+    return write_scene(
+        folder / name, metres_per_unit=1, step_s=1 / 60, duration_s=1, gravity=[0, 0, -8],
+        layers=["floors", "crates"], pairs=[{"layers": ["floors", "crates"], "effects": effects}],
+        **members,
+        objects=[{"name": "floor", "model": str(SCENES / "ground.obj"), "layer": "floors",
+                  "pose": {"translation": [0, 0, -0.5]}},
+                 {"name": "low", "model": str(SCENES / "crate.obj"), "layer": "crates",
+                  "pose": {"translation": [-2, 0, 1.5]}, "motion": body},
+                 {"name": "high", "model": str(SCENES / "crate.obj"), "layer": "crates",
+                  "pose": {"translation": [2, 0, 3.5]}, "motion": body}])
+
+
+def falls(program, folder):
+    """By hand: a crate falls 1 metre in sqrt(2 / 8) seconds. Other effects do not change that."""
+    scene = ball_scene(folder, "fall.json", ["response", "collide"])
+    recording = folder / "fall.ndjson"
+    events, summary = simulate(program, scene, "--record", recording)
+    frames = frames_of(recording)
+    for frame in range(30):
+        height = 1.5 - 4 * (frame / 60) ** 2
+        must(abs(frames[frame][1][-1] - height) < 1e-4, f"frame {frame}: {frames[frame][1]}")
+    must(abs(frames[-1][1][-1] - 0.5) < 1e-3, f"it does not rest: {frames[-1][1]}")
+    alone = ball_scene(folder, "alone.json", ["response"])
+    _, less = simulate(program, alone, "--record", folder / "alone.ndjson")
+    must(bodies_of(less) == bodies_of(summary), "an effect changes the motion")
+    must(less["effects"] == [] and "collide" in less["not_computed"], f"{less}")
+    _, still = simulate(program, scene, "--drop", "response")
+    must("response" in still["not_computed"] and still["moved"] == 3, f"{still}")
+
+
+def costs(program, folder):
+    """Without response, the bodies move as before: the other effects are asked as often."""
+    scene = ball_scene(folder, "cost.json", ["response", "collide"])
+    _, summary = simulate(program, scene, "--cost", "-j", 1)
+    cost = {row["without"]: row["change_of_time"] for row in summary["costs"]}
+    must(set(cost) == {"response", "collide"} and cost["response"] < cost["collide"], f"{cost}")
+    share = summary["response"]["frame_ms"] / (summary["response"]["frame_ms"]
+                                               + sum(summary["stages_ms"].values())
+                                               + summary["effects"][0]["frame_ms"])
+    must(abs(share + cost["response"]) < 0.3, f"the table says {share}, the rounds {cost}")
+
+
+def the_plan(program, folder):
+    plan = plan_of(program, SCENES / "pile.json")
+    response = plan["response"]
+    must((response["bodies"], response["driven"], response["fixed"]) == (20, 0, 1), f"{response}")
+    must(response["substeps"] == 4 and response["iterations"] == 50, f"{response}")
+    must(response["gravity"] == [0, 0, -9.81], f"{response}")
+    must(plan["pairs"][0]["effects"] == ["contacts", "response"], f"{plan['pairs']}")
+    must("response" not in plan["not_computed"], f"{plan['not_computed']}")
+    jack = next(model for model in plan["models"] if model["path"].endswith("jack.obj"))
+    must("mass_properties" in [section["name"] for section in jack["read"]], f"{jack['read']}")
+
+
+def refusals(program, folder):
+    """Each sentence names what to change; all come at once, and nothing is computed."""
+    bake(program, SCENES / "crate.obj", "-o", folder / "crate.cdp.h5", "--effects", "contacts")
+    shutil.copy(SCENES / "sheet.obj", folder)
+    scene = write_scene(
+        folder / "refused.json", layers=["a", "b"], gravity=[0, 0, -1],
+        dynamics={"tolerance": 1e-6},
+        pairs=[{"layers": ["a", "a"], "effects": ["response"]},
+               {"layers": ["b", "b"], "effects": ["collide"]}],
+        objects=[{"name": "baked", "model": "crate.cdp.h5", "layer": "a", "motion": "body"},
+                 {"name": "open", "model": "sheet.obj", "layer": "a", "motion": "body"}])
+    done = run(program, "simulate", scene, "--plan", "--format", "json")
+    must(done.returncode == 2, f"exit {done.returncode}: {done.stderr}")
+    told = json.loads(done.stdout)
+    check_schema(OUTPUT_SCHEMA, told, scene)
+    parts = ["The contact tolerance is 1e-06", "object 'baked': response needs mass, and the file has "
+             "no mass properties", "object 'open': response needs mass, and the mesh is open"]
+    must(len(told["refusals"]) == len(parts), f"{told['refusals']}")
+    for part, sentence in zip(parts, told["refusals"]):
+        must(part in sentence, sentence)
+    alone = write_scene(folder / "alone.json", layers=["a"], gravity=[0, 0, -1], pairs=[],
+                        objects=[{"name": "x", "model": "sheet.obj", "layer": "a",
+                                  "motion": "body"}])
+    done = run(program, "simulate", alone)
+    must(done.returncode == 2 and "no pair of this layer asks for response" in done.stderr,
+         done.stderr)
+
+
+def generated(program):
+    """The kept meshes and scenes are those that the scripts write."""
+    for script in ("make_pile.py", "make_bolt.py"):
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = pathlib.Path(scratch)
+            done = run(sys.executable, SCENES / script, folder)
+            must(done.returncode == 0, done.stderr)
+            for written in folder.iterdir():
+                must(written.read_text() == (SCENES / written.name).read_text(), f"{written.name}")
+
+
+def the_bolt(program, folder):
+    """The bolt never touches the plate, and is screwed in: within 0.3 mm, and below."""
+    events, summary = simulate(program, SCENES / "bolt.json")
+    must(not any(event["effect"] == "overlap" for event in events), f"{events}")
+    distances = [event for event in events if event["effect"] == "distance"]
+    must(len(distances) == 1 and distances[0]["lower"] > 0, f"{distances}")
+    within = [event["frame"] for event in events if event["effect"] == "within"]
+    must(within and within[0] > 20, f"{within}")
+    must(summary["frames"] == 80, f"{summary['frames']}")
+
+
+def main():
+    program = sys.argv[1]
+    generated(program)
+    for check in (the_pile, falls, costs, the_plan, refusals, the_bolt):
+        with tempfile.TemporaryDirectory() as scratch:
+            check(program, pathlib.Path(scratch))
+
+
+if __name__ == "__main__":
+    main()
