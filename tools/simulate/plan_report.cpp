@@ -109,7 +109,10 @@ std::string model_text(const std::string& path, const SceneModel& model) {
                        origin_text(model.origin) + "\n";
     if (!model.model) return text;
     const SectionUse use = use_of(*model.model);
-    text += "  must serve: " + joined(names_of(model.needs.asks)) + "\n";
+    text += "  must serve: " + joined(names_of(model.needs.asks));
+    const Ask wishes = without(model.needs.wishes, model.needs.asks);
+    if (wishes != Ask::nothing) text += "; uses if it can: " + joined(names_of(wishes));
+    text += "\n";
     text += sections_text("read", use.read);
     text += sections_text("never touched", use.untouched);
     return text;
@@ -133,7 +136,8 @@ Json model_json(const std::string& path, const SceneModel& model) {
     Json json = {{"path", path},
                  {"objects", model.needs.objects},
                  {"origin", origin_name(model.origin)},
-                 {"serves", names_of(model.needs.asks)}};
+                 {"serves", names_of(model.needs.asks)},
+                 {"uses", names_of(without(model.needs.wishes, model.needs.asks))}};
     const SectionUse use = model.model ? use_of(*model.model) : SectionUse{};
     json["read"] = sections_json(use.read);
     json["read_bytes"] = use.read.bytes;
