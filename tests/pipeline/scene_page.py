@@ -192,7 +192,7 @@ def check_panels(browser, page, events):
     browser.click(box[0] + box[2] / 2, box[1] + box[3] / 2)
     must(browser.value("run.objects[state.chosen][0]") == "tumbling", "a click in the picture")
     must(text_of(browser, "not-computed").startswith("Not computed: overlap, distance, contacts, "
-                                                   "continuous, self, haptic."),
+                                                   "continuous, self, haptic, response."),
          text_of(browser, "not-computed"))
     browser.value("document.getElementById('tab-plan').click()")
     plan = text_of(browser, "panel-plan")

@@ -20,6 +20,7 @@
 #include "scene_file/load_models.h"
 #include "scene_file/read_scene.h"
 #include "simulate/effect_costs.h"
+#include "simulate/effect_counts.h"
 #include "simulate/page_output.h"
 #include "simulate/plan_report.h"
 #include "simulate/recording.h"
@@ -336,9 +337,10 @@ Exit run(const Arguments& arguments) {
 
 std::vector<std::string> effect_words() {
     std::vector<std::string> words;
-    words.reserve(kSceneEffects.size() + 1);
-    for (const Ask effect : kSceneEffects) words.push_back(scenes::effect_name(effect));
-    words.push_back(scenes::effect_name(Ask::response));
+    words.reserve(report::kSimulatedEffects.size());
+    for (const Ask effect : report::kSimulatedEffects) {
+        words.push_back(scenes::effect_name(effect));
+    }
     return words;
 }
 

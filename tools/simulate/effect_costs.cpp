@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene_file/compile_scene.h"
+#include "simulate/effect_counts.h"
 
 namespace cdprep::scenes {
 namespace {
@@ -67,9 +68,7 @@ Result<std::vector<EffectCost>> measure_costs(const SceneFile& file,
                                               const CostOptions& options) {
     std::vector<Variant> variants = {{file}};
     std::vector<Ask> effects;
-    std::vector<Ask> known(kSceneEffects.begin(), kSceneEffects.end());
-    known.push_back(Ask::response);
-    for (const Ask effect : known) {
+    for (const Ask effect : report::kSimulatedEffects) {
         if (!contains(effects_of(file), effect)) continue;
         effects.push_back(effect);
         variants.push_back({file});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -11,6 +12,19 @@
 #include "simulate/response.h"
 
 namespace cdprep::report {
+
+/// The effects of a simulation: those of the library's scene, then `response`.
+inline constexpr auto kSimulatedEffects = [] {
+    std::array<Ask, kSceneEffects.size() + 1> all{};
+    std::copy(kSceneEffects.begin(), kSceneEffects.end(), all.begin());
+    all.back() = Ask::response;
+    return all;
+}();
+
+/// Returns the effects that some pair of layers asks for.
+[[nodiscard]] inline Ask asked_effects(const scenes::SceneFile& scene, const Plan& plan) {
+    return plan.effects() | (scenes::has_response(scene) ? Ask::response : Ask::nothing);
+}
 
 /// Returns the place of an effect in kSceneEffects.
 [[nodiscard]] inline std::size_t effect_number(Ask effect) noexcept {
@@ -27,14 +41,14 @@ namespace cdprep::report {
     return counts.query_ticks - std::min(counts.query_ticks, queries);
 }
 
-/// Returns the names of the effects that a scene could compute, but no pair of layers asks for.
+/// Returns the names of the effects that no pair of layers asks for.
 [[nodiscard]] inline std::vector<std::string> not_computed(const scenes::SceneFile& scene,
                                                            const Plan& plan) {
     std::vector<std::string> names;
-    for (const Ask effect : kSceneEffects) {
-        if (!contains(plan.effects(), effect)) names.push_back(scenes::effect_name(effect));
+    const Ask asked = asked_effects(scene, plan);
+    for (const Ask effect : kSimulatedEffects) {
+        if (!contains(asked, effect)) names.push_back(scenes::effect_name(effect));
     }
-    if (!scenes::has_response(scene)) names.push_back(scenes::effect_name(Ask::response));
     return names;
 }
 

@@ -150,6 +150,21 @@ Result<Done> Response::drive(double time_s) {
     return Done{};
 }
 
+std::size_t Response::awake_count() const noexcept {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        moving_, [&](std::uint32_t body) { return !bodies_->is_asleep(body); }));
+}
+
+/// Bodies are in the order of their objects, and so are contacts.
+void Response::find_pushing() {
+    pushing_.clear();
+    for (const dynamics::BodyContact& contact : bodies_->contacts()) {
+        const ObjectPair pair = {objects_[contact.a], objects_[contact.b]};
+        if (contact.impulse <= 0 || (!pushing_.empty() && pushing_.back() == pair)) continue;
+        pushing_.push_back(pair);
+    }
+}
+
 Result<Done> Response::step(double time_s) {
     if (Result<Done> driven = drive(time_s); !driven) return driven;
     const auto begin = std::chrono::steady_clock::now();
@@ -157,6 +172,7 @@ Result<Done> Response::step(double time_s) {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     seconds_ = taken.count();
     for (std::size_t i = 0; i < moving_.size(); ++i) poses_[i].pose = bodies_->pose(moving_[i]);
+    find_pushing();
     return Done{};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -16,6 +17,14 @@ namespace cdprep::scenes {
 struct GivenPose {
     std::uint32_t object;  ///< its number in SceneFile::objects
     Pose pose;
+};
+
+/// Two objects, by their numbers in SceneFile::objects; a < b.
+struct ObjectPair {
+    std::uint32_t a;
+    std::uint32_t b;
+
+    auto operator<=>(const ObjectPair&) const = default;
 };
 
 /// Returns whether a pair of layers asks for `response`.
@@ -47,6 +56,10 @@ public:
     [[nodiscard]] std::span<const GivenPose> poses() const noexcept {
         return poses_;
     }
+    /// The objects that push each other at the end of the last frame, rising.
+    [[nodiscard]] std::span<const ObjectPair> pushing() const noexcept {
+        return pushing_;
+    }
     [[nodiscard]] const dynamics::RigidBodies& bodies() const noexcept {
         return *bodies_;
     }
@@ -58,6 +71,7 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> moving() const noexcept {
         return moving_;
     }
+    [[nodiscard]] std::size_t awake_count() const noexcept;
     [[nodiscard]] std::size_t driven_count() const noexcept {
         return driven_.size();
     }
@@ -71,6 +85,7 @@ private:
         : file_(&file), bodies_(std::move(bodies)) {}
     [[nodiscard]] Result<Done> add(std::uint32_t object, const Model& model);
     [[nodiscard]] Result<Done> drive(double time_s);
+    void find_pushing();
 
     const SceneFile* file_;
     std::unique_ptr<dynamics::RigidBodies> bodies_;
@@ -78,6 +93,7 @@ private:
     std::vector<std::uint32_t> moving_;
     std::vector<std::uint32_t> driven_;
     std::vector<GivenPose> poses_;  ///< of the moving bodies
+    std::vector<ObjectPair> pushing_;
     double seconds_ = 0;
 };
 

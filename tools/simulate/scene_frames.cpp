@@ -41,6 +41,7 @@ public:
         for (const SceneOverlaps& list : scene.overlaps()) add(list);
         for (const SceneDistance& distance : scene.distances()) add(distance);
         for (const SceneContacts& list : scene.contacts()) add(list);
+        if (const scenes::Response* response = simulation_.response()) add(*response);
         for (auto& [object, triangles] : lit_) {
             std::ranges::sort(triangles);
             triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
@@ -65,6 +66,44 @@ private:
             ++shown_.hits_left_out;
         } else {
             shown_.hits.push_back({number_of(hit.a), number_of(hit.b), effect_bits(hit.holds)});
+        }
+    }
+
+    void add(const scenes::Response& response) {
+        shown_.bodies = {response.awake_count(), response.bodies().counts().pairs};
+        add_pushing(response);
+        if (!contains(simulation_.plan().effects(), Ask::contacts)) add_contacts(response);
+    }
+
+    /// Objects that push each other are hits, whether another effect holds for them or not.
+    void add_pushing(const scenes::Response& response) {
+        constexpr std::uint32_t kResponse = 1U << kSceneEffects.size();
+        std::map<std::pair<std::uint32_t, std::uint32_t>, ShownHit*> known;
+        shown_.hits.reserve(shown_.hits.size() + response.pushing().size());
+        for (ShownHit& hit : shown_.hits) known.emplace(std::minmax(hit.a, hit.b), &hit);
+        for (const scenes::ObjectPair& pair : response.pushing()) {
+            const auto at = known.find({pair.a, pair.b});
+            if (at != known.end()) {
+                at->second->effects |= kResponse;
+            } else if (pair.b >= objects_ || shown_.hits.size() >= limits_.hits) {
+                ++shown_.hits_left_out;
+            } else {
+                shown_.hits.push_back({pair.a, pair.b, kResponse});
+            }
+        }
+    }
+
+    void add_contacts(const scenes::Response& response) {
+        for (const dynamics::BodyContact& contact : response.bodies().contacts()) {
+            if (contact.impulse <= 0) continue;
+            const std::uint32_t a = response.object_of(contact.a);
+            const std::uint32_t b = response.object_of(contact.b);
+            if (std::max(a, b) >= objects_ || shown_.contacts.size() >= limits_.contacts) {
+                ++shown_.contacts_left_out;
+                continue;
+            }
+            shown_.contacts.push_back(
+                {a, b, contact.point, contact.normal, contact.distance, contact.distance});
         }
     }
 

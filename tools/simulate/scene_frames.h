@@ -27,7 +27,7 @@ struct LitTriangles {
 struct ShownHit {
     std::uint32_t a;
     std::uint32_t b;
-    std::uint32_t effects;  ///< bit i: kSceneEffects[i]
+    std::uint32_t effects;  ///< bit i: kSimulatedEffects[i]
 };
 
 struct ShownContact {
@@ -48,6 +48,12 @@ struct ShownDistance {
     double upper;
 };
 
+/// The bodies of a frame.
+struct ShownBodies {
+    std::uint64_t awake = 0;
+    std::uint64_t calls = 0;  ///< pairs of objects that were asked for contacts, in all substeps
+};
+
 /// A frame as the page shows it. Objects are numbers in SceneFile::objects.
 struct ShownFrame {
     std::uint64_t frame = 0;
@@ -58,6 +64,7 @@ struct ShownFrame {
     std::vector<ShownDistance> distances;
     SceneCounts counts;
     std::uint64_t pairs_unknown = 0;  ///< for which it is not known whether they collide
+    std::optional<ShownBodies> bodies;
     double seconds = 0;
     /// What the limits or the choice of objects leave out.
     std::uint64_t lit_left_out = 0;

@@ -76,6 +76,8 @@ public:
                           {"contacts", counts.contacts},
                           {"unknown", shown.pairs_unknown}};
         json["calls"] = counts.calls;
+        json["calls"].push_back(shown.bodies ? shown.bodies->calls : 0);
+        if (shown.bodies) json["awake"] = shown.bodies->awake;
         return json;
     }
 
@@ -175,11 +177,12 @@ Json objects_json(const scenes::SceneFile& file, const Plan& plan, std::uint32_t
     return json;
 }
 
-Json effects_json(const Plan& plan) {
+Json effects_json(Ask asked) {
     Json json = Json::array();
-    for (const Ask effect : kSceneEffects) {
-        json.push_back(
-            {{"name", scenes::effect_name(effect)}, {"asked", contains(plan.effects(), effect)}});
+    for (const Ask effect : kSimulatedEffects) {
+        json.push_back({{"name", scenes::effect_name(effect)},
+                        {"asked", contains(asked, effect)},
+                        {"has_events", effect != Ask::response}});
     }
     return json;
 }
@@ -343,7 +346,7 @@ std::string ScenePage::finish(const scenes::Simulation& simulation) {
                        {"exponent", geometry.frame.exponent},
                        {"half", geometry.frame.half_box},
                        {"layers", file_.layers},
-                       {"effects", effects_json(plan)},
+                       {"effects", effects_json(asked_effects(file_, plan))},
                        {"models", models_json(file_, geometry)},
                        {"objects", objects_json(file_, plan, frames_.objects())},
                        {"object_count", file_.objects.size()},

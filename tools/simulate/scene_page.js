@@ -148,8 +148,10 @@ function effect_table() {
   const cell = (rows, effect) => exact ? whole(rows[i][effect]) : '\u2013';
   const rows = run.effects.map((effect, k) => effect.asked
       ? make('tr', {}, make('td', {}, effect_swatch(effect), effect.name),
-             make('td', {class: 'holds'}, cell(spans.holds, k)), make('td', {}, cell(spans.begins, k)),
-             make('td', {}, cell(spans.ends, k)), make('td', {}, whole(now.calls[k])))
+             make('td', {class: 'holds'}, cell(spans.holds, k)),
+             make('td', {}, effect.has_events ? cell(spans.begins, k) : '\u2013'),
+             make('td', {}, effect.has_events ? cell(spans.ends, k) : '\u2013'),
+             make('td', {}, whole(now.calls[k])))
       : make('tr', {class: 'off'}, make('td', {}, effect.name),
              make('td', {colspan: 4}, 'not computed: no pair of layers asks')));
   const head = ['Effect', 'Pairs', 'Begin', 'End', 'Calls'].map((name) => make('th', {scope: 'col'}, name));
@@ -158,7 +160,7 @@ function effect_table() {
 }
 
 function work_table() {
-  const {counts, us, contacts} = run.now;
+  const {counts, us, contacts, awake} = run.now;
   const rows = [['Objects that moved', whole(counts.moved)],
                 ['Pairs whose boxes meet', whole(counts.candidates)],
                 ['of which nothing moved', whole(counts.kept)],
@@ -167,10 +169,11 @@ function work_table() {
   const asks = (name) => asked.some((effect) => effect.name === name);
   if (asks('overlap')) rows.push(['Pairs of triangles that touch', whole(counts.triangle_pairs)]);
   if (asks('contacts')) rows.push(['Contacts', whole(counts.contacts)]);
+  if (awake !== undefined) rows.push(['Bodies awake', whole(awake)]);
   let least = Infinity;
   for (let i = 6; i < contacts.length; i += CONTACT) least = Math.min(least, contacts[i]);
   if (least < 0) rows.push(['Greatest depth, at most', number(Number((-least).toPrecision(5)))]);
-  rows.push(['Time of the step', in_time(us)]);
+  rows.push(['Time of the frame', in_time(us)]);
   return make('table', {class: 'values', id: 'work-table'}, make('tbody', {}, ...rows.map(([name, value]) =>
       make('tr', {}, make('th', {scope: 'row'}, name), make('td', {}, value)))));
 }

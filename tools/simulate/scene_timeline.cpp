@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "simulate/effect_counts.h"
-
 namespace cdprep::report {
 namespace {
 
@@ -19,6 +17,9 @@ TimelineSpan span_of(const scenes::Simulation& simulation) {
             if (contains(hit.holds, kSceneEffects[i])) ++span.holds[i];
         }
     }
+    if (const scenes::Response* response = simulation.response()) {
+        span.holds.back() = response->pushing().size();
+    }
     for (const SceneEvent& event : simulation.scene().events()) {
         const std::size_t effect = effect_number(event.effect);
         if (event.kind == EventKind::begins) ++span.begins[effect];
@@ -30,7 +31,7 @@ TimelineSpan span_of(const scenes::Simulation& simulation) {
 void add_span(TimelineSpan& sum, const TimelineSpan& next) {
     sum.frames += next.frames;
     sum.longest = std::max(sum.longest, next.longest);
-    for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
+    for (std::size_t i = 0; i < sum.holds.size(); ++i) {
         sum.begins[i] += next.begins[i];
         sum.ends[i] += next.ends[i];
         sum.holds[i] = std::max(sum.holds[i], next.holds[i]);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "simulate/effect_counts.h"
 #include "simulate/simulation.h"
 #include "text/stage_time.h"
 
@@ -17,14 +18,16 @@ namespace cdprep::report {
 /// threads. A part with the name of an effect is drawn in the lane of that effect.
 [[nodiscard]] std::vector<StageTime> stage_times(const scenes::Simulation& simulation);
 
-/// What happened in some frames that follow each other. Arrays are by effect.
+/// What happened in some frames that follow each other. Arrays are by kSimulatedEffects.
 struct TimelineSpan {
-    using ByEffect = std::array<std::uint64_t, kSceneEffects.size()>;
+    using ByEffect = std::array<std::uint64_t, kSimulatedEffects.size()>;
 
     std::uint64_t frames = 0;
     ByEffect begins{};
     ByEffect ends{};
-    ByEffect holds{};             ///< the most pairs of objects for which it holds in a frame
+    /// The most pairs of objects for which it holds in a frame. `response` holds for those that
+    /// push each other.
+    ByEffect holds{};
     std::vector<double> seconds;  ///< of each stage, in all frames together
     double longest = 0;           ///< of a frame, in seconds
 };

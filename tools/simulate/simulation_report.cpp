@@ -37,11 +37,6 @@ std::uint64_t nanoseconds_of(double seconds) {
     return static_cast<std::uint64_t>(std::llround(1e9 * seconds));
 }
 
-std::size_t awake_bodies(const scenes::Response& response) {
-    return static_cast<std::size_t>(std::ranges::count_if(
-        response.moving(), [&](std::uint32_t body) { return !response.bodies().is_asleep(body); }));
-}
-
 /// Returns how deep two bodies overlap, 0 if none do.
 double deepest_contact(const scenes::Response& response) {
     double least = 0;
@@ -54,7 +49,7 @@ double deepest_contact(const scenes::Response& response) {
 /// Returns the work of all frames, and the bodies as they are.
 Json response_json(const scenes::Response& response, const dynamics::DynamicsCounts& counts) {
     return {{"bodies", response.moving().size()},
-            {"awake", awake_bodies(response)},
+            {"awake", response.awake_count()},
             {"driven", response.driven_count()},
             {"calls", counts.pairs},
             {"contacts", counts.contacts},
@@ -259,7 +254,7 @@ std::string SimulationReport::response_text(const scenes::Simulation& simulation
     const scenes::Response& response = *simulation.response();
     const dynamics::DynamicsCounts& counts = response_.counts;
     std::string text = counted(response.moving().size(), "body", "bodies") + ", " +
-                       std::to_string(awake_bodies(response)) +
+                       std::to_string(response.awake_count()) +
                        " awake at the end: " + counted(counts.contacts, "contact", "contacts") +
                        ", " + std::to_string(counts.deep) + " deep, " +
                        std::to_string(counts.shortened) + " shortened; " +

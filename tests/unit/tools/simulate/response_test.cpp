@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulate/scene_frames.h"
 #include "simulate/simulation.h"
 #include "study/memory_model.h"
 #include "support/meshes.h"
@@ -134,6 +135,28 @@ TEST_F(ResponseTest, ObjectsWithAMotionPush) {
     for (std::uint64_t frame = 0; frame <= 60; ++frame) ASSERT_TRUE(simulation.step(frame));
     EXPECT_EQ(place_of(simulation, 0).x, -4);
     EXPECT_NEAR(place_of(simulation, 1).x, 0.5, 2e-3) << "it is pushed from then on";
+}
+
+// By hand: the cube rests on the floor; nobody asks for contacts, so those that push are shown.
+TEST_F(ResponseTest, PagesShowWhatPushes) {
+    Falling falling(0.6);
+    falling.file().dynamics.sleeps = false;
+    falling.file().pairs[0].asked.tolerance = 0;
+    Simulation simulation = falling.make();
+    report::SceneFrames frames(falling.file(), 61, {});
+    for (std::uint64_t frame = 0; frame <= 60; ++frame) {
+        ASSERT_TRUE(simulation.step(frame));
+        ASSERT_TRUE(frames.add(frame, simulation));
+    }
+    EXPECT_TRUE(frames.frames().front().hits.empty()) << "it still falls";
+    const report::ShownFrame& last = frames.frames().back();
+    ASSERT_EQ(last.hits.size(), 1u) << "half a millimetre apart, so within does not hold";
+    EXPECT_EQ(last.hits[0].a, 0u);
+    EXPECT_EQ(last.hits[0].b, 1u);
+    EXPECT_EQ(last.hits[0].effects, 1u << kSceneEffects.size());
+    EXPECT_EQ(last.contacts.size(), 4u) << "the corners";
+    EXPECT_EQ(last.bodies->awake, 1u);
+    EXPECT_EQ(last.bodies->calls, 4u) << "one pair in each substep";
 }
 
 // Layers that do not respond pass through each other.
