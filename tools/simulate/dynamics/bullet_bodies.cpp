@@ -265,7 +265,7 @@ void BulletBodies::set_paces() {
     const double slow = slow_speed(options_);
     for (std::uint32_t i = 0; i < body_count(); ++i) {
         const BulletBody& body = *bodies_[i];
-        if (body.given.kind != BodyKind::moving || !body.rigid->isActive()) continue;
+        if (body.given.kind == BodyKind::fixed || !body.rigid->isActive()) continue;
         scene_.set_pace(i, speed_bound(i) <= slow ? Pace::slow : Pace::fast);
     }
 }

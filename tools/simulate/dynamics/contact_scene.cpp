@@ -44,7 +44,8 @@ Result<Done> ContactScene::add(const RigidBody& body) {
     BodyLayer layer{body.group, body.model->serves(Ask::solid), still, Pace::slow};
     std::uint32_t number = layer_of(layer);
     layer.pace = Pace::fast;
-    if (!still) number = layer_of(layer);  // until its speed is known
+    // Until its speed is known.
+    if (body.kind != BodyKind::fixed) number = layer_of(layer);
     const std::size_t needed = layers_.size();
     if (needed > kLayers) {
         layers_.resize(before);

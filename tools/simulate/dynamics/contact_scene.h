@@ -27,7 +27,7 @@ public:
     /// Fails with bad_argument if the groups and kinds of the bodies need too many layers.
     [[nodiscard]] Result<Done> add(const RigidBody& body);
     void set_pose(std::uint32_t object, const Pose& world_from_model);
-    /// Of a moving body.
+    /// Of a moving or driven body.
     void set_pace(std::uint32_t object, Pace pace);
     /// Finds the contacts of all objects as they are now.
     [[nodiscard]] Result<Done> step();
@@ -48,7 +48,7 @@ private:
         std::uint32_t group;
         bool solid;  ///< the models serve Ask::solid
         bool still;  ///< fixed or driven
-        Pace pace;   ///< of still ones: slow
+        Pace pace;   ///< of fixed ones: slow
 
         bool operator==(const BodyLayer&) const = default;
     };
