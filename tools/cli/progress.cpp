@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <iostream>
 
 #include "cli/colour.h"
@@ -21,6 +22,16 @@ std::string shortened(const std::string& text) {
 }
 
 }  // namespace
+
+std::string time_left_text(std::chrono::duration<double> passed, std::size_t done,
+                           std::size_t total) {
+    if (done == 0 || done > total) return "";
+    const double left =
+        passed.count() / static_cast<double>(done) * static_cast<double>(total - done);
+    if (left < 100) return ", " + std::to_string(std::llround(left)) + " s left";
+    if (left < 6000) return ", " + std::to_string(std::llround(left / 60)) + " min left";
+    return ", " + std::to_string(std::llround(left / 3600)) + " h left";
+}
 
 Result<ProgressStyle> parse_progress(const std::string& word) {
     if (is_quiet() || word == "none") return ProgressStyle::none;
@@ -58,7 +69,28 @@ void Progress::show(std::size_t done, const std::string& what) {
     done_ = done;
     what_ = what;
     begun_ = Clock::now();
+    is_loop_ = false;
     draw();
+}
+
+void Progress::advance(std::size_t done, const std::string& what) {
+    if (style_ == ProgressStyle::none) return;
+    const std::lock_guard lock(mutex_);
+    const Clock::time_point now = Clock::now();
+    if (!is_loop_ || what_ != what) {
+        what_ = what;
+        begun_ = now;
+        first_ = done;
+        is_loop_ = true;
+    }
+    done_ = done;
+    if (now - drawn_at_ >= pause()) draw();
+}
+
+Progress::Clock::duration Progress::pause() const noexcept {
+    constexpr std::chrono::milliseconds kBar(250);
+    constexpr std::chrono::seconds kPlain(10);
+    return style_ == ProgressStyle::bar ? Clock::duration(kBar) : Clock::duration(kPlain);
 }
 
 void Progress::clear() {
@@ -69,17 +101,10 @@ void Progress::clear() {
 }
 
 void Progress::tell_while_it_lasts() {
-    constexpr std::chrono::milliseconds kBarPause(250);
-    constexpr std::chrono::seconds kPlainPause(10);
     std::unique_lock lock(mutex_);
     while (!over_) {
-        const bool is_bar = style_ == ProgressStyle::bar;
-        if (is_bar) {
-            ended_.wait_for(lock, kBarPause);
-        } else {
-            ended_.wait_for(lock, kPlainPause);
-        }
-        const bool is_long = is_bar || Clock::now() - begun_ >= kPlainPause;
+        ended_.wait_for(lock, pause());
+        const bool is_long = style_ == ProgressStyle::bar || Clock::now() - begun_ >= pause();
         if (!over_ && !what_.empty() && is_long) draw();
     }
 }
@@ -89,6 +114,7 @@ std::string Progress::since() const {
     const auto passed = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - begun_);
     if (passed.count() < 1) return "";
     std::string text = ", " + std::to_string(passed.count()) + " s";
+    if (is_loop_) return text + time_left_text(passed, done_ - first_, total_ - first_);
     const LoopShare share = watched_loop();
     if (total_ == 1 && share.count > 1) {
         text += ", " + std::to_string(100 * share.done / share.count) + " %";
@@ -97,6 +123,7 @@ std::string Progress::since() const {
 }
 
 void Progress::draw() {
+    drawn_at_ = Clock::now();
     const std::string line = shortened(what_ + since());
     if (style_ == ProgressStyle::plain) {
         std::cerr << done_ << '/' << total_ << ' ' << what_ + since() << '\n';

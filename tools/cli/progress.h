@@ -18,6 +18,10 @@ enum class ProgressStyle { none, plain, bar };
 /// terminal, and none otherwise. Fails with bad_argument on another word.
 [[nodiscard]] Result<ProgressStyle> parse_progress(const std::string& word);
 
+/// Returns ", 2 min left": how long the rest of a loop takes at its mean speed. Empty at first.
+[[nodiscard]] std::string time_left_text(std::chrono::duration<double> passed, std::size_t done,
+                                         std::size_t total);
+
 /// Shows the progress of long work on stderr. During a stage it shows the elapsed time and the
 /// finished share of a loop that takes longer than a second. A bar is updated four times a
 /// second; plain lines follow every ten seconds.
@@ -31,6 +35,10 @@ public:
     /// Shows that `done` of the total are finished and that `what` is in progress.
     void show(std::size_t done, const std::string& what);
 
+    /// The same for a loop whose steps take about as long. It may be called often: the line changes
+    /// four times a second, or every ten seconds if it is plain. Also tells the time that is left.
+    void advance(std::size_t done, const std::string& what);
+
     /// Removes the bar, so that a line can be printed.
     void clear();
 
@@ -38,6 +46,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     void tell_while_it_lasts();
+    [[nodiscard]] Clock::duration pause() const noexcept;
     void draw();
     void erase();
     [[nodiscard]] std::string since() const;
@@ -49,6 +58,9 @@ private:
     std::size_t done_ = 0;
     std::string what_;
     Clock::time_point begun_;
+    std::size_t first_ = 0;  ///< of the loop: what was done before
+    bool is_loop_ = false;
+    Clock::time_point drawn_at_;
     bool drawn_ = false;
     bool over_ = false;
     std::thread teller_;

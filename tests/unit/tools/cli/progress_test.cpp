@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <thread>
@@ -33,6 +34,29 @@ TEST(ParseProgress, RefusesAnotherWord) {
         ASSERT_FALSE(style) << word;
         EXPECT_EQ(style.error().code, ErrorCode::bad_argument) << word;
     }
+}
+
+// By hand: 3 of 4 steps in 6 seconds, so 2 seconds for the last.
+TEST(TimeLeft, IsThatOfTheMeanStep) {
+    using std::chrono::seconds;
+    EXPECT_EQ(time_left_text(seconds(6), 3, 4), ", 2 s left");
+    EXPECT_EQ(time_left_text(seconds(10), 1, 19), ", 3 min left");
+    EXPECT_EQ(time_left_text(seconds(3600), 1, 3), ", 2 h left");
+    EXPECT_EQ(time_left_text(seconds(6), 4, 4), ", 0 s left");
+    EXPECT_EQ(time_left_text(seconds(6), 0, 4), "") << "not known yet";
+    EXPECT_EQ(time_left_text(seconds(6), 5, 4), "");
+}
+
+// A fast loop would otherwise write a line for each step.
+TEST(Progress, ALoopIsDrawnSeldom) {
+    testing::internal::CaptureStderr();
+    {
+        Progress progress(ProgressStyle::plain, 100'000);
+        for (std::size_t i = 0; i < 100'000; ++i) progress.advance(i, "frame");
+    }
+    const std::string drawn = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(drawn.find("0/100000 frame"), 0u);
+    EXPECT_LE(std::count(drawn.begin(), drawn.end(), '\n'), 3) << drawn;
 }
 
 // The pause covers two updates of a bar.
