@@ -4,9 +4,9 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "cdprep/format/sections.h"
 #include "scene_file/effect_words.h"
 #include "simulate/effect_counts.h"
+#include "simulate/section_use.h"
 #include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"
@@ -20,36 +20,6 @@ using scenes::ChangingObjects;
 using scenes::ModelOrigin;
 using scenes::SceneFile;
 using scenes::SceneModel;
-
-/// Sections of an open model, and their bytes.
-struct SectionBytes {
-    struct Row {
-        const char* name;
-        std::uint64_t bytes;
-    };
-    std::vector<Row> rows;
-    std::uint64_t bytes = 0;
-
-    void add(const format::SectionEntry& entry) {
-        rows.push_back({format::section_name(entry.id), entry.count * entry.element_size});
-        bytes += rows.back().bytes;
-    }
-};
-
-struct SectionUse {
-    SectionBytes read;
-    SectionBytes untouched;
-};
-
-SectionUse use_of(const Model& model) {
-    SectionUse use;
-    for (const format::SectionKind& kind : format::section_kinds()) {
-        const auto entry = format::find_section(model.bytes(), kind.id);
-        if (!entry) continue;
-        (model.sections().contains(kind.id) ? use.read : use.untouched).add(*entry);
-    }
-    return use;
-}
 
 const char* origin_name(ModelOrigin origin) {
     switch (origin) {

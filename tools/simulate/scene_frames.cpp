@@ -77,18 +77,18 @@ private:
 
     /// Objects that push each other are hits, whether another effect holds for them or not.
     void add_pushing(const scenes::Response& response) {
-        constexpr std::uint32_t kResponse = 1U << kSceneEffects.size();
+        constexpr std::uint32_t kResponseBit = 1U << kSceneEffects.size();
         std::map<std::pair<std::uint32_t, std::uint32_t>, ShownHit*> known;
         shown_.hits.reserve(shown_.hits.size() + response.pushing().size());
         for (ShownHit& hit : shown_.hits) known.emplace(std::minmax(hit.a, hit.b), &hit);
         for (const scenes::ObjectPair& pair : response.pushing()) {
             const auto at = known.find({pair.a, pair.b});
             if (at != known.end()) {
-                at->second->effects |= kResponse;
+                at->second->effects |= kResponseBit;
             } else if (pair.b >= objects_ || shown_.hits.size() >= limits_.hits) {
                 ++shown_.hits_left_out;
             } else {
-                shown_.hits.push_back({pair.a, pair.b, kResponse});
+                shown_.hits.push_back({pair.a, pair.b, kResponseBit});
             }
         }
     }

@@ -49,6 +49,9 @@ public:
     [[nodiscard]] const Plan& plan() const noexcept {
         return *plan_;
     }
+    [[nodiscard]] std::span<const SceneModel> models() const noexcept {
+        return models_;
+    }
     [[nodiscard]] const FileObject& object(ObjectId id) const noexcept {
         return file_->objects[objects_[id.slot]];
     }

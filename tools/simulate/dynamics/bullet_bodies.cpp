@@ -120,6 +120,9 @@ public:
     const DynamicsCounts& counts() const noexcept override {
         return counts_;
     }
+    std::size_t state_bytes() const noexcept override {
+        return scene_.bytes();
+    }
     std::uint64_t state_hash() const noexcept override;
 
 private:

@@ -38,6 +38,9 @@ public:
     [[nodiscard]] const SceneCounts& counts() const noexcept {
         return scene_->counts();
     }
+    [[nodiscard]] std::size_t bytes() const noexcept {
+        return plan_ ? Scene::size(*plan_) : 0;
+    }
     [[nodiscard]] Workspace& workspace() noexcept {
         return workspaces_.front();
     }

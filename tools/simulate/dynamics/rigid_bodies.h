@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -145,6 +146,8 @@ public:
     /// The impacts of the last step().
     [[nodiscard]] virtual std::span<const BodyImpact> impacts() const noexcept = 0;
     [[nodiscard]] virtual const DynamicsCounts& counts() const noexcept = 0;
+    /// Returns the memory of the collision world. Bullet's own is not counted.
+    [[nodiscard]] virtual std::size_t state_bytes() const noexcept = 0;
     /// Returns a hash of all poses and velocities.
     [[nodiscard]] virtual std::uint64_t state_hash() const noexcept = 0;
 };

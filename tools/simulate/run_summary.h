@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulate/cost_table.h"
+#include "simulate/effect_costs.h"
+
+namespace cdprep::report {
+
+/// What the summary of a run is about. All must outlive it.
+struct RunSummary {
+    const scenes::SceneFile& scene;
+    const scenes::Simulation& simulation;  ///< after the last frame
+    const CostTable& table;
+    std::span<const scenes::EffectCost> costs;  ///< of --cost, else empty
+    std::span<const std::string> not_computed;  ///< effects
+};
+
+/// Returns the summary as text: a table of effects and parts, and what was not computed.
+[[nodiscard]] std::string summary_text(const RunSummary& summary);
+
+/// Returns the same as JSON on one line (simulate.schema.json).
+[[nodiscard]] std::string summary_json(const RunSummary& summary);
+
+}  // namespace cdprep::report
