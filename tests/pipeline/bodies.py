@@ -13,13 +13,14 @@ import sys
 import tempfile
 
 from shared_models import bake, must, run
-from simulate import SCENES, check_schema, OUTPUT_SCHEMA, plan_of, simulate, without_times, write_scene
+from simulate import (OUTPUT_SCHEMA, SCENES, check_schema, plan_of, simulate, untimed,
+                      write_scene)
 
 INSIDE = 1.8  # of the tray in pile.json
 
 
 def bodies_of(summary):
-    return {key: value for key, value in summary["response"].items() if key != "frame_ms"}
+    return untimed(summary["response"])
 
 
 def frames_of(recording):

@@ -62,8 +62,23 @@ def moves_along(program, folder):
     shutil.move(place, moved / "scenes")
     shutil.move(folder / "kept.ndjson", moved / "kept.ndjson")
     simulate(program, moved / "kept.ndjson")
-    must(summary_of(simulate(program, moved / "kept.ndjson", "--frames", 2))["frames"] == 2,
-         "--frames does not shorten a replay")
+    for shorter in (("--frames", 2), ("--until", 0.2)):
+        must(summary_of(simulate(program, moved / "kept.ndjson", *shorter))["frames"] == 2,
+             f"{shorter} does not shorten a replay")
+
+
+def until(program, folder):
+    """By hand: steps of 0.125 s, the first at 0."""
+    for time_s, frames in ((0, 1), (0.124, 1), (0.125, 2), (1, 9), (3.99, 32)):
+        done = simulate(program, SCENES / "crates.json", "--until", time_s)
+        must(summary_of(done)["frames"] == frames, f"--until {time_s}: {summary_of(done)['frames']}")
+    # A third of a step is no double: the tenth frame counts all the same.
+    scene = folder / "third.json"
+    scene.write_text((SCENES / "crates.json").read_text().replace("0.125", "0.1")
+                     .replace("crate.obj", str(SCENES / "crate.obj"))
+                     .replace("gate.obj", str(SCENES / "gate.obj"))
+                     .replace("ground.obj", str(SCENES / "ground.obj")))
+    must(summary_of(simulate(program, scene, "--until", 0.3))["frames"] == 4, "0.3 s of 0.1 s steps")
 
 
 def changed_recordings(program, folder):
@@ -124,7 +139,7 @@ def costs(program, folder):
     for effect in summary["effects"]:
         must(effect["asked_by"] and effect["frame_ms"] >= 0, f"{effect}")
     text = simulate(program, scene, "--frames", 5, "--cost", "--format", "text").stdout
-    must("asked by" in text and "all frames take" in text and "boxes and broad phase" in text, text)
+    must("time without it  asked by" in text and " % (spread " in text and "boxes and broad phase" in text, text)
     recording = folder / "thousand.ndjson"
     simulate(program, scene, "--frames", 2, "--record", recording)
     wrong = simulate(program, recording, "--cost", code=2)
@@ -140,8 +155,15 @@ def names(program, folder):
     for arguments in (["--record", scene], ["-o", scene], ["-o", folder / "x", "--record",
                                                            folder / "a/../x"]):
         wrong = simulate(program, scene, *arguments, code=2)
-        must("is the scene or another output" in wrong.stderr, wrong.stderr)
+        must("is read or is another output" in wrong.stderr, wrong.stderr)
     must(scene.read_bytes() == before, "the scene was replaced")
+    # What the scene reads is kept too, by whatever name.
+    (folder / "link.html").symlink_to(folder / "crate.obj")
+    for arguments in (["--html", folder / "link.html"], ["--svg", folder / "crate.obj"]):
+        wrong = simulate(program, scene, *arguments, code=2)
+        must("is read or is another output" in wrong.stderr, wrong.stderr)
+    wrong = simulate(program, folder / "cloth.json", "-o", folder / "loop.pc2", code=2)
+    must("loop.pc2 is read" in wrong.stderr, wrong.stderr)
 
 
 def an_interrupt(program, folder):
@@ -162,7 +184,7 @@ def an_interrupt(program, folder):
 
 def main():
     program = sys.argv[1]
-    for check in (replays, moves_along, changed_recordings, dropped_effects, costs, names,
+    for check in (replays, moves_along, until, changed_recordings, dropped_effects, costs, names,
                   an_interrupt):
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))

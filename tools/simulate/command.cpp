@@ -46,11 +46,27 @@ struct Arguments {
     std::string format;  ///< empty: text for a plan, ndjson for frames
     std::string progress = "auto";
     std::optional<std::uint64_t> frames;
+    std::optional<double> until_s;
     std::size_t threads = 0;
     bool plan = false;
     bool cost = false;
     ImportArguments import;
 };
+
+std::vector<fs::path> outputs_of(const Arguments& arguments) {
+    return {arguments.output == "-" ? fs::path() : arguments.output, arguments.record,
+            arguments.html, arguments.svg};
+}
+
+/// Returns the files that a scene refers to.
+std::vector<fs::path> inputs_of(const scenes::SceneFile& scene) {
+    std::vector<fs::path> inputs = scene.models;
+    for (const scenes::Change& change : scene.changes) {
+        const auto* stream = change.deform ? std::get_if<scenes::Stream>(&*change.deform) : nullptr;
+        if (stream != nullptr) inputs.push_back(stream->file);
+    }
+    return inputs;
+}
 
 /// Prints sentences and returns their exit code.
 Exit fail_all(const std::vector<std::string>& sentences, ErrorCode code) {
@@ -70,6 +86,8 @@ public:
 
     Exit run() {
         if (const auto failed = read()) return *failed;
+        const Result<Done> apart = check_outputs(inputs_of(scene_), outputs_of(arguments_));
+        if (!apart) return fail("simulate", apart.error());
         if (!scene_.has_pairs) {
             return fail("simulate", {ErrorCode::unreadable,
                                      scene_.name + ": the key 'pairs' is missing. It says what to "
@@ -142,15 +160,34 @@ private:
     }
 
     [[nodiscard]] Result<std::uint64_t> frame_count() const {
-        if (replay_) return std::min(arguments_.frames.value_or(kMostFrames), replay_->frames());
+        const Result<std::uint64_t> asked = asked_frames();
+        if (!asked || !replay_) return asked;
+        return std::min(*asked, replay_->frames());
+    }
+
+    [[nodiscard]] Result<std::uint64_t> asked_frames() const {
         if (arguments_.frames) return *arguments_.frames;
-        const double frames = std::round(scene_.duration_s / scene_.step_s);
-        if (!(frames >= 1)) return std::uint64_t{1};
+        if (arguments_.until_s) return frames_of(frames_until(*arguments_.until_s), "--until");
+        if (replay_) return kMostFrames;
+        return frames_of(std::max(std::round(scene_.duration_s / scene_.step_s), 1.0),
+                         "duration_s");
+    }
+
+    /// Returns how many frames have at most this time, however their times are rounded.
+    [[nodiscard]] double frames_until(double time_s) const {
+        constexpr double kRounding = 1e-9;
+        const double steps = time_s / scene_.step_s;
+        const double nearest = std::round(steps);
+        const bool is_whole = std::abs(steps - nearest) <= kRounding * nearest;
+        return (is_whole ? nearest : std::floor(steps)) + 1;
+    }
+
+    [[nodiscard]] Result<std::uint64_t> frames_of(double frames, const char* what) const {
         if (frames <= kMostFrames) return static_cast<std::uint64_t>(frames);
         return Error{ErrorCode::bad_argument,
-                     scene_.name + ": duration_s / step_s is " + report::number_text(frames) +
+                     scene_.name + ": " + what + " / step_s is " + report::number_text(frames) +
                          " frames; at most " + std::to_string(kMostFrames) +
-                         " are possible. Change the two, or choose --frames."};
+                         " are possible. Choose --frames."};
     }
 
     [[nodiscard]] std::uint32_t thread_count() const {
@@ -215,7 +252,7 @@ private:
         if (done) done = begin_recording();
         for (std::uint64_t frame = 0; frame < frames && done; ++frame) {
             if (is_interrupted()) done = stopped(frame, frames);
-            progress.show(frame, "frame");
+            progress.advance(frame, "frame");
             if (done) done = compute(frame, *simulation);
             if (done) done = output_.append(report.add_frame(frame, *simulation));
             if (done && recorder_) done = record_->append(recorder_->add_frame(frame, *simulation));
@@ -270,7 +307,7 @@ private:
         options.parallel_for = threads_.parallel_for();
         options.begins = [&](std::uint64_t run, std::uint64_t runs) -> Result<Done> {
             if (is_interrupted()) return stopped(frames, frames);
-            progress.show(frames * run / runs, "cost");
+            progress.advance(frames * run / runs, "cost");
             return Done{};
         };
         auto costs = scenes::measure_costs(scene_, models_, options);
@@ -324,9 +361,7 @@ Exit run(const Arguments& arguments) {
                                  "--cost runs a scene again and again. Give the scene file, not a "
                                  "recording."});
     }
-    const fs::path output_file = arguments.output == "-" ? fs::path() : arguments.output;
-    const Result<Done> apart = check_outputs(
-        arguments.scene, {output_file, arguments.record, arguments.html, arguments.svg});
+    const Result<Done> apart = check_outputs({arguments.scene}, outputs_of(arguments));
     if (!apart) return fail("simulate", apart.error());
     Result<ReportOutput> output = ReportOutput::open(arguments.output);
     if (!output) return fail("simulate", output.error());
@@ -425,12 +460,21 @@ void add_simulate(const Command& app, Exit& exit) {
                       "Print what would be computed and which sections of the models that reads, "
                       "and exit. All reasons against a plan are listed (exit 2)")
             .group("Simulation");
+    const Option frames =
+        command
+            .add_option("--frames", arguments->frames,
+                        "Number of frames; the first is at time 0. Default: duration_s / step_s of "
+                        "the scene, at least 1")
+            .type_name("N")
+            .check(whole_from(1, kMostFrames))
+            .excludes(plan)
+            .group("Simulation");
     command
-        .add_option("--frames", arguments->frames,
-                    "Number of frames; the first is at time 0. Default: duration_s / step_s of "
-                    "the scene, at least 1")
-        .type_name("N")
-        .check(whole_from(1, kMostFrames))
+        .add_option("--until", arguments->until_s,
+                    "Compute the frames up to this time instead, it included")
+        .type_name("SECONDS")
+        .check(zero_or_more("seconds"))
+        .excludes(frames)
         .excludes(plan)
         .group("Simulation");
     command

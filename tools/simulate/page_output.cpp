@@ -10,13 +10,22 @@
 namespace cdprep::cli {
 namespace {
 
-/// Returns whether a path has the name of one of these, by their spelling.
-bool is_among(const std::filesystem::path& path, const std::vector<std::filesystem::path>& taken) {
-    const auto spelled_out = [](const std::filesystem::path& spelling) {
-        return std::filesystem::absolute(spelling).lexically_normal();
+namespace fs = std::filesystem;
+
+/// Returns whether two paths name one file, which need not exist yet.
+bool are_same_file(const fs::path& one, const fs::path& other) {
+    std::error_code unknown;
+    if (fs::equivalent(one, other, unknown)) return true;
+    const auto followed = [&](const fs::path& path) {
+        const fs::path found = fs::weakly_canonical(path, unknown);
+        return unknown ? fs::absolute(path).lexically_normal() : found;
     };
-    return std::ranges::any_of(taken, [&](const std::filesystem::path& other) {
-        return !other.empty() && spelled_out(other) == spelled_out(path);
+    return followed(one) == followed(other);
+}
+
+bool is_among(const fs::path& path, const std::vector<fs::path>& taken) {
+    return std::ranges::any_of(taken, [&](const fs::path& other) {
+        return !other.empty() && are_same_file(other, path);
     });
 }
 
@@ -28,16 +37,11 @@ Result<Done> open_file(std::optional<ReportOutput>& output, const std::filesyste
     return Done{};
 }
 
-Result<Done> write_file(ReportOutput& output, const std::string& text) {
-    Result<Done> written = output.append(text);
-    return written ? output.finish() : written;
-}
-
 }  // namespace
 
-Result<Done> check_outputs(const std::filesystem::path& scene,
+Result<Done> check_outputs(const std::vector<std::filesystem::path>& inputs,
                            const std::vector<std::filesystem::path>& outputs) {
-    std::vector<std::filesystem::path> taken = {scene};
+    std::vector<std::filesystem::path> taken = inputs;
     for (const std::filesystem::path& path : outputs) {
         if (path.empty()) continue;
         if (path == "-") {
@@ -48,7 +52,7 @@ Result<Done> check_outputs(const std::filesystem::path& scene,
         if (is_among(path, taken)) {
             return Error{ErrorCode::bad_argument,
                          path.string() +
-                             " is the scene or another output and would be replaced. Choose "
+                             " is read or is another output, and would be replaced. Choose "
                              "another name."};
         }
         taken.push_back(path);
@@ -78,20 +82,24 @@ Result<Done> PageOutput::add_frame(std::uint64_t frame, const scenes::Simulation
     return Done{};
 }
 
+/// Writes both files, or neither is replaced if one cannot be written.
 Result<Done> PageOutput::finish(const scenes::Simulation& simulation) {
     if (svg_) {
         const report::SceneTimeline& timeline = page_ ? page_->timeline() : timeline_;
         Result<Done> written =
-            write_file(*svg_, report::scene_svg(timeline, file_->name, file_->step_s));
+            svg_->append(report::scene_svg(timeline, file_->name, file_->step_s));
         if (!written) return written;
     }
-    if (!page_) return Done{};
-    Result<Done> written = write_file(*html_, page_->finish(simulation));
-    if (!written) return written;
-    for (const std::string& sentence : page_->left_out()) {
-        std::cerr << "cdprep simulate: --html: " << sentence << '\n';
+    if (page_) {
+        if (Result<Done> written = html_->append(page_->finish(simulation)); !written) {
+            return written;
+        }
+        if (Result<Done> written = html_->finish(); !written) return written;
+        for (const std::string& sentence : page_->left_out()) {
+            std::cerr << "cdprep simulate: --html: " << sentence << '\n';
+        }
     }
-    return written;
+    return svg_ ? svg_->finish() : Result<Done>(Done{});
 }
 
 }  // namespace cdprep::cli

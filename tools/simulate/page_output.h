@@ -10,12 +10,12 @@
 
 namespace cdprep::cli {
 
-/// Fails with bad_argument if an output would replace the scene or another output. An empty path is
-/// no output.
-[[nodiscard]] Result<Done> check_outputs(const std::filesystem::path& scene,
+/// Fails with bad_argument if an output would replace an input or another output, whatever their
+/// spelling. An empty path is no output.
+[[nodiscard]] Result<Done> check_outputs(const std::vector<std::filesystem::path>& inputs,
                                          const std::vector<std::filesystem::path>& outputs);
 
-/// The files of --html and --svg. Both appear when they are complete.
+/// The files of --html and --svg. Both appear when both are complete.
 class PageOutput {
 public:
     /// Creates the files, so that an unwritable place is reported before the work. An empty path
