@@ -83,7 +83,6 @@ public:
 
     Result<std::uint32_t> add_body(const RigidBody& body) override;
     Result<Done> drive(std::uint32_t body, const Pose& world_from_model) override;
-    void set_velocity(std::uint32_t body, const Double3& linear, const Double3& angular) override;
     Result<Done> step() override;
 
     std::uint32_t body_count() const noexcept override {
@@ -213,14 +212,6 @@ Result<Done> BulletBodies::drive(std::uint32_t number, const Pose& world_from_mo
     return Done{};
 }
 
-void BulletBodies::set_velocity(std::uint32_t number, const Double3& linear,
-                                const Double3& angular) {
-    btRigidBody& body = *bodies_[number]->rigid;
-    body.setLinearVelocity(bullet(linear));
-    body.setAngularVelocity(bullet(angular));
-    body.activate(true);
-}
-
 void BulletBodies::end_drives() {
     for (auto& body : bodies_) {
         if (!body->drive) continue;
@@ -264,12 +255,15 @@ void BulletBodies::find_contacts() {
     manifolds_.end();
 }
 
+/// Also counts the bodies that are too fast.
 void BulletBodies::set_paces() {
     const double slow = slow_speed(options_);
     for (std::uint32_t i = 0; i < body_count(); ++i) {
         const BulletBody& body = *bodies_[i];
         if (body.given.kind == BodyKind::fixed || !body.rigid->isActive()) continue;
-        scene_.set_pace(i, speed_bound(i) <= slow ? Pace::slow : Pace::fast);
+        const double speed = speed_bound(i);
+        scene_.set_pace(i, speed <= slow ? Pace::slow : Pace::fast);
+        counts_.too_fast += speed > options_.most_speed ? 1 : 0;
     }
 }
 
@@ -331,7 +325,6 @@ Result<Done> BulletBodies::move_free(std::uint32_t number, double substep_s) {
     if (!body.touches) {
         shift = mesh::minus(shift, mesh::scaled(options_.gravity, substep_s * substep_s / 2));
     }
-    counts_.too_fast += length(linear) > options_.most_speed ? 1 : 0;
     RigidState next = moved(body.state, shift, mesh::scaled(angular, substep_s));
     Result<Pose> pose = pose_of(next, body.mass.centre);
     if (!pose) return refused(body.given.name + ": the body flew away. " + pose.error().message);

@@ -285,19 +285,23 @@ void Manifolds::bounce() {
         for (Bounce& next : bounces_) rebound(next);
     }
     // The impulse of an impact is no guess for the next substep.
-    for (const Bounce& done : bounces_) {
+    for (Bounce& done : bounces_) {
+        done.impulse = double{done.point->m_appliedImpulse};
         done.point->m_appliedImpulse = 0;
         done.point->m_appliedImpulseLateral1 = done.point->m_appliedImpulseLateral2 = 0;
     }
 }
 
 std::vector<BodyContact> Manifolds::listed() const {
+    const auto impulse_of = [&](const btManifoldPoint& point) {
+        const auto at = std::ranges::find(bounces_, &point, &Bounce::point);
+        return at != bounces_.end() ? at->impulse : double{point.m_appliedImpulse};
+    };
     std::vector<BodyContact> list;
     visit_points([&](const auto& pair, const btPersistentManifold&, const btManifoldPoint& point) {
         list.push_back({pair.first, pair.second, doubles(point.m_positionWorldOnB),
                         doubles(-point.m_normalWorldOnB),
-                        double{point.m_distance1} + options_.rest_gap,
-                        double{point.m_appliedImpulse}});
+                        double{point.m_distance1} + options_.rest_gap, impulse_of(point)});
     });
     return list;
 }

@@ -113,6 +113,7 @@ struct Bounce {
     btRigidBody* b;
     btVector3 arm_a, arm_b;  ///< from the centres to the contact, before the bodies move
     double speed;            ///< of the approach at the surface
+    double impulse = 0;      ///< of the whole impact
 };
 
 /// The manifolds of all pairs of bodies.

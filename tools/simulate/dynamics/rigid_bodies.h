@@ -79,10 +79,12 @@ struct RigidBody {
 struct BodyContact {
     std::uint32_t a;  ///< a < b
     std::uint32_t b;
-    Double3 point;    ///< on b, in the world
-    Double3 normal;   ///< from a to b
-    double distance;  ///< between the surfaces; negative: they overlap
-    double impulse;   ///< along the normal; 0: they do not push
+    Double3 point;   ///< on b, in the world
+    Double3 normal;  ///< from a to b
+    /// Along the normal. Negative: they overlap, at most four times as deep as the shortest way
+    /// out.
+    double distance;
+    double impulse;  ///< along the normal, that of a bounce included; 0: they do not push
 };
 
 /// The first contact of a continuous body in a substep.
@@ -101,8 +103,10 @@ struct DynamicsCounts {
     /// surface; they push no farther than that.
     std::uint64_t shortened = 0;
     std::uint64_t incomplete = 0;  ///< lists that most_contacts cut short
-    std::uint64_t too_fast = 0;    ///< bodies faster than most_speed
-    std::uint64_t impacts = 0;     ///< of continuous bodies
+    /// Bodies of which a point may be faster than most_speed, in each substep. Two that fly towards
+    /// each other count by their own speeds.
+    std::uint64_t too_fast = 0;
+    std::uint64_t impacts = 0;  ///< of continuous bodies
 };
 
 /// Rigid bodies that push each other at the contacts of cdprep. Bullet's solver computes impulses;
@@ -115,17 +119,14 @@ public:
     virtual ~RigidBodies() = default;
 
     /// Adds a body and returns its number: 0, 1, and so on. Fails with bad_argument if the model
-    /// does not serve the contacts, a moving body has no mass, or there are too many groups. A closed model's mass is in the
-    /// file. An open model needs body.mass; its centre and inertia are then those of its box.
+    /// does not serve the contacts, a moving body has no mass, or there are too many groups. A
+    /// closed model's mass is in the file. An open model needs body.mass; its centre and inertia
+    /// are then those of its box.
     [[nodiscard]] virtual Result<std::uint32_t> add_body(const RigidBody& body) = 0;
 
     /// Says where a driven body is at the end of the next step(). Fails with bad_argument if the
     /// body is not driven, or its way is too long.
     [[nodiscard]] virtual Result<Done> drive(std::uint32_t body, const Pose& world_from_model) = 0;
-    /// Sets a velocity, and wakes the body.
-    virtual void set_velocity(std::uint32_t body, const Double3& linear,
-                              const Double3& angular) = 0;
-
     /// Computes a frame. Fails with bad_argument if a body leaves the range of coordinates.
     [[nodiscard]] virtual Result<Done> step() = 0;
 

@@ -165,6 +165,60 @@ TEST_F(RigidBodiesTest, RefuseTooManyGroups) {
     EXPECT_TRUE(bodies->step());
 }
 
+// By hand: a bounce reverses the speed and keeps 0.8 of it, so its impulse is 1.8 m v.
+TEST_F(RigidBodiesTest, ABounceHasAnImpulse) {
+    const auto bodies =
+        make({.gravity = {0, 0, 0}, .step_s = 1.0 / 240, .substeps = 1, .sleeps = false});
+    ASSERT_TRUE(bodies->add_body(floor()));
+    RigidBody box = cube({0, 0, 0.7});
+    box.mass = 3;
+    box.restitution = 0.8;
+    box.velocity = {0, 0, -2};
+    ASSERT_TRUE(bodies->add_body(box));
+    double impulse = 0;
+    for (int frame = 0; frame < 120; ++frame) {
+        ASSERT_TRUE(bodies->step());
+        for (const BodyContact& contact : bodies->contacts()) impulse += contact.impulse;
+    }
+    EXPECT_NEAR(impulse, 1.8 * 3 * 2, 1e-3);
+}
+
+// A point of a box that turns is fast.
+TEST_F(RigidBodiesTest, TooFastCountsTurns) {
+    const auto too_fast = [&](const Double3& velocity, const Double3& turn) {
+        const auto bodies = make({.gravity = {0, 0, 0}, .most_speed = 2});
+        RigidBody box = cube({0, 0, 5});
+        box.velocity = velocity;
+        box.angular_velocity = turn;
+        EXPECT_TRUE(bodies->add_body(box));
+        EXPECT_TRUE(bodies->step());
+        return bodies->counts().too_fast;
+    };
+    // By hand: the corners are sqrt(0.75) from the centre.
+    EXPECT_EQ(too_fast({1.9, 0, 0}, {0, 0, 0}), 0U);
+    EXPECT_EQ(too_fast({2.1, 0, 0}, {0, 0, 0}), 4U) << "in each substep";
+    EXPECT_EQ(too_fast({1, 0, 0}, {0, 0, 1}), 0U);
+    EXPECT_EQ(too_fast({1, 0, 0}, {0, 0, 1.2}), 4U);
+}
+
+// A fast body that gravity drives against a plate stops each time, and never creeps through.
+TEST_F(RigidBodiesTest, AContinuousBodyNeverCreepsThrough) {
+    const auto bodies = make({.gravity = {0, 0, -1000}, .sleeps = false});
+    const auto plate = Models::baked(test::moved_by(test::unit_cube(), 1, {-0.5, -0.5, -0.5}));
+    ASSERT_TRUE(bodies->add_body({.model = &plate.model, .kind = BodyKind::fixed}));
+    RigidBody ball = cube({0.25, 0.25, 20});
+    ball.is_continuous = true;
+    ball.velocity = {0, 0, -400};
+    ASSERT_TRUE(bodies->add_body(ball));
+    double lowest = 1e9;
+    for (int frame = 0; frame < 600; ++frame) {
+        ASSERT_TRUE(bodies->step());
+        const Double3 p = bodies->centre_of_mass(1);
+        if (std::abs(p.x) < 0.9 && std::abs(p.y) < 0.9) lowest = std::min(lowest, p.z);
+    }
+    EXPECT_GT(lowest, 1 - 0.01) << "the cubes touch at 1";
+}
+
 TEST_F(RigidBodiesTest, RefuseNumbersThatBulletCannotHold) {
     const auto bodies = make();
     const auto sentence_of = [&](auto change) {
