@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "accuracy/simulation/table.h"
@@ -88,6 +90,53 @@ double play_bounces(Engine engine, int bounces) {
     return seen < bounces ? 1 : worst;
 }
 
+/// The time between two flips of a body that turns about its middle axis, nearly: half the period
+/// of Euler's equations (Landau and Lifshitz, Mechanics, section 37). Moments and spin are by axis,
+/// with the smallest moment first.
+double flip_time(std::array<double, 3> moments, std::array<double, 3> spin) {
+    double twice_energy = 0, momentum2 = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        twice_energy += moments[i] * spin[i] * spin[i];
+        momentum2 += moments[i] * moments[i] * spin[i] * spin[i];
+    }
+    if (momentum2 < twice_energy * moments[1]) std::swap(moments[0], moments[2]);
+    const auto [one, two, three] = moments;
+    const double fast = (three - two) * (momentum2 - twice_energy * one);
+    const double slow = (two - one) * (twice_energy * three - momentum2);
+    return 2 * std::comp_ellint_1(std::sqrt(slow / fast)) * std::sqrt(one * two * three / fast);
+}
+
+/// A needle turns about its middle axis, and flips again and again.
+void play_needle(Table& table) {
+    constexpr double kSeconds = 100, kSpin = 2, kTilt = 1e-3;
+    constexpr Double3 kHalf = {0.5, 0.05, 0.0005};
+    const auto world = make_our_world({.gravity = {0, 0, 0}, .sleeps = false});
+    const auto needle = world->add({.half = kHalf, .turn = {kTilt, kSpin, 0}});
+    const double x2 = kHalf.x * kHalf.x, y2 = kHalf.y * kHalf.y, z2 = kHalf.z * kHalf.z;
+    const std::array moments = {(y2 + z2) / 3, (x2 + z2) / 3, (x2 + y2) / 3};
+    const double exact = flip_time(moments, {kTilt, kSpin, 0});
+    dynamics::RigidBodies& bodies = *world->ours();
+    const double energy = bodies.kinetic_energy();
+    double last = kSpin, first_flip = 0, last_flip = 0;
+    int flips = 0;
+    for (int frame = 1; frame <= kSeconds * 60; ++frame) {
+        world->step();
+        const auto& r = bodies.pose(needle).rotation();
+        const Double3 w = bodies.angular_velocity(needle);
+        const double spin = r[1] * w.x + r[4] * w.y + r[7] * w.z;  // about the middle axis
+        if (spin * last < 0) {
+            const double now = (frame - spin / (spin - last)) / 60;
+            (flips++ == 0 ? first_flip : last_flip) = now;
+        }
+        last = spin;
+    }
+    const double found = flips > 1 ? (last_flip - first_flip) / (flips - 1) : 0;
+    table.add({"S05", "needle, " + std::to_string(flips) + " flips in 100 s: time is off by",
+               "cdprep", std::fabs(found / exact - 1), 0.01});
+    table.add({"S05", "needle, 100 s: energy changed", "cdprep",
+               std::fabs(bodies.kinetic_energy() / energy - 1), 1});
+}
+
 /// Five balls, of which the first hits the others.
 void play_cradle(Table& table, Engine engine) {
     constexpr double kRadius = 0.1, kGap = 1e-4;
@@ -125,6 +174,7 @@ void play_impacts(Table& table, const Extent& extent) {
                fly_at_shell(Engine::cdprep, true), 1e-3, Promise::kept});
     table.add({"S04", "500 m/s at a triangle, continuous: time is off by", "cdprep", time_bullet(),
                1e-6, Promise::kept});
+    play_needle(table);
     for (const Engine engine : {Engine::cdprep, Engine::bullet, Engine::gimpact}) {
         if (engine != Engine::cdprep && !extent.has_peers) continue;
         if (engine != Engine::cdprep) {

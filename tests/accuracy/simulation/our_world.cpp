@@ -79,6 +79,7 @@ public:
         body.restitution = actor.restitution;
         body.linear_damping = body.angular_damping = actor.damping;
         body.velocity = actor.velocity;
+        body.angular_velocity = actor.turn;
         body.is_continuous = actor.is_continuous;
         const auto added = bodies_->add_body(body);
         if (!added) stop(added.error().message);

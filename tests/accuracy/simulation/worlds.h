@@ -29,6 +29,7 @@ struct Actor {
     double restitution = 0;
     double damping = 0;  ///< of both velocities
     Double3 velocity{};
+    Double3 turn{};  ///< radians per second; of ours alone
     bool is_continuous = false;
 };
 

@@ -319,13 +319,20 @@ Result<Done> BulletBodies::move_free(std::uint32_t number, double substep_s) {
     BulletBody& body = *bodies_[number];
     const btRigidBody& solved = *body.rigid;
     const Double3 linear = mesh::plus(doubles(solved.getLinearVelocity()), body.push);
-    const Double3 angular = mesh::plus(doubles(solved.getAngularVelocity()), body.push_turn);
     Double3 shift = mesh::scaled(linear, substep_s);
     // In free flight, the way is that of the mean of both velocities: a parabola.
     if (!body.touches) {
         shift = mesh::minus(shift, mesh::scaled(options_.gravity, substep_s * substep_s / 2));
     }
-    RigidState next = moved(body.state, shift, mesh::scaled(angular, substep_s));
+    // The solver adds to a rounded spin. Flips of a body depend on the digits that are rounded off.
+    const Double3 added =
+        mesh::minus(doubles(solved.getAngularVelocity()), doubles(bullet(body.spin)));
+    const FreeMotion motion =
+        moved_freely(body.mass, body.state, shift, mesh::plus(body.spin, added),
+                     mesh::scaled(body.push_turn, substep_s), substep_s);
+    body.spin = motion.spin;
+    body.rigid->setAngularVelocity(bullet(motion.spin));
+    RigidState next = motion.state;
     Result<Pose> pose = pose_of(next, body.mass.centre);
     if (!pose) return refused(body.given.name + ": the body flew away. " + pose.error().message);
     if (body.given.is_continuous) {

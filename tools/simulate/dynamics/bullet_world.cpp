@@ -97,6 +97,7 @@ BulletBody::BulletBody(const RigidBody& description, const BodyMass& its_mass)
     info.m_linearDamping = static_cast<btScalar>(given.linear_damping);
     info.m_angularDamping = static_cast<btScalar>(given.angular_damping);
     rigid = std::make_unique<btRigidBody>(info);
+    rigid->setFlags(0);  // moved_freely() turns bodies about their axes; Bullet's way loses energy
     rigid->setUserPointer(this);
     if (given.kind == BodyKind::driven) {
         rigid->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
@@ -104,6 +105,7 @@ BulletBody::BulletBody(const RigidBody& description, const BodyMass& its_mass)
     if (moves) {
         rigid->setLinearVelocity(bullet(given.velocity));
         rigid->setAngularVelocity(bullet(given.angular_velocity));
+        spin = given.angular_velocity;
     }
     place(state, pose);
 }

@@ -49,6 +49,7 @@ struct BulletBody {
     RigidState state;
     Pose pose;
     std::optional<Motion> drive;  ///< of a driven body, in this frame
+    Double3 spin{};               ///< Bullet's angular velocity, with the digits that it rounds off
     Double3 push{};               ///< velocities that only undo overlap, in this substep
     Double3 push_turn{};
     bool touches = false;                  ///< some impulse acts on it in this substep

@@ -110,7 +110,7 @@ struct DynamicsCounts {
 };
 
 /// Rigid bodies that push each other at the contacts of cdprep. Bullet's solver computes impulses;
-/// cdprep::Scene is the collision world. Poses are in double, and velocities in float.
+/// cdprep::Scene is the collision world. Poses and turns are in double, other velocities in float.
 ///
 /// Reads no clock. The same calls give the same bits for any number of threads, but not with
 /// another build of Bullet.

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "cdprep/pose.h"
+#include "simulate/dynamics/body_mass.h"
 
 namespace cdprep::dynamics {
 
@@ -23,6 +24,20 @@ struct RigidState {
 /// long as the angle.
 [[nodiscard]] RigidState moved(const RigidState& state, const Double3& shift,
                                const Double3& turn) noexcept;
+
+/// A body after some time without torque.
+struct FreeMotion {
+    RigidState state;
+    Double3 spin;  ///< radians per second, in the world
+};
+
+/// Moves a body by a shift and turns it freely. `push` is a turn in addition, which is no velocity:
+/// as long as its angle. The angular momentum stays, but for rounding. Euler's equations are solved
+/// by the implicit midpoint rule, composed to the fourth order (Hairer, Lubich and Wanner,
+/// Geometric Numerical Integration, II.4 and VII.5).
+[[nodiscard]] FreeMotion moved_freely(const BodyMass& mass, const RigidState& state,
+                                      const Double3& shift, const Double3& spin,
+                                      const Double3& push, double seconds) noexcept;
 
 /// Returns R p for a rotation, row by row.
 [[nodiscard]] inline Double3 rotated(const std::array<double, 9>& r, const Double3& p) noexcept {
