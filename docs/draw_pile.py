@@ -29,7 +29,7 @@ def main():
                         "-o", pathlib.Path(scratch) / "events.ndjson"], check=True)
         with Browser(1280, 760) as browser:
             browser.open(f"file://{page}")
-            browser.value("go_to_frame(75)")
+            browser.value("go_to_frame(60)")
             browser.value(CAMERA)
             browser.settle()
             (ROOT / "docs/pile.png").write_bytes(browser.screenshot())

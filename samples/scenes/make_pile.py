@@ -15,7 +15,7 @@ INSIDE, WALL, HEIGHT = 1.8, 0.2, 0.6  # of the tray
 SIZE = 0.8  # the diagonal of the box of a body
 LEVEL = 3  # of the icosphere that becomes a jack
 STARTS = ((-0.42, -0.42), (0.42, -0.42), (-0.42, 0.42), (0.42, 0.42), (0, 0))
-FIRST_HEIGHT, STORY = 0.6, 0.8
+FIRST_HEIGHT, STORY = 0.4, 0.6
 
 
 def icosphere(level):
@@ -124,7 +124,7 @@ def body(number, model):
     return {"name": f"{pathlib.Path(model).stem}{number + 1}", "model": model, "layer": "bodies",
             "pose": {"translation": [x, y, round(z, 6)],
                      "quaternion": [round(c, 9) for c in quaternion]},
-            "motion": {"body": {"mass": 10, "linear_damping": 0.05, "angular_damping": 0.05}},
+            "motion": {"body": {"mass": 10, "linear_damping": 0.05, "angular_damping": 0.3}},
             "material": {"friction": 0.6}}
 
 
@@ -136,9 +136,9 @@ def scene(count, models):
         "$schema": "../../tools/scene_file/scene.schema.json",
         "cdprep_scene": 1,
         "metres_per_unit": 1,
-        "duration_s": 6,
+        "duration_s": 5,
         "gravity": [0, 0, -9.81],
-        "dynamics": {"most_speed": 8, "most_contacts": 128},
+        "dynamics": {"most_speed": 12, "most_contacts": 128},
         "layers": ["trays", "bodies"],
         "pairs": [{"layers": ["bodies", "trays"], **asked},
                   {"layers": ["bodies", "bodies"], **asked}],

@@ -49,7 +49,7 @@ def the_pile(program, folder):
     must(response["incomplete"] == 0 and response["too_fast"] == 0, f"{response}")
     must(response["awake"] == 0 and response["deepest"] <= 0.008, f"{response}")
     frames = frames_of(first)
-    must(len(frames) == one["frames"] == 360, f"{one['frames']}")
+    must(len(frames) == one["frames"] == 300, f"{one['frames']}")
     for number in range(1, 21):
         x, y, z = frames[-1][number][-3:]
         must(max(abs(x), abs(y)) < INSIDE / 2 and 0 < z < 1, f"object {number} is at {x, y, z}")
