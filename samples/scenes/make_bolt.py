@@ -6,10 +6,11 @@ Both threads are r = RADIUS + DEPTH / 2 * cos(2 pi z / PITCH - angle), the hole 
 A turn of the bolt by an angle about z fits if it moves by PITCH * angle / (2 pi) along z. The hand
 shakes: it shifts the bolt by up to SHAKE and tilts it by up to TILT. Usage: make_bolt.py FOLDER
 """
-import json
 import math
 import pathlib
 import sys
+
+from scene_text import text_of
 
 RADIUS, DEPTH, PITCH, CLEARANCE = 10, 2, 4, 0.5
 COLUMNS = 40  # about the axis
@@ -116,18 +117,6 @@ def scene():
         "objects": [
             {"name": "plate", "model": "plate.obj", "layer": "plates"},
             {"name": "bolt", "model": "bolt.obj", "layer": "bolts", "motion": {"path": keys}}]}
-
-
-def text_of(content):
-    """JSON with a line for each member, each element of pairs and objects, and each key pose."""
-    members = []
-    for key, value in content.items():
-        text = json.dumps(value)
-        if key in ("pairs", "objects"):
-            text = "[\n" + ",\n".join("    " + json.dumps(item) for item in value) + "\n  ]"
-        members.append(f'  "{key}": {text}')
-    text = "{\n" + ",\n".join(members) + "\n}\n"
-    return text.replace(' {"time_s"', '\n      {"time_s"').replace('[{"time_s"', '[\n      {"time_s"')
 
 
 def main():

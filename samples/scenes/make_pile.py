@@ -6,10 +6,11 @@ Without models, the bodies are jacks: smooth stars with six arms, which hook int
 OBJ files, each body is a copy of one of them, scaled to SIZE.
 Usage: make_pile.py FOLDER [COUNT [MODEL.obj ...]]
 """
-import json
 import math
 import pathlib
 import sys
+
+from scene_text import text_of
 
 INSIDE, WALL, HEIGHT = 1.8, 0.2, 0.6  # of the tray
 SIZE = 0.8  # the diagonal of the box of a body
@@ -143,17 +144,6 @@ def scene(count, models):
         "pairs": [{"layers": ["bodies", "trays"], **asked},
                   {"layers": ["bodies", "bodies"], **asked}],
         "objects": objects}
-
-
-def text_of(content):
-    """JSON with a line for each member and each element of the lists of objects."""
-    members = []
-    for key, value in content.items():
-        text = json.dumps(value)
-        if key in ("pairs", "objects"):
-            text = "[\n" + ",\n".join("    " + json.dumps(item) for item in value) + "\n  ]"
-        members.append(f'  "{key}": {text}')
-    return "{\n" + ",\n".join(members) + "\n}\n"
 
 
 def main():
