@@ -5,15 +5,14 @@ begins in the frame that the events of the run name, and nothing asks a network.
 
 Usage: scene_page.py CDPREP
 """
-import base64
 import json
 import pathlib
 import re
-import struct
 import sys
 import tempfile
 
 from browser import Browser, Picture, find_chromium
+from changing_models import read_mesh, sheared
 from shared_models import SKIPPED, must, run
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -243,41 +242,45 @@ def check_lit(browser, program, folder):
     clean(browser)
 
 
-def element(text, identity):
-    """Where the data of an element of a page lie."""
-    begin = text.index('>', text.index(f'id="{identity}"')) + 1
-    return begin, text.index("</script>", begin)
+def pixel_at(browser, picture, point):
+    """The colour of the picture where a point of the world is drawn."""
+    x, y = browser.value(
+        "(() => { const p = new THREE.Vector3(" + ",".join(map(str, point)) + ");"
+        "p.sub(new THREE.Vector3(...run.centre)).multiplyScalar(2 ** -run.exponent);"
+        "state.view.camera.updateMatrixWorld(); p.project(state.view.camera);"
+        "const box = state.view.canvas.getBoundingClientRect();"
+        "return [box.left + (p.x + 1) / 2 * box.width, box.top + (1 - p.y) / 2 * box.height]; })()")
+    return tuple(picture.pixel(round(x), round(y)))[:3]
 
 
-def check_shapes(browser, page, folder):
-    """A data set by hand: from frame 5 on an object has twice its size, and is lit with it."""
-    text = page.read_text()
-    begin, end = element(text, "model-data")
-    models = json.loads(text[begin:end])
-    scene = json.loads(text[slice(*element(text, "scene-data"))])
-    names = [one[0] for one in scene["objects"]]
-    sliding = names.index("sliding")
-    packed = base64.b64decode(models[scene["objects"][sliding][1]]["positions"])
-    small = struct.unpack(f"<{len(packed) // 4}f", packed)
-    large = [2 * x for x in small]
-    begin, end = element(text, "frame-data")
-    frames = json.loads(text[begin:end])
-    frames[5]["shapes"] = [[sliding, base64.b64encode(struct.pack(f"<{len(large)}f", *large))
-                            .decode()]]
-    frames[6]["lit"] = [[sliding, base64.b64encode(struct.pack("<I", 1)).decode()]]
-    changed = folder / "shapes.html"
-    changed.write_text(text[:begin] + json.dumps(frames) + text[end:])
-    browser.open(changed.as_uri())
-    drawn = f"[...state.view.shaped.get({sliding}).geometry.attributes.position.array]"
-    for frame, expected in ((4, small), (5, large), (20, large), (3, small)):
+def check_shapes(browser, program, folder):
+    """The sheet of cut.json: each frame has its positions, and after the tear there is a gap."""
+    page, _, told = simulate(program, SCENES / "cut.json", folder)
+    must("at rest" not in told, told)
+    browser.open(page.as_uri())
+    points, faces = read_mesh(SCENES / "sheet.obj")
+    for frame in (0, 4, 11):
         go(browser, frame)
-        must(browser.value(drawn) == list(expected), f"frame {frame}: {browser.value(drawn)}")
-    go(browser, 6)
-    lit = browser.value("[...state.view.lit_triangles()]")
-    sides = [max(lit[k] for k in range(axis, 9, 3)) - min(lit[k] for k in range(axis, 9, 3))
-             for axis in range(3)]
-    side = 2 * (max(small) - min(small))
-    must(abs(max(sides) - side) < 1e-4, f"the lit triangle has sides {sides}, not {side}")
+        drawn = browser.value("[...run.shapes.get(0).positions].map((x) => x * 2 ** run.exponent)")
+        expected = [x for point in sheared(points, 0.125 * frame) for x in point]
+        must(len(drawn) == len(expected) and
+             max(abs(x - y) for x, y in zip(drawn, expected)) < 1e-6, f"frame {frame}: {drawn}")
+    triangles = "state.view.shaped.get(0).mesh.geometry.index.count / 3"
+    must(browser.value(triangles) == len(faces), f"{browser.value(triangles)} triangles at rest")
+    # The middle of the gap at a quarter of the sheet, by hand: sheared by 0.25 at 2.5 s.
+    ground = colour(browser, "--scene")
+    gap = (0.1, -1.2, 0)
+    go(browser, 4)
+    must(pixel_at(browser, Picture(browser.screenshot()), (0.4, -1.2, 0)) != ground, "no sheet")
+    go(browser, 20)
+    must(pixel_at(browser, Picture(browser.screenshot()), gap) == ground, "there is no gap")
+    changes = json.loads(run(program, "simulate", SCENES / "cut.json").stdout.splitlines()[-1])
+    changes = changes["summary"]["changes"]
+    must(browser.value(triangles) == len(faces) - changes["torn"] + changes["parts"],
+         f"{browser.value(triangles)} triangles after the tear; {changes}")
+    # Time runs backwards as well.
+    go(browser, 3)
+    must(browser.value(triangles) == len(faces), "the sheet stays torn")
     clean(browser)
 
 
@@ -380,7 +383,7 @@ def main():
             check_playback(browser, page)
             check_panels(browser, page, events)
             check_lit(browser, program, folder)
-            check_shapes(browser, page, folder)
+            check_shapes(browser, program, folder)
             check_colours(browser, page)
             check_many(browser, program, folder)
         check_layout(page)

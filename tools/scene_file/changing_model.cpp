@@ -120,6 +120,13 @@ Result<Done> ChangingModel::make_live() {
     return Done{};
 }
 
+std::vector<LiveTriangle> ChangingModel::triangles() const {
+    if (!is_torn()) return triangles_of(*base_);
+    std::vector<LiveTriangle> now(live_->triangle_count());
+    live_->triangles(now);
+    return now;
+}
+
 Result<ChangeWork> ChangingModel::set_time(double time_s, ParallelFor parallel_for) {
     const State state = state_at(time_s);
     if (state == state_) return ChangeWork{};
@@ -139,6 +146,7 @@ Result<ChangeWork> ChangingModel::set_time(double time_s, ParallelFor parallel_f
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     work->seconds = taken.count();
     state_ = state;
+    ++version_;
     return work;
 }
 

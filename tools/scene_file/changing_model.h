@@ -53,6 +53,26 @@ public:
     [[nodiscard]] const Cut& cut() const noexcept {
         return cut_;
     }
+    /// Returns a number that is another one after each change.
+    [[nodiscard]] std::uint64_t version() const noexcept {
+        return version_;
+    }
+    /// Returns whether the plane has cut the model by now.
+    [[nodiscard]] bool is_torn() const noexcept {
+        return state_ && state_->is_torn;
+    }
+    /// Returns the triangles as they are now, by rising number. Their vertices are numbered as in
+    /// positions().
+    [[nodiscard]] std::vector<LiveTriangle> triangles() const;
+    /// The positions as they are now, before a model that keeps floats rounds them. Vertices are
+    /// numbered as in the imported file; those of the cut follow.
+    [[nodiscard]] std::span<const Double3> positions() const noexcept {
+        return std::span(positions_).first(is_torn() ? rest_.size() : rest_count_);
+    }
+    /// The box of the vertices at rest.
+    [[nodiscard]] const RestBox& rest_box() const noexcept {
+        return box_;
+    }
     [[nodiscard]] std::size_t bytes() const noexcept {
         return sizeof(Block) * memory_.size();
     }
@@ -96,6 +116,7 @@ private:
     std::vector<Double3> positions_;      ///< now
     std::vector<format::Float3> floats_;  ///< the same for a model that keeps floats
     std::optional<State> state_;          ///< of the live model; nothing: not fitted yet
+    std::uint64_t version_ = 0;
 };
 
 /// The live model of the objects with the same model and change.

@@ -20,6 +20,12 @@ function unpack_model(packed) {
           place: numbers && new Map([...numbers].map((number, i) => [number, i]))};
 }
 
+function unpack_topology(packed) {
+  const numbers = unpack(packed.numbers, Uint32Array);
+  return {indices: unpack(packed.indices, Uint32Array),
+          place: new Map([...numbers].map((number, i) => [number, i]))};
+}
+
 function unpack_frame(packed) {
   return {...packed,
           moved: unpack(packed.moved, Uint32Array), poses: unpack(packed.poses, Float32Array),
@@ -29,8 +35,8 @@ function unpack_frame(packed) {
           contacts: unpack(packed.contacts, Float32Array),
           distance_objects: unpack(packed.distance_objects, Uint32Array),
           distances: unpack(packed.distances, Float32Array),
-          shapes: (packed.shapes || []).map(([object, positions]) =>
-              [object, unpack(positions, Float32Array)])};
+          shapes: packed.shapes.map(([changing, torn, positions]) =>
+              ({changing, torn, positions: unpack(positions, Float32Array)}))};
 }
 
 class SceneRun {
@@ -40,8 +46,10 @@ class SceneRun {
     this.shown = frames.map(unpack_frame);
     this.event_words = unpack(data.events, Uint32Array);
     this.event_count = this.event_words.length / 4;
-    // Objects that have a shape of their own in some frame.
-    this.shaped = new Set(this.shown.flatMap((shown) => shown.shapes.map(([object]) => object)));
+    // The objects that deform or tear, and the triangles of each live model: at rest, and torn.
+    this.changing_of = new Map(this.changing.flatMap((one, i) =>
+        one ? one.objects.map((object) => [object, i]) : []));
+    this.topologies = this.changing.map((one) => one && one.topologies.map(unpack_topology));
     this.span_starts = [];
     let start = 0;
     for (const count of data.spans.frames) {
@@ -72,8 +80,17 @@ class SceneRun {
         this.poses.set(next.poses.subarray(i * POSE, (i + 1) * POSE), object * POSE);
         this.present[object] = 1;
       });
-      for (const [object, positions] of next.shapes) this.shapes.set(object, positions);
+      for (const shape of next.shapes) this.shapes.set(shape.changing, shape);
     }
+  }
+
+  // The triangles of an object as they are now: positions in its own coordinates, indices, and the
+  // places of source numbers, or null where these are 0, 1, ... Null if it is not drawn.
+  triangles_of(object) {
+    const changing = this.changing_of.get(object);
+    if (changing === undefined) return this.triangles_of_models[this.objects[object][1]];
+    const {torn, positions} = this.shapes.get(changing);
+    return {...this.topologies[changing][torn], positions, lit: null};
   }
 
   // The shown frame nearest to a frame.

@@ -164,6 +164,14 @@ private:
     std::size_t lit_count_ = 0;
 };
 
+/// Keeps the shapes of a frame that is left out, unless the next one has newer ones.
+void take_shapes(ShownFrame& next, std::vector<ShownShape> left_out) {
+    for (ShownShape& shape : left_out) {
+        const auto at = std::ranges::find(next.shapes, shape.changing, &ShownShape::changing);
+        if (at == next.shapes.end()) next.shapes.push_back(std::move(shape));
+    }
+}
+
 /// Puts the poses of a frame that is left out before those of the next one.
 void take_poses(ShownFrame& next, const std::vector<ObjectPose>& left_out) {
     std::vector<ObjectPose> both;
@@ -183,6 +191,7 @@ std::size_t ShownFrame::bytes() const noexcept {
     std::size_t sum = kFrameBytes + kPoseBytes * moved.size() + kHitBytes * hits.size() +
                       kLineBytes * (contacts.size() + distances.size());
     for (const LitTriangles& one : lit) sum += 16 + 4 * one.triangles.size();
+    for (const ShownShape& shape : shapes) sum += 16 + sizeof(float) * shape.positions.size();
     return sum;
 }
 
@@ -223,12 +232,59 @@ Result<Done> SceneFrames::add_poses(ShownFrame& shown, const scenes::Simulation&
     return Done{};
 }
 
+/// The smallest models first: as many as possible are then drawn as they change.
+void SceneFrames::choose_live_models(const scenes::Simulation& simulation) {
+    has_chosen_ = true;
+    const auto changing = simulation.changing();
+    live_models_.resize(changing.size());
+    versions_.assign(changing.size(), 0);
+    std::vector<std::pair<std::size_t, std::size_t>> sizes;  // triangles, number
+    for (std::size_t i = 0; i < changing.size(); ++i) {
+        const scenes::Cut& cut = changing[i].live.cut();
+        sizes.emplace_back(changing[i].live.live().triangle_count() + cut.parts.size(), i);
+    }
+    std::ranges::sort(sizes);
+    std::size_t sum = 0;
+    for (const auto& [size, number] : sizes) {
+        sum += size;
+        live_models_[number].is_drawn = sum <= limits_.changing;
+    }
+}
+
+/// Copies the shapes that changed since the last frame that was shown.
+void SceneFrames::add_shapes(ShownFrame& shown, const scenes::Simulation& simulation) {
+    for (std::uint32_t i = 0; i < live_models_.size(); ++i) {
+        const scenes::ChangingModel& live = simulation.changing()[i].live;
+        if (!live_models_[i].is_drawn || versions_[i] == live.version()) continue;
+        versions_[i] = live.version();
+        ShownTopology& topology = live_models_[i].topologies[live.is_torn() ? 1 : 0];
+        if (topology.numbers.empty()) {
+            for (const LiveTriangle& triangle : live.triangles()) {
+                topology.numbers.push_back(triangle.number);
+                topology.indices.insert(topology.indices.end(), triangle.vertex.begin(),
+                                        triangle.vertex.end());
+            }
+        }
+        ShownShape shape{i, live.is_torn(), {}};
+        const Double3 middle = live.rest_box().middle();
+        for (const Double3& p : live.positions()) {
+            for (const double x : {p.x - middle.x, p.y - middle.y, p.z - middle.z}) {
+                shape.positions.push_back(static_cast<float>(x));
+            }
+        }
+        shown.shapes.push_back(std::move(shape));
+    }
+}
+
 Result<Done> SceneFrames::add(std::uint64_t frame, const scenes::Simulation& simulation) {
+    if (!has_chosen_) choose_live_models(simulation);
     if (!is_shown(frame)) return Done{};
     ShownFrame shown;
     shown.frame = frame;
     if (Result<Done> added = add_poses(shown, simulation); !added) return added;
+    add_shapes(shown, simulation);
     take_poses(shown, std::exchange(left_out_, {}));
+    take_shapes(shown, std::exchange(shapes_left_out_, {}));
     Results(file_, simulation, objects(), limits_, shown).copy();
     shown.counts = simulation.scene().counts();
     shown.seconds = simulation.frame_seconds();
@@ -244,11 +300,13 @@ void SceneFrames::thin() {
     bytes_ = 0;
     for (ShownFrame& shown : std::exchange(frames_, {})) {
         take_poses(shown, std::exchange(left_out_, {}));
+        take_shapes(shown, std::exchange(shapes_left_out_, {}));
         if (is_shown(shown.frame)) {
             bytes_ += shown.bytes();
             frames_.push_back(std::move(shown));
         } else {
             left_out_ = std::move(shown.moved);
+            shapes_left_out_ = std::move(shown.shapes);
         }
     }
 }

@@ -54,10 +54,30 @@ struct ShownBodies {
     std::uint64_t calls = 0;  ///< pairs of objects that were asked for contacts, in all substeps
 };
 
+/// The shape of a live model from a frame on.
+struct ShownShape {
+    std::uint32_t changing;  ///< its number in Simulation::changing()
+    bool is_torn = false;
+    std::vector<float> positions;  ///< from the middle of the box at rest, three a vertex
+};
+
+/// The triangles of a live model, before or after its tear.
+struct ShownTopology {
+    std::vector<std::uint32_t> indices;  ///< three a triangle
+    std::vector<std::uint32_t> numbers;  ///< of the triangles, rising
+};
+
+/// The triangles of a live model that the page draws as it changes.
+struct ShownLiveModel {
+    bool is_drawn = false;  ///< false: it has too many triangles, or it is drawn at rest
+    std::array<ShownTopology, 2> topologies;  ///< at rest, and torn
+};
+
 /// A frame as the page shows it. Objects are numbers in SceneFile::objects.
 struct ShownFrame {
     std::uint64_t frame = 0;
-    std::vector<ObjectPose> moved;  ///< since the shown frame before it; all in the first one
+    std::vector<ObjectPose> moved;   ///< since the shown frame before it; all in the first one
+    std::vector<ShownShape> shapes;  ///< that changed since the shown frame before it
     std::vector<LitTriangles> lit;
     std::vector<ShownHit> hits;
     std::vector<ShownContact> contacts;
@@ -84,6 +104,7 @@ struct FrameLimits {
     std::size_t hits = 20'000;       ///< in a frame; and so on
     std::size_t contacts = 5'000;
     std::size_t distances = 5'000;
+    std::size_t changing = 100'000;  ///< triangles of all live models that are drawn as they change
 };
 
 /// The frames of a run that its page shows: each n-th, and the last one. n is 1 if the limits
@@ -103,6 +124,10 @@ public:
     [[nodiscard]] std::uint64_t stride() const noexcept {
         return stride_;
     }
+    /// The live models, in the order of Simulation::changing().
+    [[nodiscard]] const std::vector<ShownLiveModel>& live_models() const noexcept {
+        return live_models_;
+    }
     /// The objects on the page.
     [[nodiscard]] std::uint32_t objects() const noexcept {
         return static_cast<std::uint32_t>(poses_.size());
@@ -114,6 +139,8 @@ private:
     }
     [[nodiscard]] Result<Done> add_poses(ShownFrame& shown, const scenes::Simulation& simulation);
     void add_pose(ShownFrame& shown, std::uint32_t object, const Pose& pose);
+    void choose_live_models(const scenes::Simulation& simulation);
+    void add_shapes(ShownFrame& shown, const scenes::Simulation& simulation);
     void thin();
 
     const scenes::SceneFile& file_;
@@ -122,7 +149,11 @@ private:
     std::uint64_t stride_ = 1;
     std::size_t bytes_ = 0;
     std::vector<ShownFrame> frames_;
-    std::vector<ObjectPose> left_out_;        ///< since the last one of them
+    std::vector<ObjectPose> left_out_;  ///< since the last one of them
+    std::vector<ShownShape> shapes_left_out_;
+    std::vector<ShownLiveModel> live_models_;
+    std::vector<std::uint64_t> versions_;  ///< by live model, as last shown
+    bool has_chosen_ = false;
     std::vector<std::optional<Pose>> poses_;  ///< of each object on the page, as last shown
 };
 

@@ -53,13 +53,18 @@ Double3 rotated_half(const std::array<double, 9>& r, const Double3& half) {
 class Drawer {
 public:
     Drawer(const scenes::SceneFile& file, std::span<const scenes::SceneModel> models,
-           const SceneFrames& frames)
-        : file_(file), frames_(frames), lit_(models.size()), halves_(models.size()) {
+           const SceneFrames& frames, std::span<const scenes::ChangingObjects> changing)
+        : file_(file),
+          frames_(frames),
+          lit_(models.size()),
+          halves_(models.size()),
+          shapes_(file.objects.size(), kUnshaped) {
         scene_.models.resize(models.size());
         for (std::uint32_t i = 0; i < frames.objects(); ++i) {
             scene_.models[file.objects[i].model].is_drawn = true;
         }
         for (std::size_t i = 0; i < models.size(); ++i) measure(i, models[i]);
+        measure_shapes(changing);
     }
 
     SceneGeometry draw(std::span<const scenes::SceneModel> models, std::size_t most) {
@@ -98,6 +103,35 @@ private:
         halves_[number] = {half(0), half(1), half(2)};
     }
 
+    /// Finds how far the shapes of objects reach from the middle of their models, in all frames.
+    void measure_shapes(std::span<const scenes::ChangingObjects> changing) {
+        reaches_.resize(changing.size());
+        for (const ShownFrame& shown : frames_.frames()) {
+            for (const ShownShape& shape : shown.shapes) {
+                Double3& reach = reaches_[shape.changing];
+                for (std::size_t i = 0; i + 2 < shape.positions.size(); i += 3) {
+                    const auto away = [&](std::size_t axis) {
+                        return double{std::abs(shape.positions[i + axis])};
+                    };
+                    reach = {std::max(reach.x, away(0)), std::max(reach.y, away(1)),
+                             std::max(reach.z, away(2))};
+                }
+            }
+        }
+        for (std::uint32_t i = 0; i < changing.size(); ++i) {
+            if (!frames_.live_models()[i].is_drawn) continue;
+            for (const std::uint32_t object : changing[i].objects) shapes_[object] = i;
+        }
+    }
+
+    /// Half the box of an object, about the middle of its model.
+    [[nodiscard]] Double3 half_of(std::uint32_t object) const {
+        const Double3& half = halves_[file_.objects[object].model];
+        if (shapes_[object] == kUnshaped) return half;
+        const Double3& reach = reaches_[shapes_[object]];
+        return {std::max(half.x, reach.x), std::max(half.y, reach.y), std::max(half.z, reach.z)};
+    }
+
     /// Finds the box of all objects in all frames, as that of two triangles at its corners.
     void find_frame() {
         bool is_first = true;
@@ -108,7 +142,7 @@ private:
                 const std::uint32_t model = file_.objects[moved.object].model;
                 if (!scene_.models[model].is_drawn) continue;
                 const Double3 middle = transform_point(moved.pose, scene_.models[model].centre);
-                const Double3 half = rotated_half(moved.pose.rotation(), halves_[model]);
+                const Double3 half = rotated_half(moved.pose.rotation(), half_of(moved.object));
                 if (std::exchange(is_first, false)) low = high = middle;
                 low = {std::min(low.x, middle.x - half.x), std::min(low.y, middle.y - half.y),
                        std::min(low.z, middle.z - half.z)};
@@ -187,14 +221,18 @@ private:
     const SceneFrames& frames_;
     std::vector<std::vector<std::uint32_t>> lit_;  ///< source numbers, by model
     std::vector<Double3> halves_;                  ///< of the models' boxes, model units
+    std::vector<Double3> reaches_;                 ///< by live model
+    static constexpr std::uint32_t kUnshaped = 0xffffffffU;
+    std::vector<std::uint32_t> shapes_;  ///< by object: its live model, or kUnshaped
     SceneGeometry scene_;
 };
 
 }  // namespace
 
 SceneGeometry draw_scene(const scenes::SceneFile& file, std::span<const scenes::SceneModel> models,
-                         const SceneFrames& frames, std::size_t most) {
-    return Drawer(file, models, frames).draw(models, most);
+                         const SceneFrames& frames,
+                         std::span<const scenes::ChangingObjects> changing, std::size_t most) {
+    return Drawer(file, models, frames, changing).draw(models, most);
 }
 
 std::array<double, 4> quaternion_of(const std::array<double, 9>& r) noexcept {

@@ -34,7 +34,9 @@ struct SceneGeometry {
 /// Draws at most `most` triangles exactly; models share them. Larger models are drawn coarsely.
 [[nodiscard]] SceneGeometry draw_scene(const scenes::SceneFile& file,
                                        std::span<const scenes::SceneModel> models,
-                                       const SceneFrames& frames, std::size_t most);
+                                       const SceneFrames& frames,
+                                       std::span<const scenes::ChangingObjects> changing,
+                                       std::size_t most);
 
 /// Returns the unit quaternion w, x, y, z of a rotation (Shepperd 1978), with w >= 0.
 [[nodiscard]] std::array<double, 4> quaternion_of(const std::array<double, 9>& rotation) noexcept;

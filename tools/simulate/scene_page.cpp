@@ -67,6 +67,7 @@ public:
             json["lit"].push_back({one.object, packed(one.triangles)});
         }
         add_results(json, shown);
+        add_shapes(json, shown);
         const SceneCounts& counts = shown.counts;
         json["counts"] = {{"moved", counts.moved},
                           {"candidates", counts.candidates},
@@ -126,6 +127,16 @@ private:
         json["distances"] = packed(distances);
     }
 
+    /// Positions are in page units, from the centre of the model.
+    void add_shapes(Json& json, const ShownFrame& shown) const {
+        json["shapes"] = Json::array();
+        for (const ShownShape& shape : shown.shapes) {
+            std::vector<float> positions = shape.positions;
+            for (float& x : positions) x = std::ldexp(x, -geometry_.frame.exponent);
+            json["shapes"].push_back({shape.changing, shape.is_torn ? 1 : 0, packed(positions)});
+        }
+    }
+
     static std::array<float, 3> float_point(const Double3& p) {
         return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
     }
@@ -173,6 +184,25 @@ Json objects_json(const scenes::SceneFile& file, const Plan& plan, std::uint32_t
         const scenes::FileObject& object = file.objects[i];
         json.push_back(
             {object.name, object.model, object.layer, is_asked(file, plan, object) ? 1 : 0});
+    }
+    return json;
+}
+
+/// The live models and their objects; null for one that is drawn at rest.
+Json changing_json(const SceneFrames& frames, std::span<const scenes::ChangingObjects> changing) {
+    Json json = Json::array();
+    for (std::size_t i = 0; i < changing.size(); ++i) {
+        const ShownLiveModel& live = frames.live_models()[i];
+        if (!live.is_drawn) {
+            json.push_back(nullptr);
+            continue;
+        }
+        Json topologies = Json::array();
+        for (const ShownTopology& topology : live.topologies) {
+            topologies.push_back(
+                {{"indices", packed(topology.indices)}, {"numbers", packed(topology.numbers)}});
+        }
+        json.push_back({{"objects", changing[i].objects}, {"topologies", topologies}});
     }
     return json;
 }
@@ -276,11 +306,14 @@ public:
             " are not listed. The lanes count them.");
     }
 
-    void add_changes(const scenes::SceneFile& file,
+    void add_changes(const scenes::SceneFile& file, const SceneFrames& frames,
                      std::span<const scenes::ChangingObjects> changing) {
-        for (const scenes::ChangingObjects& one : changing) {
-            const std::string name = printable(file.objects[one.objects.front()].name);
-            add("'" + name + "' deforms or tears, but is drawn as it was at rest.");
+        for (std::size_t i = 0; i < changing.size(); ++i) {
+            if (frames.live_models()[i].is_drawn) continue;
+            const std::string name = printable(file.objects[changing[i].objects.front()].name);
+            add("'" + name + "' deforms or tears, but is drawn as it was at rest: " +
+                std::to_string(changing[i].live.live().triangle_count()) +
+                " triangles are too many.");
         }
     }
 
@@ -329,12 +362,13 @@ Result<Done> ScenePage::add_frame(std::uint64_t frame, const scenes::Simulation&
 
 std::string ScenePage::finish(const scenes::Simulation& simulation) {
     const Plan& plan = simulation.plan();
-    const SceneGeometry geometry = draw_scene(file_, models_, frames_, options_.triangles);
+    const SceneGeometry geometry =
+        draw_scene(file_, models_, frames_, simulation.changing(), options_.triangles);
     LeftOut words;
     words.add_frames(frames_, count_, file_.objects.size());
     words.add_models(file_, geometry, models_);
     words.add_events(events_left_out_);
-    words.add_changes(file_, simulation.changing());
+    words.add_changes(file_, frames_, simulation.changing());
     left_out_ = std::move(words.sentences);
 
     const std::string name = std::filesystem::path(file_.name).filename().string();
@@ -350,6 +384,7 @@ std::string ScenePage::finish(const scenes::Simulation& simulation) {
                        {"models", models_json(file_, geometry)},
                        {"objects", objects_json(file_, plan, frames_.objects())},
                        {"object_count", file_.objects.size()},
+                       {"changing", changing_json(frames_, simulation.changing())},
                        {"spans", spans_json(timeline_)},
                        {"events", packed(events_)},
                        {"left_out", left_out_},

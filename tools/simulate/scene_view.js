@@ -114,6 +114,19 @@ function centres_of(triangles) {
   return centres;
 }
 
+// Both ends of each edge, once.
+function edges_of(indices) {
+  const seen = new Set(), edges = [];
+  for (let i = 0; i < indices.length; ++i) {
+    const a = indices[i], b = indices[i % 3 === 2 ? i - 2 : i + 1];
+    const key = Math.min(a, b) * 0x4000000 + Math.max(a, b);
+    if (seen.has(key)) continue;
+    seen.add(key);
+    edges.push(a, b);
+  }
+  return new Uint32Array(edges);
+}
+
 class SceneView extends View {
   constructor(holder, run, on_pick) {
     super(holder, on_pick);
@@ -127,6 +140,7 @@ class SceneView extends View {
     this.instances = [];
     this.shaped = new Map();
     run.triangles_of_models.forEach((triangles, model) => this.add_model(triangles, model));
+    for (const object of run.changing_of.keys()) this.add_shaped(object);
     this.matrices = run.objects.map(() => new THREE.Matrix4());
     this.marks_now = null;
     this.restyle();
@@ -137,9 +151,7 @@ class SceneView extends View {
     if (!triangles) return;
     const objects = [];
     this.run.objects.forEach((object, i) => {
-      if (object[1] !== model) return;
-      if (this.run.shaped.has(i)) this.add_shaped(triangles, i);
-      else objects.push(i);
+      if (object[1] === model && !this.run.changing_of.has(i)) objects.push(i);
     });
     if (!objects.length || !triangles.indices.length) return;
     const instances = new Instances(triangles, objects, this.edge, this.sky);
@@ -148,21 +160,34 @@ class SceneView extends View {
     if (instances.edges) this.surface.add(instances.edges);
   }
 
-  // An object whose shape changes has vertices of its own.
-  add_shaped(triangles, object) {
-    const geometry = point_geometry(new Float32Array(triangles.positions));
-    geometry.setIndex(new THREE.BufferAttribute(triangles.indices, 1));
-    const mesh = new THREE.Mesh(geometry, surface_material(this.sky));
-    mesh.frustumCulled = false;
-    mesh.matrixAutoUpdate = false;
-    this.shaped.set(object, mesh);
-    this.surface.add(mesh);
+  // An object whose shape changes has a mesh of its own, and lines on all its edges.
+  add_shaped(object) {
+    const mesh = new THREE.Mesh(new THREE.BufferGeometry(), surface_material(this.sky));
+    const edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial(
+        {transparent: true, opacity: 0.35}));
+    for (const one of [mesh, edges]) {
+      one.frustumCulled = false;
+      one.matrixAutoUpdate = false;
+      this.surface.add(one);
+    }
+    this.shaped.set(object, {mesh, edges, shape: null});
   }
 
-  // The positions of an object's vertices, in its own coordinates.
-  positions_of(object) {
-    const shape = this.run.shapes.get(object);
-    return shape || this.run.triangles_of_models[this.run.objects[object][1]].positions;
+  // Gives a mesh the shape of the present frame.
+  reshape(object, drawn) {
+    const shape = this.run.shapes.get(this.run.changing_of.get(object));
+    if (drawn.shape === shape) return;
+    drawn.shape = shape;
+    const {positions, indices} = this.run.triangles_of(object);
+    const both = new THREE.BufferAttribute(positions, 3);
+    drawn.mesh.geometry.dispose();
+    drawn.mesh.geometry = new THREE.BufferGeometry();
+    drawn.mesh.geometry.setAttribute('position', both);
+    drawn.mesh.geometry.setIndex(new THREE.BufferAttribute(indices, 1));
+    drawn.edges.geometry.dispose();
+    drawn.edges.geometry = new THREE.BufferGeometry();
+    drawn.edges.geometry.setAttribute('position', both);
+    drawn.edges.geometry.setIndex(new THREE.BufferAttribute(edges_of(indices), 1));
   }
 
   // Draws the state of the run as it is now.
@@ -185,11 +210,11 @@ class SceneView extends View {
       });
       instances.upload();
     }
-    for (const [object, mesh] of this.shaped) {
-      mesh.geometry.attributes.position.copyArray(this.positions_of(object));
-      mesh.geometry.attributes.position.needsUpdate = true;
-      mesh.matrix.copy(this.matrices[object]);
-      mesh.material.uniforms.tint.value.copy(tints[object]);
+    for (const [object, drawn] of this.shaped) {
+      this.reshape(object, drawn);
+      drawn.mesh.matrix.copy(this.matrices[object]);
+      drawn.edges.matrix.copy(this.matrices[object]);
+      drawn.mesh.material.uniforms.tint.value.copy(tints[object]);
     }
     this.show_marks_now();
     this.follow_chosen();
@@ -206,7 +231,8 @@ class SceneView extends View {
 
   outline_of(object) {
     const triangles = this.run.triangles_of_models[this.run.objects[object][1]];
-    if (!triangles || triangles.indices.length / 3 > MOST_EDGES || this.shaped.has(object)) return null;
+    if (!triangles || triangles.indices.length / 3 > MOST_EDGES) return null;
+    if (this.run.changing_of.has(object)) return null;
     const whole = point_geometry(triangles.positions);
     whole.setIndex(new THREE.BufferAttribute(triangles.indices, 1));
     const outline = new THREE.LineSegments(new THREE.EdgesGeometry(whole, EDGE_DEGREES),
@@ -247,12 +273,11 @@ class SceneView extends View {
     const corners = [];
     const point = new THREE.Vector3();
     for (const [object, numbers] of this.run.now.lit) {
-      const triangles = this.run.triangles_of_models[this.run.objects[object][1]];
+      const triangles = this.run.triangles_of(object);
       if (!triangles) continue;
-      const positions = triangles.lit || this.positions_of(object);
+      const positions = triangles.lit || triangles.positions;
       for (const number of numbers) {
         const place = triangles.place ? triangles.place.get(number) : number;
-        // A torn model has triangles that the one at rest lacks.
         if (place === undefined) continue;
         if (!triangles.lit && place * 3 + 2 >= triangles.indices.length) continue;
         for (let k = 0; k < 3; ++k) {
@@ -342,6 +367,7 @@ class SceneView extends View {
     if (!this.run) return;
     this.scene.background = css_colour('--scene');
     this.edge.uniforms.colour.value = css_colour('--surface-edge');
+    for (const {edges} of this.shaped.values()) edges.material.color = css_colour('--surface-edge');
     this.apply_showing();
     this.show();
   }
@@ -349,13 +375,15 @@ class SceneView extends View {
   apply_showing() {
     if (!this.run) return;
     const {glass, edges} = this.showing;
-    for (const mesh of [...this.instances.map((one) => one.mesh), ...this.shaped.values()]) {
+    for (const {mesh} of [...this.instances, ...this.shaped.values()]) {
       mesh.material.transparent = glass;
       mesh.material.uniforms.opacity.value = glass ? 0.25 : 1;
       mesh.material.depthWrite = !glass;
       mesh.material.needsUpdate = true;
     }
-    for (const one of this.instances) if (one.edges) one.edges.visible = edges;
+    for (const one of [...this.instances, ...this.shaped.values()]) {
+      if (one.edges) one.edges.visible = edges;
+    }
     this.ask();
   }
 
@@ -414,12 +442,12 @@ class SceneView extends View {
     caster.setFromCamera(at, this.camera);
     let best = null, least = Infinity;
     this.run.objects.forEach((object, i) => {
-      const triangles = this.run.triangles_of_models[object[1]];
+      const triangles = this.run.triangles_of(i);
       if (!triangles || !this.run.present[i]) return;
       const ball = new THREE.Sphere(new THREE.Vector3().setFromMatrixPosition(this.matrices[i]),
                                     this.radius_of(i));
       // A shape may be larger than the model.
-      if (!this.run.shapes.has(i) && !caster.ray.intersectsSphere(ball)) return;
+      if (!this.run.changing_of.has(i) && !caster.ray.intersectsSphere(ball)) return;
       const quick = event.type === 'mousemove' && triangles.indices.length / 3 > HOVER_TRIANGLES;
       const away = quick ? caster.ray.origin.distanceTo(ball.center) : this.hit(caster.ray, i, least);
       if (away < least) {
@@ -433,8 +461,7 @@ class SceneView extends View {
   // How far away a ray meets an object.
   hit(ray, object, least) {
     const local = ray.clone().applyMatrix4(new THREE.Matrix4().getInverse(this.matrices[object]));
-    const {indices} = this.run.triangles_of_models[this.run.objects[object][1]];
-    const positions = this.positions_of(object);
+    const {indices, positions} = this.run.triangles_of(object);
     const [a, b, c, at] = [0, 1, 2, 3].map(() => new THREE.Vector3());
     for (let i = 0; i < indices.length; i += 3) {
       a.fromArray(positions, indices[i] * 3);

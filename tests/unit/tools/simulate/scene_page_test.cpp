@@ -249,6 +249,55 @@ TEST(ScenePage, EventsAndSpansAreThoseOfTheRun) {
     }
 }
 
+/// The torus of the scene that moves twists too.
+void twist_moving(PageScene& scene) {
+    scene.file().pairs[0].asked = {.a = 0, .b = 1, .effects = Ask::collide | Ask::deform};
+    scene.file().changes = {{.deform = scenes::Twist{.axis = 0, .angle_rad = 1, .period_s = 3}}};
+    scene.file().objects[3].change = 0;
+}
+
+// The oracle is the live model itself, by the numbers of the imported file.
+TEST(ScenePage, LiveModelsHaveTheShapeOfEachFrame) {
+    PageScene scene;
+    twist_moving(scene);
+    const std::string page = page_of_run(scene);
+    const json data = element_of(page, "scene-data");
+    ASSERT_EQ(data["changing"].size(), 1u);
+    EXPECT_EQ(data["changing"][0]["objects"], json::array({3}));
+    const json& topology = data["changing"][0]["topologies"][0];
+    const std::size_t triangles = scene.torus().triangle_count();
+    EXPECT_EQ(unpacked<std::uint32_t>(topology["indices"]).size(), 3 * triangles);
+    const json frames = element_of(page, "frame-data");
+    const double unit = std::ldexp(1.0, data["exponent"].get<int>());
+    scene.run(kRunFrames, [&](std::uint64_t frame, const scenes::Simulation& simulation) {
+        const scenes::ChangingModel& live = simulation.changing()[0].live;
+        ASSERT_EQ(frames[frame]["shapes"].size(), 1u) << frame;
+        const auto drawn = unpacked<float>(frames[frame]["shapes"][0][2]);
+        const auto positions = live.positions();
+        ASSERT_EQ(drawn.size(), 3 * positions.size());
+        const Double3 middle = live.rest_box().middle();
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            EXPECT_NEAR(unit * drawn[3 * i], positions[i].x - middle.x, 1e-6);
+            EXPECT_NEAR(unit * drawn[3 * i + 2], positions[i].z - middle.z, 1e-6);
+        }
+    });
+}
+
+TEST(ScenePage, LargeLiveModelsAreDrawnAtRest) {
+    PageScene scene;
+    twist_moving(scene);
+    ScenePageOptions options;
+    options.limits.changing = scene.torus().triangle_count() - 1;
+    std::vector<std::string> left_out;
+    const std::string page = page_of_run(scene, options, &left_out);
+    EXPECT_TRUE(element_of(page, "scene-data")["changing"][0].is_null());
+    EXPECT_TRUE(element_of(page, "frame-data")[1]["shapes"].empty());
+    const std::string expected = "'moving' deforms or tears, but is drawn as it was at rest: " +
+                                 std::to_string(scene.torus().triangle_count()) +
+                                 " triangles are too many.";
+    EXPECT_EQ(std::ranges::count(left_out, expected), 1) << ::testing::PrintToString(left_out);
+}
+
 // Each limit has its sentence, and nothing else has one.
 TEST(ScenePage, SaysWhatItLeavesOut) {
     const auto told = [](const ScenePageOptions& options) {
