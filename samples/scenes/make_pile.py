@@ -10,6 +10,7 @@ import math
 import pathlib
 import sys
 
+from mesh_text import icosphere, obj
 from scene_text import text_of
 
 INSIDE, WALL, HEIGHT = 1.8, 0.2, 0.6  # of the tray
@@ -17,49 +18,6 @@ SIZE = 0.8  # the diagonal of the box of a body
 LEVEL = 3  # of the icosphere that becomes a jack
 STARTS = ((-0.42, -0.42), (0.42, -0.42), (-0.42, 0.42), (0.42, 0.42), (0, 0))
 FIRST_HEIGHT, STORY = 0.4, 0.6
-
-
-def icosphere(level):
-    golden = (1 + math.sqrt(5)) / 2
-    points = [(x, y * golden, 0.0) for y in (1, -1) for x in (-1, 1)]
-    points += [(0.0, x, y * golden) for y in (1, -1) for x in (-1, 1)]
-    points += [(x * golden, 0.0, y) for x in (1, -1) for y in (-1, 1)]
-    faces = hull_faces(points)
-    for _ in range(level):
-        middles, finer = {}, []
-        for a, b, c in faces:
-            ab, bc, ca = (middle(points, middles, *edge) for edge in ((a, b), (b, c), (c, a)))
-            finer += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
-        faces = finer
-    return points, faces
-
-
-def hull_faces(points):
-    """The faces of the icosahedron: its twenty nearest triples, wound outwards."""
-    edge = min(math.dist(points[0], p) for p in points[1:]) * 1.01
-    near = lambda i, j: math.dist(points[i], points[j]) < edge
-    faces = []
-    count = len(points)
-    for a in range(count):
-        for b in range(a + 1, count):
-            for c in range(b + 1, count):
-                if near(a, b) and near(b, c) and near(c, a):
-                    faces.append((a, b, c) if determinant(*(points[i] for i in (a, b, c))) > 0
-                                 else (a, c, b))
-    return faces
-
-
-def determinant(a, b, c):
-    return (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
-            + a[2] * (b[0] * c[1] - b[1] * c[0]))
-
-
-def middle(points, middles, a, b):
-    key = (min(a, b), max(a, b))
-    if key not in middles:
-        middles[key] = len(points)
-        points.append(tuple((p + q) / 2 for p, q in zip(points[a], points[b])))
-    return middles[key]
 
 
 def jack():
@@ -108,14 +66,6 @@ def scaled(mesh, size):
     return [tuple(scale * (c - m) for c, m in zip(p, centre)) for p in points], faces
 
 
-def obj(name, mesh):
-    points, faces = mesh
-    lines = [f"# {name}; metres."]
-    lines += ["v " + " ".join(f"{c:.5g}" for c in point) for point in points]
-    lines += ["f " + " ".join(str(index + 1) for index in face) for face in faces]
-    return "\n".join(lines) + "\n"
-
-
 def body(number, model):
     x, y = STARTS[number % len(STARTS)]
     z = FIRST_HEIGHT + STORY * (number // len(STARTS))
@@ -152,8 +102,8 @@ def main():
     given = sys.argv[3:]
     meshes = {pathlib.Path(path).stem + ".obj": read_obj(path) for path in given}
     for name, mesh in (meshes or {"jack.obj": jack()}).items():
-        (folder / name).write_text(obj(f"A body of a pile, {name}", scaled(mesh, SIZE)))
-    (folder / "tray.obj").write_text(obj("A box without a lid", tray()))
+        (folder / name).write_text(obj(f"A body of a pile, {name}", scaled(mesh, SIZE), 5))
+    (folder / "tray.obj").write_text(obj("A box without a lid", tray(), 5))
     (folder / "pile.json").write_text(text_of(scene(count, list(meshes) or ["jack.obj"])))
 
 

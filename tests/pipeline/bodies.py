@@ -144,7 +144,7 @@ def refusals(program, folder):
 
 def generated(program):
     """The kept meshes and scenes are those that the scripts write."""
-    for script in ("make_pile.py", "make_bolt.py"):
+    for script in ("make_pile.py", "make_bolt.py", "make_probe.py"):
         with tempfile.TemporaryDirectory() as scratch:
             folder = pathlib.Path(scratch)
             done = run(sys.executable, SCENES / script, folder)
