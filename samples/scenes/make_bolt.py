@@ -3,8 +3,8 @@
 """Writes bolt.obj, plate.obj and bolt.json: a bolt that a hand screws into a plate; in millimetres.
 
 Both threads are r = RADIUS + DEPTH / 2 * cos(2 pi z / PITCH - angle), the hole wider by CLEARANCE.
-A turn of the bolt by an angle about z fits if it moves by PITCH * angle / (2 pi) along z. The hand
-shakes: it shifts the bolt by up to SHAKE and tilts it by up to TILT. Usage: make_bolt.py FOLDER
+The bolt turns by an angle about z and moves by PITCH * angle / (2 pi) along z. The hand shakes: it
+shifts the bolt by up to SHAKE and tilts it by up to TILT. Usage: make_bolt.py FOLDER
 """
 import math
 import pathlib

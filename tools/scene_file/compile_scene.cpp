@@ -43,8 +43,8 @@ std::string words_for(const SceneFile& scene, std::size_t pair) {
            " and " + quoted(scene.layers[asked.b]);
 }
 
-/// Returns why objects of responding layers cannot push each other. There is a sentence for each
-/// layer, about its first such object, and one for each pair of layers without a body.
+/// Returns why objects of responding layers cannot push each other. There is a sentence for the
+/// first such object of a layer, and one for each pair of layers without a body.
 std::vector<std::string> body_refusals(const SceneFile& scene) {
     std::vector<std::string> refusals;
     std::set<std::pair<std::uint32_t, bool>> seen;

@@ -24,9 +24,8 @@ bool are_same_file(const fs::path& one, const fs::path& other) {
 }
 
 bool is_among(const fs::path& path, const std::vector<fs::path>& taken) {
-    return std::ranges::any_of(taken, [&](const fs::path& other) {
-        return !other.empty() && are_same_file(other, path);
-    });
+    return std::ranges::any_of(
+        taken, [&](const fs::path& other) { return !other.empty() && are_same_file(other, path); });
 }
 
 Result<Done> open_file(std::optional<ReportOutput>& output, const std::filesystem::path& path) {

@@ -13,7 +13,7 @@
 
 namespace cdprep::scenes {
 
-/// A pose that does not follow from the motion of an object: that of a body, or one of a recording.
+/// A pose that an object has without a motion: that of a body, or one of a recording.
 struct GivenPose {
     std::uint32_t object;  ///< its number in SceneFile::objects
     Pose pose;

@@ -84,8 +84,8 @@ class SceneRun {
     }
   }
 
-  // The triangles of an object as they are now: positions in its own coordinates, indices, and the
-  // places of source numbers, or null where these are 0, 1, ... Null if it is not drawn.
+  // The triangles of an object as they are now, or null if it is not drawn. Positions are in its own
+  // coordinates. `place` has the places of source numbers; null where these are 0, 1, ...
   triangles_of(object) {
     const changing = this.changing_of.get(object);
     if (changing === undefined) return this.triangles_of_models[this.objects[object][1]];

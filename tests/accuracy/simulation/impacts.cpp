@@ -90,9 +90,9 @@ double play_bounces(Engine engine, int bounces) {
     return seen < bounces ? 1 : worst;
 }
 
-/// The time between two flips of a body that turns about its middle axis, nearly: half the period
-/// of Euler's equations (Landau and Lifshitz, Mechanics, section 37). Moments and spin are by axis,
-/// with the smallest moment first.
+/// The time between two flips of a body that turns nearly about its middle axis. It is half the
+/// period of Euler's equations (Landau and Lifshitz, Mechanics, section 37). Moments and spin are
+/// by axis, with the smallest moment first.
 double flip_time(std::array<double, 3> moments, std::array<double, 3> spin) {
     double twice_energy = 0, momentum2 = 0;
     for (std::size_t i = 0; i < 3; ++i) {
