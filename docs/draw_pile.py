@@ -15,8 +15,8 @@ from browser import Browser  # noqa: E402  after the path is set
 
 CAMERA = """(() => {
   const view = state.view;
-  view.controls.target.set(0, 0, 0.1);
-  view.camera.position.set(0.9, -1.9, 1.5);
+  view.controls.target.set(0, 0, 0.05);
+  view.camera.position.set(0.75, -1.6, 1.45);
   view.controls.update();
 })()"""
 
