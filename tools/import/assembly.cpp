@@ -59,6 +59,10 @@ std::span<const MeshNode> Assembly::nodes() const noexcept {
     return content_->nodes;
 }
 
+std::span<const Affine> Assembly::world_from_nodes() const noexcept {
+    return content_->scene->world_from_nodes();
+}
+
 Result<mesh::TriangleSoup> Assembly::triangles(const MeshNode& node,
                                                const Affine& model_from_mesh) const {
     const ImportOptions& options = content_->options;

@@ -23,6 +23,8 @@ public:
 
     /// The nodes that have triangles, depth first.
     [[nodiscard]] std::span<const MeshNode> nodes() const noexcept;
+    /// The world transforms of all nodes, depth first: element MeshNode::number is of that node.
+    [[nodiscard]] std::span<const Affine> world_from_nodes() const noexcept;
     /// Returns the triangles of a node's meshes, moved by `model_from_mesh` instead of the node's
     /// own transform. Invalid numbers are data, as in import_file().
     [[nodiscard]] Result<mesh::TriangleSoup> triangles(const MeshNode& node,

@@ -156,6 +156,10 @@ public:
         return uses_;
     }
 
+    [[nodiscard]] std::span<const Affine> model_from_nodes() const noexcept {
+        return model_from_node_;
+    }
+
     /// Returns "root/arm/hand". It is built on demand, because deep scenes have long paths.
     [[nodiscard]] std::string path_of(std::uint32_t node) const {
         constexpr std::size_t kMaxPathBytes = 4096;
@@ -398,6 +402,10 @@ std::vector<MeshNode> PlacedScene::mesh_nodes() const {
         nodes.back().meshes.push_back(use.mesh);
     }
     return nodes;
+}
+
+std::span<const Affine> PlacedScene::world_from_nodes() const noexcept {
+    return content_->model_from_nodes();
 }
 
 std::optional<SceneHeader> read_scene_header(std::span<const std::byte> bytes) noexcept {

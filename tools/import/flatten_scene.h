@@ -48,6 +48,8 @@ public:
                                                           const ImportOptions& options) const;
     /// Returns the nodes that have triangles, depth first.
     [[nodiscard]] std::vector<MeshNode> mesh_nodes() const;
+    /// The world transforms of all nodes, depth first: element MeshNode::number is of that node.
+    [[nodiscard]] std::span<const Affine> world_from_nodes() const noexcept;
 
 private:
     class Content;

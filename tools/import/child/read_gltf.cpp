@@ -216,12 +216,13 @@ public:
 
 private:
     /// Refuses unsupported extensions that change the geometry, such as packed meshes and
-    /// instances. Extensions for appearance, lights and the like are harmless.
+    /// instances. Extensions for appearance, lights, physics and the like are harmless.
     void check_extensions() const {
         for (const JsonValue name : root_["extensionsRequired"].items()) {
             const std::string& text = name.text();
             const bool is_harmless =
                 text == "KHR_mesh_quantization" || text == "KHR_lights_punctual" ||
+                text == "KHR_physics_rigid_bodies" || text == "KHR_implicit_shapes" ||
                 text.starts_with("KHR_materials") || text.starts_with("KHR_texture") ||
                 text.starts_with("EXT_texture");
             if (!is_harmless) fail("it needs the extension " + text + ", which is not read");
