@@ -116,6 +116,16 @@ std::optional<std::vector<JsonElement>> JsonElement::items() const {
     return elements;
 }
 
+std::optional<std::vector<std::string>> JsonElement::keys() const {
+    if (!value_->is_object()) {
+        refuse_value("an object");
+        return std::nullopt;
+    }
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : value_->items()) keys.push_back(key);
+    return keys;
+}
+
 std::optional<std::string> JsonElement::text() const {
     if (value_->is_string() && !value_->get_ref<const std::string&>().empty()) {
         return value_->get<std::string>();

@@ -36,6 +36,12 @@ public:
     [[nodiscard]] std::optional<JsonElement> require(std::string_view key) const;
     /// Returns the elements of an array.
     [[nodiscard]] std::optional<std::vector<JsonElement>> items() const;
+    /// Returns the keys of an object.
+    [[nodiscard]] std::optional<std::vector<std::string>> keys() const;
+    /// The place of the value, as a JSON pointer.
+    [[nodiscard]] const std::string& pointer() const noexcept {
+        return pointer_;
+    }
 
     [[nodiscard]] std::optional<std::string> text() const;  ///< not empty
     [[nodiscard]] std::optional<double> number(Range range) const;
