@@ -1,0 +1,518 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_file/gltf_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <span>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "import/source_file.h"
+#include "scene_file/gltf_physics.h"
+
+namespace cdprep::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+using import::Affine;
+
+constexpr double kGravity = 9.81;  ///< metres per second squared
+constexpr std::uint32_t kNone = 0xffffffffU;
+
+// --- Vectors -------------------------------------------------------------------------
+
+Double3 cross(const Double3& a, const Double3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+double length(const Double3& a) {
+    return std::hypot(a.x, a.y, a.z);
+}
+Double3 difference(const Double3& a, const Double3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Double3 times(const Double3& a, double factor) {
+    return {factor * a.x, factor * a.y, factor * a.z};
+}
+bool is_zero(const Double3& a) {
+    return a.x == 0 && a.y == 0 && a.z == 0;
+}
+
+Double3 turned(const Affine& m, const Double3& v) {
+    return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
+            m[8] * v.x + m[9] * v.y + m[10] * v.z};
+}
+Double3 origin_of(const Affine& m) {
+    return {m[3], m[7], m[11]};
+}
+Double3 moved(const Affine& m, const Double3& p) {
+    const Double3 turned_p = turned(m, p);
+    return {turned_p.x + m[3], turned_p.y + m[7], turned_p.z + m[11]};
+}
+
+/// Returns the rotation of a transform whose columns are at right angles, whatever their lengths.
+/// Nothing for a shear, a mirror or a length of 0.
+std::optional<Affine> rotation_of(Affine m) {
+    std::array<Double3, 3> columns{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        columns[i] = {m[i], m[4 + i], m[8 + i]};
+        const double size = length(columns[i]);
+        if (!(size > 0)) return std::nullopt;
+        columns[i] = times(columns[i], 1 / size);
+    }
+    const Double3 off = difference(cross(columns[0], columns[1]), columns[2]);
+    const Double3 side = difference(cross(columns[1], columns[2]), columns[0]);
+    if (!(length(off) <= kFloatRounding && length(side) <= kFloatRounding)) return std::nullopt;
+    Affine rotation{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        rotation[i] = columns[i].x;
+        rotation[4 + i] = columns[i].y;
+        rotation[8 + i] = columns[i].z;
+    }
+    return rotation;
+}
+
+// --- Files ---------------------------------------------------------------------------
+
+/// Returns the JSON of a file: all of it, or the first JSON chunk of a GLB. tools/import has read
+/// the file before.
+std::string_view json_of(std::string_view bytes) {
+    constexpr std::size_t kHeader = 12;
+    constexpr std::size_t kChunkHeader = 8;
+    if (!bytes.starts_with("glTF")) return bytes;
+    std::size_t at = kHeader;
+    while (at <= bytes.size() && bytes.size() - at >= kChunkHeader) {
+        std::uint32_t size = 0;
+        std::memcpy(&size, bytes.data() + at, sizeof size);
+        const std::string_view type = bytes.substr(at + 4, 4);
+        at += kChunkHeader;
+        if (type == "JSON") return bytes.substr(at, size);
+        at += size;
+    }
+    return {};
+}
+
+// --- The scene -----------------------------------------------------------------------
+
+/// A use of a node. A node with several parents has several.
+struct Place {
+    std::uint32_t node = 0;        ///< in GltfPhysics::nodes
+    std::uint32_t mover = kNone;   ///< the nearest place with a motion, itself or above it
+    std::uint32_t object = kNone;  ///< in the objects of the assembly
+    std::uint32_t new_object = kNone;
+};
+
+/// What the objects of a layer have in common.
+struct LayerKey {
+    std::optional<GltfFilter> collider;
+    std::optional<GltfFilter> trigger;
+    bool is_body = false;
+
+    auto operator<=>(const LayerKey&) const = default;
+};
+
+/// Turns an assembly and its physics into the scene of the assembly.
+class SceneBuilder {
+public:
+    SceneBuilder(AssemblyScene& assembly, const GltfPhysics& physics,
+                 const import::ImportOptions& options, Findings& findings)
+        : assembly_(assembly),
+          physics_(physics),
+          options_(options),
+          findings_(findings),
+          metres_per_unit_(options.metres_per_unit.value_or(1)) {}
+
+    std::optional<Error> run() {
+        if (const auto error = place_nodes()) return error;
+        std::vector<FileObject> all = std::move(scene().objects);
+        scene().objects.clear();
+        for (Place& place : places_) keep_object(place, all);
+        if (scene().objects.empty()) {
+            return refusal(
+                "no node has triangles and a collider or trigger of KHR_physics_rigid_bodies, so "
+                "there is nothing to compute");
+        }
+        move_all();
+        if (const auto error = add_layers()) return error;
+        add_pairs();
+        free_bodies();
+        keep_models();
+        set_world();
+        return std::nullopt;
+    }
+
+private:
+    [[nodiscard]] SceneFile& scene() const noexcept {
+        return assembly_.scene;
+    }
+    [[nodiscard]] const GltfNode& node_of(const Place& place) const {
+        return physics_.nodes[place.node];
+    }
+    [[nodiscard]] Error refusal(const std::string& what) const {
+        return {ErrorCode::unreadable, scene().name + ": " + what + "."};
+    }
+    [[nodiscard]] const Affine& world_from(std::uint32_t place) const {
+        return assembly_.file.world_from_nodes()[place];
+    }
+    [[nodiscard]] static std::string pointer_of(const Place& place, const char* part) {
+        return "/nodes/" + std::to_string(place.node) + "/extensions/KHR_physics_rigid_bodies/" +
+               part;
+    }
+
+    // --- Nodes -----------------------------------------------------------------------
+
+    /// Walks the tree as tools/import did. That has proven that it ends.
+    std::optional<Error> place_nodes() {
+        const std::size_t count = assembly_.file.world_from_nodes().size();
+        struct Pending {
+            std::uint32_t node, mover;
+        };
+        std::vector<Pending> pending;
+        for (const std::uint32_t root : physics_.roots) pending.push_back({root, kNone});
+        std::ranges::reverse(pending);
+        while (!pending.empty() && places_.size() <= count) {
+            const Pending top = pending.back();
+            pending.pop_back();
+            const auto number = static_cast<std::uint32_t>(places_.size());
+            const GltfNode& node = physics_.nodes[top.node];
+            const std::uint32_t mover = node.motion ? number : top.mover;
+            places_.push_back({.node = top.node, .mover = mover});
+            for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
+                pending.push_back({*child, mover});
+            }
+        }
+        bool fits = places_.size() == count;
+        const auto nodes = assembly_.file.nodes();
+        for (std::uint32_t i = 0; i < nodes.size() && fits; ++i) {
+            fits = node_of(places_[nodes[i].number]).mesh.has_value();
+            places_[nodes[i].number].object = i;
+        }
+        if (fits) return std::nullopt;
+        return refusal("its nodes changed while it was read");
+    }
+
+    /// Keeps the object of a node with a collider or a trigger.
+    void keep_object(Place& place, std::vector<FileObject>& all) {
+        const GltfNode& node = node_of(place);
+        const bool has_surface = node.collider || node.trigger;
+        const std::string name = node.collider ? "collider" : "trigger";
+        if (place.object == kNone) {
+            if (has_surface) {
+                findings_.not_taken("a " + name + " whose mesh has no triangles",
+                                    pointer_of(place, name.c_str()));
+            }
+            return;
+        }
+        if (!has_surface) {
+            findings_.not_taken("a node with triangles but without a collider or trigger",
+                                "/nodes/" + std::to_string(place.node));
+            return;
+        }
+        const auto number = static_cast<std::uint32_t>(&place - places_.data());
+        const Affine& m = world_from(number);
+        if (is_zero({m[0], m[4], m[8]}) && is_zero({m[1], m[5], m[9]}) &&
+            is_zero({m[2], m[6], m[10]})) {
+            findings_.not_taken("a " + name + " of scale 0, which the draft disables",
+                                pointer_of(place, name.c_str()));
+            return;
+        }
+        place.new_object = static_cast<std::uint32_t>(scene().objects.size());
+        scene().objects.push_back(std::move(all[place.object]));
+        if (node.collider) scene().objects.back().material = node.collider->material;
+    }
+
+    // --- Motions ---------------------------------------------------------------------
+
+    /// The velocities of a node with a motion, in the world and in model units.
+    struct Velocities {
+        Double3 velocity{};
+        Double3 turn{};
+        Double3 centre{};
+    };
+
+    Velocities velocities_of(std::uint32_t mover) {
+        const GltfMotion& motion = *node_of(places_[mover]).motion;
+        const Affine& world = world_from(mover);
+        const auto rotation = rotation_of(world);
+        Velocities found;
+        found.centre = motion.centre ? moved(world, *motion.centre) : origin_of(world);
+        if (rotation) {
+            found.velocity = times(turned(*rotation, motion.velocity), 1 / metres_per_unit_);
+            found.turn = turned(*rotation, motion.turn);
+        } else if (!is_zero(motion.velocity) || !is_zero(motion.turn)) {
+            findings_.not_taken("velocities of a node that is sheared, mirrored or flat",
+                                pointer_of(places_[mover], "motion"));
+        }
+        return found;
+    }
+
+    void move_all() {
+        std::map<std::uint32_t, std::vector<std::uint32_t>> members;
+        for (std::uint32_t i = 0; i < places_.size(); ++i) {
+            const Place& place = places_[i];
+            if (node_of(place).motion) members[i];
+            if (place.mover == kNone || place.new_object == kNone) continue;
+            members[place.mover].push_back(i);
+        }
+        for (const auto& [mover, followers] : members) move(mover, followers);
+    }
+
+    /// Moves the objects of a node with a motion.
+    void move(std::uint32_t mover, const std::vector<std::uint32_t>& members) {
+        const auto colliders = std::ranges::count_if(members, [&](std::uint32_t member) {
+            return node_of(places_[member]).collider.has_value();
+        });
+        const bool has_triggers = std::ranges::any_of(members, [&](std::uint32_t member) {
+            return node_of(places_[member]).trigger.has_value();
+        });
+        if (has_triggers && colliders > 0 && members.size() > 1) {
+            findings_.assumed("a trigger also detects the colliders of its own body");
+        }
+        const Velocities velocities = velocities_of(mover);
+        const GltfMotion& motion = *node_of(places_[mover]).motion;
+        const std::string place = pointer_of(places_[mover], "motion");
+        if (members.empty()) {
+            findings_.not_taken("a motion without a collider or trigger that is taken", place);
+        } else if (motion.is_kinematic) {
+            for (const std::uint32_t member : members) move_steadily(member, velocities, mover);
+        } else if (colliders > 1) {
+            findings_.not_taken("a body of several colliders; they stay where they are", place);
+        } else if (colliders == 0) {
+            findings_.not_taken("a body without a collider; its triggers stay where they are",
+                                place);
+        } else {
+            for (const std::uint32_t member : members) make_body(member, velocities, motion);
+        }
+    }
+
+    void move_steadily(std::uint32_t place, const Velocities& velocities, std::uint32_t mover) {
+        FileObject& object = scene().objects[places_[place].new_object];
+        const Pose start = *pose_of(scene(), object, 0);
+        Double3 turn = velocities.turn;
+        const GltfMotion& motion = *node_of(places_[mover]).motion;
+        if (!is_zero(turn) && !motion.centre) {
+            findings_.assumed("a kinematic node without a centre of mass turns about its origin");
+        }
+        // A steady motion turns about the origin of its object.
+        constexpr double kRounding = 1e-9;
+        const double size = length(start.translation()) + length(velocities.centre);
+        const double off = length(cross(difference(start.translation(), velocities.centre), turn));
+        if (!(off <= kRounding * size * length(turn))) {
+            findings_.not_taken(
+                "a turn of a kinematic node whose axis is not through the origin "
+                "of its collider or trigger",
+                pointer_of(places_[place],
+                           node_of(places_[place]).collider ? "collider" : "trigger"));
+            turn = {};
+        }
+        scene().motions[object.motion] = Motion::steady(start, velocities.velocity, turn);
+    }
+
+    void make_body(std::uint32_t place, const Velocities& velocities, const GltfMotion& motion) {
+        if (!node_of(places_[place]).collider) {
+            findings_.not_taken("a trigger that moves with a body; it stays where it is",
+                                pointer_of(places_[place], "trigger"));
+            return;
+        }
+        FileObject& object = scene().objects[places_[place].new_object];
+        object.body = static_cast<std::uint32_t>(scene().bodies.size());
+        scene().bodies.push_back(
+            {.mass = motion.mass, .velocity = velocities.velocity, .turn = velocities.turn});
+    }
+
+    // --- Layers and pairs ------------------------------------------------------------
+
+    std::optional<Error> add_layers() {
+        std::map<LayerKey, std::uint32_t> numbers;
+        for (const Place& place : places_) {
+            if (place.new_object == kNone) continue;
+            const GltfNode& node = node_of(place);
+            FileObject& object = scene().objects[place.new_object];
+            LayerKey key;
+            if (node.collider) key.collider = node.collider->filter;
+            if (node.trigger) key.trigger = node.trigger->filter;
+            key.is_body = object.body != kNoBody;
+            const auto [at, is_new] =
+                numbers.try_emplace(key, static_cast<std::uint32_t>(keys_.size()));
+            if (is_new) keys_.push_back(key);
+            object.layer = at->second;
+        }
+        if (keys_.size() > kLayers) {
+            return refusal("its bodies, other colliders and triggers have " +
+                           std::to_string(keys_.size()) + " different collision filters; at most " +
+                           std::to_string(kLayers) + " are possible, because each is a layer");
+        }
+        scene().layers.clear();
+        std::set<std::string> used;
+        for (const LayerKey& key : keys_) {
+            const std::string name = name_of(key);
+            std::string unique = name;
+            for (int i = 2; !used.insert(unique).second; ++i) {
+                unique = name + "#" + std::to_string(i);
+            }
+            scene().layers.push_back(unique);
+        }
+        return std::nullopt;
+    }
+
+    static std::string name_of(const LayerKey& key) {
+        const auto named = [](const std::string& kind, const GltfFilter& filter) {
+            std::string systems;
+            for (const std::string& system : filter.systems) {
+                systems += (systems.empty() ? " of " : "+") + system;
+            }
+            return kind + systems;
+        };
+        std::string name;
+        if (key.collider) name = named(key.is_body ? "bodies" : "colliders", *key.collider);
+        if (key.trigger) name += (name.empty() ? "" : " and ") + named("triggers", *key.trigger);
+        return name;
+    }
+
+    void add_pairs() {
+        scene().has_pairs = true;
+        for (std::uint32_t a = 0; a < keys_.size(); ++a) {
+            for (std::uint32_t b = a; b < keys_.size(); ++b) {
+                AskedPair pair{.asked = {.a = a, .b = b}};
+                LayerPair& asked = pair.asked;
+                if (respond(keys_[a], keys_[b])) asked.effects = Ask::response;
+                if (detects(keys_[a], keys_[b]) || detects(keys_[b], keys_[a])) {
+                    asked.effects = asked.effects | Ask::collide;
+                    asked.body = Body::solid;  // the draft says that a trigger is a volume
+                }
+                if (asked.effects != Ask::nothing) scene().pairs.push_back(pair);
+            }
+        }
+        list_filters();
+        if (scene().pairs.empty()) {
+            findings_.assumed(
+                "nothing is computed, because no trigger meets a collider and no "
+                "body meets another collider");
+        }
+    }
+
+    static bool respond(const LayerKey& a, const LayerKey& b) {
+        return a.collider && b.collider && (a.is_body || b.is_body) &&
+               accept(*a.collider, *b.collider);
+    }
+    static bool detects(const LayerKey& trigger, const LayerKey& collider) {
+        return trigger.trigger && collider.collider && accept(*trigger.trigger, *collider.collider);
+    }
+
+    /// The draft's text and its formula contradict each other here.
+    void list_filters() {
+        bool has_lists = false, has_loners = false;
+        for (const LayerKey& key : keys_) {
+            for (const auto* filter : {&key.collider, &key.trigger}) {
+                if (!*filter) continue;
+                has_lists = has_lists || (*filter)->with || (*filter)->without;
+                has_loners = has_loners || (*filter)->systems.empty();
+            }
+        }
+        if (has_lists && has_loners) {
+            findings_.assumed(
+                "a collider or trigger in no collision system is in none of those "
+                "that a filter lists");
+        }
+    }
+
+    /// A scene moves a body only if something can push it.
+    void free_bodies() {
+        std::set<std::uint32_t> responding;
+        for (const AskedPair& pair : scene().pairs) {
+            if (!contains(pair.asked.effects, Ask::response)) continue;
+            responding.insert({pair.asked.a, pair.asked.b});
+        }
+        for (const Place& place : places_) {
+            if (place.new_object == kNone) continue;
+            FileObject& object = scene().objects[place.new_object];
+            if (object.body == kNoBody || responding.contains(object.layer)) continue;
+            object.body = kNoBody;
+            findings_.not_taken("a body that no collider can push; it stays where it is",
+                                pointer_of(place, "collider"));
+        }
+    }
+
+    // --- The rest --------------------------------------------------------------------
+
+    /// Drops the models and motions of nodes that are left out.
+    void keep_models() {
+        std::vector<std::uint32_t> numbers(assembly_.models.size(), kNone);
+        std::vector<AssemblyModel> models;
+        std::vector<fs::path> paths;
+        std::vector<Motion> motions;
+        for (FileObject& object : scene().objects) {
+            std::uint32_t& number = numbers[object.model];
+            if (number == kNone) {
+                number = static_cast<std::uint32_t>(models.size());
+                models.push_back(assembly_.models[object.model]);
+                paths.push_back(scene().models[object.model]);
+            }
+            object.model = number;
+            motions.push_back(scene().motions[object.motion]);
+            object.motion = static_cast<std::uint32_t>(motions.size() - 1);
+        }
+        assembly_.models = std::move(models);
+        scene().models = std::move(paths);
+        scene().motions = std::move(motions);
+    }
+
+    void set_world() {
+        scene().metres_per_unit = metres_per_unit_;
+        scene().step_s = 1.0 / 60;
+        scene().duration_s = 1;
+        findings_.assumed("a step is 1/60 s, and a run takes 1 s without --frames");
+        if (scene().bodies.empty()) return;
+        const format::UpAxis up = options_.up_axis.value_or(format::UpAxis::y);
+        const double g = -kGravity / metres_per_unit_;
+        const bool is_x = up == format::UpAxis::x, is_z = up == format::UpAxis::z;
+        scene().dynamics.gravity = Double3{is_x ? g : 0, is_x || is_z ? 0 : g, is_z ? g : 0};
+        const char* const axis = is_x ? "-x" : is_z ? "-z" : "-y";
+        findings_.assumed(std::string("gravity is 9.81 m/s^2 along ") + axis);
+        findings_.assumed(
+            "of two surfaces, the friction is the geometric mean and the "
+            "restitution the larger one");
+    }
+
+    AssemblyScene& assembly_;
+    const GltfPhysics& physics_;
+    const import::ImportOptions& options_;
+    Findings& findings_;
+    double metres_per_unit_;
+    std::vector<Place> places_;   ///< depth first: MeshNode::number is an index
+    std::vector<LayerKey> keys_;  ///< of the layers
+};
+
+}  // namespace
+
+GltfReading read_gltf_scene(const fs::path& path, const import::ImportOptions& options) {
+    GltfReading reading;
+    Result<AssemblyScene> assembly = read_assembly(path, options);
+    if (!assembly) return {.assembly = {}, .findings = {}, .errors = {assembly.error()}};
+    SceneFile& scene = assembly->scene;
+    const Result<import::SourceFile> file = import::SourceFile::open(path, options.file_bytes);
+    if (!file) return {.assembly = {}, .findings = {}, .errors = {file.error()}};
+    scene.text = json_of(file->bytes());
+    const Result<JsonFile> json = parse_json_file(scene.name, scene.text);
+    if (!json) return {.assembly = {}, .findings = {}, .errors = {json.error()}};
+    Findings findings;
+    std::vector<std::string> errors;
+    const GltfPhysics physics = read_gltf_physics(*json, findings, errors);
+    for (std::string& error : errors) {
+        reading.errors.push_back({ErrorCode::unreadable, std::move(error)});
+    }
+    if (!reading.errors.empty()) return reading;
+    if (auto error = SceneBuilder(*assembly, physics, options, findings).run()) {
+        reading.errors.push_back(*std::move(error));
+        return reading;
+    }
+    reading.findings = findings.sentences(scene.name);
+    reading.assembly.emplace(std::move(assembly).value());
+    return reading;
+}
+
+}  // namespace cdprep::scenes
