@@ -93,15 +93,15 @@ def gltf(meshes, nodes, roots=None, **buffer):
     return document, data
 
 
-def write_gltf(path, meshes, nodes, roots=None):
-    """Writes .gltf with the buffer in the text, or .glb."""
+def write_gltf(path, meshes, nodes, roots=None, **members):
+    """Writes .gltf with the buffer in the text, or .glb. `members` are more of the document."""
+    document, data = gltf(meshes, nodes, roots)
+    document.update(members)
     if path.suffix == ".gltf":
-        document, data = gltf(meshes, nodes, roots)
         document["buffers"][0]["uri"] = (
             "data:application/octet-stream;base64," + base64.b64encode(data).decode())
         path.write_text(json.dumps(document))
         return path
-    document, data = gltf(meshes, nodes, roots)
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
     data += b"\0" * (-len(data) % 4)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@
 #include "cli/signals.h"
 #include "command_line/command_line.h"
 #include "scene_file/effect_words.h"
+#include "scene_file/gltf_scene.h"
 #include "scene_file/load_models.h"
 #include "scene_file/read_scene.h"
 #include "simulate/effect_costs.h"
@@ -27,6 +29,7 @@
 #include "simulate/simulation.h"
 #include "simulate/simulation_report.h"
 #include "text/number_text.h"
+#include "text/printable.h"
 
 namespace cdprep::cli {
 namespace {
@@ -114,21 +117,44 @@ public:
 private:
     /// Reads the scene file, or a recording of one. Returns the exit code if that fails.
     std::optional<Exit> read() {
-        scenes::SceneReading reading;
-        if (scenes::Recording::is_one(arguments_.scene)) {
-            auto opened = scenes::Recording::open(arguments_.scene);
+        fs::path file = arguments_.scene;
+        if (scenes::Recording::is_one(file)) {
+            auto opened = scenes::Recording::open(file);
             if (!opened) return fail("simulate", opened.error());
             replay_.emplace(std::move(opened).value());
-            reading = scenes::parse_scene(replay_->scene_name(), replay_->scene_text(),
-                                          replay_->folder());
-            folder_ = replay_->folder();
-        } else {
-            reading = scenes::read_scene(arguments_.scene);
-            folder_ = arguments_.scene.parent_path();
+            file = replay_->folder() / fs::path(replay_->scene_name()).filename();
         }
-        if (!reading.scene) return fail_all(reading.errors, ErrorCode::unreadable);
-        scene_ = std::move(*reading.scene);
+        folder_ = replay_ ? replay_->folder() : file.parent_path();
+        if (scenes::is_assembly(file)) {
+            if (const auto failed = read_gltf(file.lexically_normal())) return failed;
+        } else {
+            scenes::SceneReading reading =
+                replay_ ? scenes::parse_scene(replay_->scene_name(), replay_->scene_text(), folder_)
+                        : scenes::read_scene(file);
+            if (!reading.scene) return fail_all(reading.errors, ErrorCode::unreadable);
+            scene_ = std::move(*reading.scene);
+        }
         if (replay_) stop_motions();
+        return std::nullopt;
+    }
+
+    /// Meshes are in the file, so a replay reads it again.
+    std::optional<Exit> read_gltf(const fs::path& file) {
+        import::ImportOptions options = arguments_.import.options();
+        options.parallel_for = threads_.parallel_for();
+        scenes::GltfReading reading = scenes::read_gltf_scene(file, options);
+        for (const Error& error : reading.errors) fail("simulate", error);
+        if (!reading.assembly) return exit_for(reading.errors.back().code);
+        for (const std::string& finding : reading.findings) {
+            std::cerr << "cdprep simulate: " << report::printable(finding) << '\n';
+        }
+        assembly_ = std::move(reading.assembly);
+        scene_ = std::move(assembly_->scene);
+        if (replay_ && replay_->scene_text() != scene_.text) {
+            return fail("simulate",
+                        {ErrorCode::unreadable, scene_.name + ": this is not the file that was "
+                                                              "recorded. Record the scene anew."});
+        }
         return std::nullopt;
     }
 
@@ -212,6 +238,7 @@ private:
         options.cache = arguments_.cache;
         options.import = arguments_.import.options();
         options.import.parallel_for = threads_.parallel_for();
+        options.assembly = assembly_ ? &*assembly_ : nullptr;
         options.begins = [&](std::size_t done, const std::string& what) {
             progress.show(done, what);
         };
@@ -341,7 +368,8 @@ private:
     ProgressStyle style_;
     const Threads threads_;
     scenes::SceneFile scene_;
-    fs::path folder_;  ///< of the scene file
+    std::optional<scenes::AssemblyScene> assembly_;  ///< of a glTF file, without its scene
+    fs::path folder_;                                ///< of the scene file
     std::vector<scenes::SceneModel> models_;
     std::optional<scenes::Recording> replay_;  ///< the scene is one
     std::optional<ReportOutput> record_;
@@ -445,14 +473,21 @@ void add_simulate(const Command& app, Exit& exit) {
         "layers the effects to compute. Objects of layers that are not paired are never looked "
         "at. Events do not depend on the number of threads. Motions may deform and tear models: "
         "a shear, a twist, a vertex stream (PC2), or a cut along a plane. With response, bodies "
-        "fall, push each other and come to rest.",
+        "fall, push each other and come to rest. A glTF file is a scene too, by its extension "
+        "KHR_physics_rigid_bodies. Collision filters become layers, and motions become bodies. "
+        "Triggers tell which colliders begin and end to collide with them. The mesh of a node is "
+        "its geometry. Standard error lists what is not taken, and what is assumed because the "
+        "file does not state it.",
         {"cdprep simulate samples/scenes/crates.json --plan",
          "cdprep simulate samples/scenes/crates.json --frames 100",
          "cdprep simulate samples/scenes/cut.json --format text",
          "cdprep simulate samples/scenes/pile.json --html pile.html",
          "cdprep simulate samples/scenes/crates.json -o events.ndjson --html crates.html",
-         "cdprep simulate samples/scenes/crates.json --format text --cost"});
-    command.add_option("scene", arguments->scene, "A scene file (JSON), or a recording of one")
+         "cdprep simulate samples/scenes/crates.json --format text --cost",
+         "cdprep simulate level.glb --plan"});
+    command
+        .add_option("scene", arguments->scene,
+                    "A scene file (JSON), a glTF file, or a recording of either")
         .required();
     const Option plan =
         command
