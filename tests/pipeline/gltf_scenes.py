@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""cdprep simulate X.gltf: triggers of KHR_physics_rigid_bodies tell what is known by hand, and what
-a scene file of the same objects tells; forms, threads, the cache and recordings change nothing;
-what is not taken is listed; mistakes have their exit codes.
+"""cdprep simulate X.gltf: triggers of KHR_physics_rigid_bodies have the events known by hand. A
+scene file of the same objects has the same events. Forms, threads, the cache and recordings change
+nothing. What is not taken is listed. Mistakes have their exit codes.
 
 Usage: gltf_scenes.py CDPREP
 """

@@ -303,8 +303,8 @@ private:
         return surface;
     }
 
-    /// Returns whether the mesh of the node itself is the geometry of its collider or trigger, and
-    /// lists what is not.
+    /// Returns whether the mesh of the node is the geometry of its collider or trigger. Lists other
+    /// geometry.
     bool takes_geometry(const JsonElement& surface, std::uint32_t node, const std::string& kind) {
         if (const Element shape = surface.find("shape"); shape && !surface.find("geometry")) {
             return takes_mesh_instead("the shape of an older draft", shape->pointer(), node, kind);

@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "scene_file/compile_scene.h"
