@@ -253,11 +253,9 @@ void Scene::State::ask_all(std::span<Workspace> workspaces, ParallelFor parallel
     if (triangle_pairs) triangle_pairs->start();
     if (contact_pages) contact_pages->start();
     std::fill_n(ticks, plan->limits().threads, EffectTicks{});
-    const std::uint64_t begin = now();
     share_jobs(asked_count, threads, parallel_for, [&](std::size_t job, std::size_t worker) {
         ask(asked[job], workspaces[worker], start_lists(worker));
     });
-    query_ticks = now() - begin;
 }
 
 // Lists -------------------------------------------------------------------------------------------
@@ -437,12 +435,16 @@ void Scene::State::accept_changes() noexcept {
     last_paused = paused;
 }
 
-/// Computes a step from the candidates in `next`.
-SceneStep Scene::State::compute(std::span<Workspace> workspaces,
+/// Computes a step from the candidates in `next`. `begin` is the time at which the step began: each
+/// stage begins where the last one ends, so that their ticks make up the step.
+SceneStep Scene::State::compute(std::uint64_t begin, std::span<Workspace> workspaces,
                                 ParallelFor parallel_for) noexcept {
     keep_known();
+    const std::uint64_t queries_begin = now();
+    box_ticks = queries_begin - begin;
     ask_all(workspaces, parallel_for);
-    const std::uint64_t begin = now();
+    const std::uint64_t lists_begin = now();
+    query_ticks = lists_begin - queries_begin;
     const SceneStep step = place_lists();
     if (!step.complete) return step;
     fill_lists(std::min<std::size_t>(workspaces.size(), plan->limits().threads), parallel_for);
@@ -451,7 +453,7 @@ SceneStep Scene::State::compute(std::span<Workspace> workspaces,
     std::swap(last, next);
     list_results();
     accept_changes();
-    counts.list_ticks = now() - begin;
+    counts.list_ticks = now() - lists_begin;
     return step;
 }
 
@@ -470,8 +472,7 @@ SceneStep Scene::State::step(std::span<Workspace> workspaces, ParallelFor parall
     }
     const std::uint64_t count = list_candidates(candidates.pairs);
     if (count > plan->limits().pairs) return {.complete = false, .needed_pairs = count};
-    box_ticks = now() - begin;
-    return compute(workspaces, parallel_for);
+    return compute(begin, workspaces, parallel_for);
 }
 
 SceneStep Scene::State::step_with(std::span<const BoxPair> candidates,
@@ -481,8 +482,7 @@ SceneStep Scene::State::step_with(std::span<const BoxPair> candidates,
     place_changed();
     const std::uint64_t count = list_given(candidates);
     if (count > plan->limits().pairs) return {.complete = false, .needed_pairs = count};
-    box_ticks = now() - begin;
-    const SceneStep step = compute(workspaces, parallel_for);
+    const SceneStep step = compute(begin, workspaces, parallel_for);
     broad_phase_is_late = true;
     return step;
 }

@@ -130,7 +130,7 @@ struct Scene::State {
     void list_results() noexcept;
     void list_lists_of(std::uint32_t number) noexcept;
     void accept_changes() noexcept;
-    [[nodiscard]] SceneStep compute(std::span<Workspace> workspaces,
+    [[nodiscard]] SceneStep compute(std::uint64_t begin, std::span<Workspace> workspaces,
                                     ParallelFor parallel_for) noexcept;
     SceneStep step(std::span<Workspace> workspaces, ParallelFor parallel_for) noexcept;
     SceneStep step_with(std::span<const BoxPair> candidates, std::span<Workspace> workspaces,

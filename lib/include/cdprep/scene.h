@@ -151,8 +151,9 @@ struct SceneCounts {
 
     /// With Scene::set_clock(), the ticks of the queries of each effect, summed over all threads.
     std::array<std::uint64_t, kSceneEffects.size()> ticks{};
-    std::uint64_t box_ticks = 0;    ///< of boxes and the broad phase, likewise
-    std::uint64_t query_ticks = 0;  ///< from the first query to the end of the last
+    /// The ticks of the stages of a step, one after the other. Together they are the step.
+    std::uint64_t box_ticks = 0;    ///< of boxes, the broad phase and what the last step knew
+    std::uint64_t query_ticks = 0;  ///< of all queries, from their begin to their end
     std::uint64_t list_ticks = 0;   ///< of lists and events
 
     /// Returns the calls of one effect; 0 if it is none of kSceneEffects.
