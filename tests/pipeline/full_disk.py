@@ -60,6 +60,13 @@ def main():
              f"exit {last.returncode} when no byte is free: {last.stderr}")
         must(sorted(path.name for path in disk.iterdir()) == ["filler", "m.cdp.h5"],
              "a stray file was left on a disk without a free byte")
+        # The chart has room and the page has none: neither appears.
+        (disk / "filler").unlink()
+        scene = pathlib.Path(__file__).resolve().parents[2] / "samples/scenes/crates.json"
+        pages = run(program, "simulate", scene, "--html", disk / "p.html", "--svg", disk / "p.svg")
+        must(pages.returncode == 4 and "p.html" in pages.stderr,
+             f"exit {pages.returncode} without room for a page: {pages.stderr}")
+        must([path.name for path in disk.iterdir()] == ["m.cdp.h5"], "a chart was left alone")
     print(full.stderr.strip())
     print(last.stderr.strip())
 
