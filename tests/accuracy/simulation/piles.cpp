@@ -165,6 +165,8 @@ void play_ours(Table& table, const Pile& pile, Promise promise, bool prints) {
         {"piles", pile.name + ": speed at the end, m/s", "cdprep", outcome.speed, 1e-3, promise});
     table.add({"piles", pile.name + ": overlap at the end, sizes", "cdprep",
                deepest(*world->ours()) / kSize, 0.01, promise});
+    table.add({"piles", pile.name + ": at rest after, s (-1: never)", "cdprep", outcome.rest_s,
+               pile.seconds});
     table.add({"piles", pile.name + ": median ms a frame", "cdprep", outcome.frame_ms, 1e9});
 }
 
@@ -176,6 +178,8 @@ void play_peer(Table& table, Pile pile) {
     const char* name = name_of(Engine::gimpact);
     table.add({"piles", pile.name + ": outside the box", name, double(outcome.outside), 0});
     table.add({"piles", pile.name + ": speed after 5 s, m/s", name, outcome.speed, 1e-3});
+    table.add({"piles", pile.name + ": at rest after, s (-1: never)", name, outcome.rest_s,
+               pile.seconds});
     table.add({"piles", pile.name + ": median ms a frame", name, outcome.frame_ms, 1e9});
 }
 

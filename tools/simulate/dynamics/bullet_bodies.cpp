@@ -297,7 +297,7 @@ Result<Pose> BulletBodies::stopped(std::uint32_t number, const Pose& end, double
     std::optional<std::uint32_t> first;
     for (std::uint32_t i = 0; i < body_count(); ++i) {
         const BulletBody& other = *bodies_[i];
-        if (i == number) continue;
+        if (i == number || !scene_.are_paired(number, i)) continue;
         if (mesh::euclidean_distance(body.state.centre, other.state.centre) >
             reach + other.mass.radius) {
             continue;

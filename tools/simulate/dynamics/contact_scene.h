@@ -27,6 +27,10 @@ public:
     /// Fails with bad_argument if the groups and kinds of the bodies need too many layers.
     [[nodiscard]] Result<Done> add(const RigidBody& body);
     void set_pose(std::uint32_t object, const Pose& world_from_model);
+    /// Returns whether contacts of two objects are looked for.
+    [[nodiscard]] bool are_paired(std::uint32_t a, std::uint32_t b) const {
+        return push_each_other(layers_[objects_[a].layer], layers_[objects_[b].layer]);
+    }
     /// Of a moving or driven body.
     void set_pace(std::uint32_t object, Pace pace);
     /// Finds the contacts of all objects as they are now.
