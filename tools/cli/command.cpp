@@ -40,6 +40,18 @@ Exit fail(const char* command, const Error& error) {
     return exit_for(error.code);
 }
 
+Exit fail_all(const char* command, const std::vector<Error>& errors) {
+    Exit last = Exit::success;
+    for (const Error& error : errors) last = fail(command, error);
+    return last;
+}
+
+Exit fail_all(const char* command, const std::vector<std::string>& sentences, ErrorCode code) {
+    std::vector<Error> errors;
+    for (const std::string& sentence : sentences) errors.push_back({code, sentence});
+    return fail_all(command, errors);
+}
+
 void add_input(const Command& command, std::filesystem::path& input) {
     command.add_option("input", input, "A mesh file: OBJ, STL, PLY, OFF, glTF, 3MF and others")
         .required();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cdprep/result.h"
 #include "command_line/exit_codes.h"
@@ -15,6 +16,10 @@ namespace cdprep::cli {
 
 /// Prints "cdprep COMMAND: MESSAGE" on stderr and returns the error's exit code.
 Exit fail(const char* command, const Error& error);
+/// Reports all errors. Returns the exit code of the last one.
+Exit fail_all(const char* command, const std::vector<Error>& errors);
+/// Reports sentences that have one code.
+Exit fail_all(const char* command, const std::vector<std::string>& sentences, ErrorCode code);
 
 /// The report of a failed run: the input, the exit code and the message.
 template <class Report>

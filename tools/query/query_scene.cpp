@@ -51,7 +51,7 @@ public:
         scenes::drop_effect(scene(), Ask::response);  // bodies are asked where they begin
         // First without models: nothing is baked for a plan that does not exist.
         Plan::Compiled compiled = scenes::compile_scene(scene(), {});
-        if (!compiled.plan) return fail_all(compiled.refusals, ErrorCode::bad_argument);
+        if (!compiled.plan) return fail_all("query", compiled.refusals, ErrorCode::bad_argument);
         if (const auto exit = load(*compiled.plan)) return *exit;
         Result<std::vector<Part>> parts = parts_of(scene(), *compiled.plan, models_);
         if (!parts) return fail("query", parts.error());
@@ -59,7 +59,7 @@ public:
         set_default_reach();
         std::vector<std::string> names;
         compiled = scenes::compile_scene(scene(), {}, scenes::uses_of(scene(), models_, names));
-        if (!compiled.plan) return fail_all(compiled.refusals, ErrorCode::bad_argument);
+        if (!compiled.plan) return fail_all("query", compiled.refusals, ErrorCode::bad_argument);
         const Result<Done> done = search(*compiled.plan);
         return done ? Exit::success : fail("query", done.error());
     }
@@ -70,11 +70,6 @@ private:
     }
     [[nodiscard]] Ask effect() const noexcept {
         return question_.question.effect;
-    }
-
-    static Exit fail_all(const std::vector<std::string>& sentences, ErrorCode code) {
-        for (const std::string& sentence : sentences) fail("query", {code, sentence});
-        return exit_for(code);
     }
 
     /// Returns the exit code of a failure.
@@ -88,7 +83,7 @@ private:
             return std::nullopt;
         }
         scenes::SceneReading reading = scenes::read_scene(arguments_.scene);
-        if (!reading.scene) return fail_all(reading.errors, ErrorCode::unreadable);
+        if (!reading.scene) return fail_all("query", reading.errors, ErrorCode::unreadable);
         scene_ = std::move(*reading.scene);
         for (const scenes::FileObject& object : scene_.objects) {
             if (object.change == scenes::kUnchanged) continue;
@@ -164,20 +159,14 @@ private:
 
     /// Returns the exit code of a failure.
     std::optional<Exit> load(const Plan& plan) {
-        Progress progress(style_, scene().models.size());
         scenes::LoadOptions options;
         options.cache = arguments_.cache;
         options.import = arguments_.import.options();
         options.import.parallel_for = threads_.parallel_for();
         options.assembly = assembly_ ? &*assembly_ : nullptr;
-        options.begins = [&](std::size_t done, const std::string& what) {
-            progress.show(done, what);
-        };
-        scenes::LoadedModels loaded = scenes::load_models(scene(), plan, options, threads_);
-        progress.clear();
-        for (const Error& error : loaded.errors) fail("query", error);
-        // The last one, which may have ended the loading.
-        if (!loaded.errors.empty()) return exit_for(loaded.errors.back().code);
+        scenes::LoadedModels loaded =
+            scenes::load_models(scene(), plan, std::move(options), style_, threads_);
+        if (!loaded.errors.empty()) return fail_all("query", loaded.errors);
         models_ = std::move(loaded.models);
         return std::nullopt;
     }

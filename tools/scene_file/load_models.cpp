@@ -158,6 +158,15 @@ LoadedModels load_models(const SceneFile& scene, const Plan& plan, const LoadOpt
     return all;
 }
 
+LoadedModels load_models(const SceneFile& scene, const Plan& plan, LoadOptions options,
+                         cli::ProgressStyle style, const cli::Threads& threads) {
+    cli::Progress progress(style, scene.models.size());
+    options.begins = [&](std::size_t done, const std::string& what) { progress.show(done, what); };
+    LoadedModels loaded = load_models(scene, plan, options, threads);
+    progress.clear();
+    return loaded;
+}
+
 std::vector<ModelUse> uses_of(const SceneFile& scene, const std::vector<SceneModel>& models,
                               std::vector<std::string>& names) {
     names.clear();

@@ -11,6 +11,7 @@
 #include "bake/pipeline.h"
 #include "cdprep/model.h"
 #include "cli/program_threads.h"
+#include "cli/progress.h"
 #include "import/import_file.h"
 #include "scene_file/compile_scene.h"
 #include "scene_file/read_assembly.h"
@@ -53,6 +54,11 @@ struct LoadedModels {
 /// not that of the scene. Any other error is the last: no model is opened after it.
 [[nodiscard]] LoadedModels load_models(const SceneFile& scene, const Plan& plan,
                                        const LoadOptions& options, const cli::Threads& threads);
+
+/// The same, and shows the progress.
+[[nodiscard]] LoadedModels load_models(const SceneFile& scene, const Plan& plan,
+                                       LoadOptions options, cli::ProgressStyle style,
+                                       const cli::Threads& threads);
 
 /// Returns the uses of the models that were opened, for compile_scene(). `names` gets the names
 /// that they refer to.

@@ -71,12 +71,6 @@ std::vector<fs::path> inputs_of(const scenes::SceneFile& scene) {
     return inputs;
 }
 
-/// Prints sentences and returns their exit code.
-Exit fail_all(const std::vector<std::string>& sentences, ErrorCode code) {
-    for (const std::string& sentence : sentences) fail("simulate", {code, sentence});
-    return exit_for(code);
-}
-
 /// One run of the command.
 class Run {
 public:
@@ -131,7 +125,7 @@ private:
             scenes::SceneReading reading =
                 replay_ ? scenes::parse_scene(replay_->scene_name(), replay_->scene_text(), folder_)
                         : scenes::read_scene(file);
-            if (!reading.scene) return fail_all(reading.errors, ErrorCode::unreadable);
+            if (!reading.scene) return fail_all("simulate", reading.errors, ErrorCode::unreadable);
             scene_ = std::move(*reading.scene);
         }
         if (replay_) stop_motions();
@@ -143,8 +137,7 @@ private:
         import::ImportOptions options = arguments_.import.options();
         options.parallel_for = threads_.parallel_for();
         scenes::GltfReading reading = scenes::read_gltf_scene(file, options);
-        for (const Error& error : reading.errors) fail("simulate", error);
-        if (!reading.assembly) return exit_for(reading.errors.back().code);
+        if (!reading.assembly) return fail_all("simulate", reading.errors);
         for (const std::string& finding : reading.findings) {
             std::cerr << "cdprep simulate: " << report::printable(finding) << '\n';
         }
@@ -228,25 +221,19 @@ private:
                 report::refused_json(scene_.name, static_cast<int>(exit), refusals);
             if (const Exit written = finish(json); written != Exit::success) return written;
         }
-        return fail_all(refusals, ErrorCode::bad_argument);
+        return fail_all("simulate", refusals, ErrorCode::bad_argument);
     }
 
     /// Returns the exit code if models cannot be loaded.
     std::optional<Exit> load(const Plan& plan) {
-        Progress progress(style_, scene_.models.size());
         scenes::LoadOptions options;
         options.cache = arguments_.cache;
         options.import = arguments_.import.options();
         options.import.parallel_for = threads_.parallel_for();
         options.assembly = assembly_ ? &*assembly_ : nullptr;
-        options.begins = [&](std::size_t done, const std::string& what) {
-            progress.show(done, what);
-        };
-        scenes::LoadedModels loaded = scenes::load_models(scene_, plan, options, threads_);
-        progress.clear();
-        for (const Error& error : loaded.errors) fail("simulate", error);
-        // The last one, which may have ended the loading.
-        if (!loaded.errors.empty()) return exit_for(loaded.errors.back().code);
+        scenes::LoadedModels loaded =
+            scenes::load_models(scene_, plan, std::move(options), style_, threads_);
+        if (!loaded.errors.empty()) return fail_all("simulate", loaded.errors);
         models_ = std::move(loaded.models);
         return std::nullopt;
     }
