@@ -128,7 +128,7 @@ public:
           metres_per_unit_(options.metres_per_unit.value_or(1)) {}
 
     std::optional<Error> run() {
-        if (const auto error = place_nodes()) return error;
+        if (auto error = place_nodes()) return error;
         std::vector<FileObject> all = std::move(scene().objects);
         scene().objects.clear();
         for (Place& place : places_) keep_object(place, all);
@@ -138,7 +138,7 @@ public:
                 "there is nothing to compute");
         }
         move_all();
-        if (const auto error = add_layers()) return error;
+        if (auto error = add_layers()) return error;
         add_pairs();
         free_bodies();
         keep_models();
