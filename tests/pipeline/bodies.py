@@ -42,7 +42,7 @@ def the_pile(program, folder):
     must(bodies_of(one) == bodies_of(two), f"{one['response']} {two['response']}")
     replayed, three = simulate(program, first, "--record", third)
     must(first.read_bytes() == third.read_bytes() and events == replayed, "the replay differs")
-    must("response" not in three, "a replay computes bodies")
+    must("response" not in three and three["response_is_replayed"], "a replay computes bodies")
     response = one["response"]
     must(response["bodies"] == 20 and response["driven"] == 0, f"{response}")
     must(response["asked_by"] == ["bodies-trays", "bodies-bodies"], f"{response}")
@@ -96,6 +96,8 @@ def costs(program, folder):
     _, summary = simulate(program, scene, "--cost", "-j", 1)
     cost = {row["without"]: row["change_of_time"] for row in summary["costs"]}
     must(set(cost) == {"response", "collide"} and cost["response"] < cost["collide"], f"{cost}")
+    many = run(program, "simulate", scene, "--cost", "--frames", 900000000)
+    must(many.returncode == 5 and "bytes of poses; at most" in many.stderr, many.stderr)
     share = summary["response"]["frame_ms"] / (summary["response"]["frame_ms"]
                                                + sum(summary["stages_ms"].values())
                                                + summary["effects"][0]["frame_ms"])
@@ -134,6 +136,16 @@ def refusals(program, folder):
     must(len(told["refusals"]) == len(parts), f"{told['refusals']}")
     for part, sentence in zip(parts, told["refusals"]):
         must(part in sentence, sentence)
+    box = {"name": "box", "model": str(SCENES / "crate.obj"), "layer": "a", "motion": "body"}
+    for part, members, material in (
+            ("300 contacts; 1 to 256 are possible", {"dynamics": {"most_contacts": 300}}, {}),
+            ("2000000 iterations; at most 1000000", {"dynamics": {"iterations": 2000000}}, {}),
+            ("object 'box': the friction is 1e+07", {}, {"friction": 1e7})):
+        scene = write_scene(folder / "numbers.json", layers=["a"], gravity=[0, 0, -1], **members,
+                            pairs=[{"layers": ["a", "a"], "effects": ["response"]}],
+                            objects=[dict(box, material=material)])
+        done = run(program, "simulate", scene, "--plan")
+        must(done.returncode == 2 and part in done.stderr, f"{part}: {done.stderr}")
     alone = write_scene(folder / "alone.json", layers=["a"], gravity=[0, 0, -1], pairs=[],
                         objects=[{"name": "x", "model": "sheet.obj", "layer": "a",
                                   "motion": "body"}])

@@ -104,17 +104,20 @@ void Progress::tell_while_it_lasts() {
     std::unique_lock lock(mutex_);
     while (!over_) {
         ended_.wait_for(lock, pause());
-        const bool is_long = style_ == ProgressStyle::bar || Clock::now() - begun_ >= pause();
+        const Clock::time_point now = Clock::now();
+        const bool is_long =
+            now - drawn_at_ >= pause() && (style_ == ProgressStyle::bar || now - begun_ >= pause());
         if (!over_ && !what_.empty() && is_long) draw();
     }
 }
 
 /// Returns ", 12 s, 43 %": nothing in the first second, and a share only if there is one input.
 std::string Progress::since() const {
-    const auto passed = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - begun_);
+    const Clock::duration exact = Clock::now() - begun_;
+    const auto passed = std::chrono::duration_cast<std::chrono::seconds>(exact);
     if (passed.count() < 1) return "";
     std::string text = ", " + std::to_string(passed.count()) + " s";
-    if (is_loop_) return text + time_left_text(passed, done_ - first_, total_ - first_);
+    if (is_loop_) return text + time_left_text(exact, done_ - first_, total_ - first_);
     const LoopShare share = watched_loop();
     if (total_ == 1 && share.count > 1) {
         text += ", " + std::to_string(100 * share.done / share.count) + " %";

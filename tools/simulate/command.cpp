@@ -61,9 +61,10 @@ std::vector<fs::path> outputs_of(const Arguments& arguments) {
             arguments.html, arguments.svg};
 }
 
-/// Returns the files that a scene refers to.
+/// Returns the files that a scene refers to, and its own.
 std::vector<fs::path> inputs_of(const scenes::SceneFile& scene) {
     std::vector<fs::path> inputs = scene.models;
+    inputs.emplace_back(scene.name);
     for (const scenes::Change& change : scene.changes) {
         const auto* stream = change.deform ? std::get_if<scenes::Stream>(&*change.deform) : nullptr;
         if (stream != nullptr) inputs.push_back(stream->file);
@@ -250,6 +251,10 @@ private:
         const Result<std::uint64_t> counted = frame_count();
         if (!counted) return fail("simulate", counted.error());
         const std::uint64_t frames = *counted;
+        if (arguments_.cost) {
+            const Result<Done> fits = scenes::check_cost_room(scene_, frames);
+            if (!fits) return fail("simulate", fits.error());
+        }
         const auto bodies = replay_ ? scenes::BodyPoses::given : scenes::BodyPoses::computed;
         auto simulation = scenes::Simulation::make(scene_, models_, thread_count(),
                                                    threads_.parallel_for(), bodies);
@@ -319,9 +324,14 @@ private:
         options.frames = frames;
         options.threads = thread_count();
         options.parallel_for = threads_.parallel_for();
-        options.begins = [&](std::uint64_t run, std::uint64_t runs) -> Result<Done> {
-            if (is_interrupted()) return stopped(frames, frames);
-            progress.advance(frames * run / runs, "cost");
+        options.begins = [&](std::uint64_t done, std::uint64_t all) -> Result<Done> {
+            if (is_interrupted()) {
+                return Error{ErrorCode::interrupted,
+                             scene_.name +
+                                 ": stopped while --cost measured; the output is "
+                                 "incomplete."};
+            }
+            progress.advance(frames * done / all, "cost");
             return Done{};
         };
         auto costs = scenes::measure_costs(scene_, models_, options);
@@ -449,12 +459,7 @@ void add_report_options(const Command& command, Arguments& arguments) {
         .group("Report");
 }
 
-}  // namespace
-
-void add_simulate(const Command& app, Exit& exit) {
-    auto arguments = std::make_shared<Arguments>();
-    const Command command =
-        app.add_command("simulate", "Compute what the objects of a scene ask about each other");
+void add_notes(const Command& command) {
     command.set_notes(
         "A scene file is JSON: objects with models, layers, poses and motions, and for pairs of "
         "layers the effects to compute. Objects of layers that are not paired are never looked "
@@ -472,6 +477,15 @@ void add_simulate(const Command& app, Exit& exit) {
          "cdprep simulate samples/scenes/crates.json -o events.ndjson --html crates.html",
          "cdprep simulate samples/scenes/crates.json --format text --cost",
          "cdprep simulate level.glb --plan"});
+}
+
+}  // namespace
+
+void add_simulate(const Command& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    const Command command =
+        app.add_command("simulate", "Compute what the objects of a scene ask about each other");
+    add_notes(command);
     command
         .add_option("scene", arguments->scene,
                     "A scene file (JSON), a glTF file, or a recording of either")

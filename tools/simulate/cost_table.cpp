@@ -40,21 +40,32 @@ std::uint64_t state_bytes_of(const scenes::SceneFile& scene, const Plan& plan, A
     return compiled.plan ? whole - std::min(whole, Scene::size(*compiled.plan)) : 0;
 }
 
-/// Returns what an effect reads of a model.
-format::SectionSet sections_of(Ask effect) {
-    return sections_for(effect == Ask::response ? Ask::contacts | Ask::response : effect);
+/// Returns the queries of an effect of a pair of layers.
+Ask asks_of(const scenes::SceneFile& scene, const LayerPair& pair, Ask effect) {
+    constexpr Ask kReadsBody = Ask::collide | Ask::distance | Ask::contacts | Ask::continuous;
+    if (effect == Ask::response) {
+        const bool continuous =
+            std::ranges::any_of(scene.bodies, &scenes::BodyMotion::is_continuous);
+        const Ask bodies = Ask::contacts | Ask::response | Ask::solid;
+        return continuous ? bodies | Ask::distance : bodies;
+    }
+    const bool solid = pair.body == Body::solid && (effect & kReadsBody) != Ask::nothing;
+    return solid ? effect | Ask::solid : effect;
 }
 
 std::uint64_t read_bytes_of(const scenes::SceneFile& scene, Ask effect,
                             std::span<const scenes::SceneModel> models) {
-    std::uint32_t layers = 0;
-    for (const scenes::AskedPair& pair : scene.pairs) {
-        if (contains(pair.asked.effects, effect)) layers |= 1U << pair.asked.a | 1U << pair.asked.b;
-    }
     std::uint64_t bytes = 0;
     for (const scenes::SceneModel& model : models) {
-        if (!model.model || (model.needs.layers & layers) == 0) continue;
-        bytes += bytes_of(*model.model, sections_of(effect));
+        if (!model.model) continue;
+        format::SectionSet sections;
+        for (const scenes::AskedPair& pair : scene.pairs) {
+            const std::uint32_t layers = 1U << pair.asked.a | 1U << pair.asked.b;
+            if (!contains(pair.asked.effects, effect) || (model.needs.layers & layers) == 0)
+                continue;
+            sections.insert(sections_for(asks_of(scene, pair.asked, effect)));
+        }
+        bytes += bytes_of(*model.model, sections);
     }
     return bytes;
 }

@@ -7,6 +7,7 @@
 
 #include "scene_file/compile_scene.h"
 #include "simulate/effect_counts.h"
+#include "text/number_text.h"
 
 namespace cdprep::scenes {
 namespace {
@@ -23,18 +24,26 @@ Ask effects_of(const SceneFile& file) {
     return all;
 }
 
+struct Runs {
+    std::uint64_t done = 0;
+    std::uint64_t all = 0;
+};
+
 /// The poses of the bodies in each frame.
 using BodyPath = std::vector<std::vector<GivenPose>>;
 
 /// Measures one run. A scene without `response` gets the poses of the bodies from `path`. A scene
 /// with it writes them there, the same ones in each run.
 Result<double> time_of_frames(const SceneFile& file, std::span<const SceneModel> models,
-                              const CostOptions& options, BodyPath& path) {
+                              const CostOptions& options, const Runs& runs, BodyPath& path) {
     auto simulation = Simulation::make(file, models, options.threads, options.parallel_for);
     if (!simulation) return simulation.error();
     const Response* response = simulation->response();
     double seconds = 0;
     for (std::uint64_t frame = 0; frame < options.frames; ++frame) {
+        const Result<Done> begins =
+            options.begins(runs.done * options.frames + frame, runs.all * options.frames);
+        if (!begins) return begins.error();
         std::span<const GivenPose> given;
         if (response == nullptr && frame < path.size()) given = path[frame];
         if (const Result<Done> done = simulation->step(frame, given); !done) return done.error();
@@ -63,6 +72,19 @@ EffectCost cost_of(Ask effect, const Variant& whole, const Variant& without_it) 
 
 }  // namespace
 
+Result<Done> check_cost_room(const SceneFile& file, std::uint64_t frames) {
+    constexpr double kMost = 1e9;  // bytes
+    const auto bodies = std::ranges::count_if(
+        file.objects, [](const FileObject& object) { return object.body != kNoBody; });
+    const double bytes = static_cast<double>(frames) * static_cast<double>(bodies) *
+                         static_cast<double>(sizeof(GivenPose));
+    if (bytes <= kMost) return Done{};
+    return Error{ErrorCode::over_budget,
+                 file.name + ": --cost would keep " + report::number_text(bytes) +
+                     " bytes of poses; at most " + report::number_text(kMost) +
+                     " are possible. Compute fewer frames."};
+}
+
 Result<std::vector<EffectCost>> measure_costs(const SceneFile& file,
                                               std::span<const SceneModel> models,
                                               const CostOptions& options) {
@@ -80,8 +102,8 @@ Result<std::vector<EffectCost>> measure_costs(const SceneFile& file,
         const std::size_t place = run % variants.size();
         const bool is_backwards = run / variants.size() % 2 == 1;
         Variant& variant = variants[is_backwards ? variants.size() - 1 - place : place];
-        if (const Result<Done> begins = options.begins(run, all); !begins) return begins.error();
-        const Result<double> seconds = time_of_frames(variant.file, models, options, path);
+        const Result<double> seconds =
+            time_of_frames(variant.file, models, options, {run, all}, path);
         if (!seconds) return seconds.error();
         variant.seconds.push_back(*seconds);
     }

@@ -22,7 +22,7 @@ struct CostOptions {
     std::uint32_t rounds = 5;
     std::uint32_t threads = 1;
     ParallelFor parallel_for = serial_for;
-    /// Called before each run of a round, with the number of runs before and of all runs. An error
+    /// Called before each frame, with the number of frames before and of all, in all runs. An error
     /// ends the measurement.
     std::function<Result<Done>(std::uint64_t done, std::uint64_t all)> begins =
         [](std::uint64_t /*done*/, std::uint64_t /*all*/) { return Done{}; };
@@ -35,5 +35,8 @@ struct CostOptions {
 [[nodiscard]] Result<std::vector<EffectCost>> measure_costs(const SceneFile& file,
                                                             std::span<const SceneModel> models,
                                                             const CostOptions& options);
+
+/// Fails with over_budget if these poses take more than a gigabyte.
+[[nodiscard]] Result<Done> check_cost_room(const SceneFile& file, std::uint64_t frames);
 
 }  // namespace cdprep::scenes

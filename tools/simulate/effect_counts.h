@@ -10,6 +10,7 @@
 #include "cdprep/scene.h"
 #include "scene_file/effect_words.h"
 #include "simulate/response.h"
+#include "simulate/simulation.h"
 
 namespace cdprep::report {
 
@@ -24,6 +25,12 @@ inline constexpr auto kSimulatedEffects = [] {
 /// Returns the effects that some pair of layers asks for.
 [[nodiscard]] inline Ask asked_effects(const scenes::SceneFile& scene, const Plan& plan) {
     return plan.effects() | (scenes::has_response(scene) ? Ask::response : Ask::nothing);
+}
+
+/// Returns the effects that a simulation computes. A replay computes no `response`.
+[[nodiscard]] inline Ask computed_effects(const scenes::Simulation& simulation) {
+    return simulation.plan().effects() |
+           (simulation.response() != nullptr ? Ask::response : Ask::nothing);
 }
 
 /// Returns the place of an effect in kSceneEffects.

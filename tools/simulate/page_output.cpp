@@ -81,7 +81,7 @@ Result<Done> PageOutput::add_frame(std::uint64_t frame, const scenes::Simulation
     return Done{};
 }
 
-/// Writes both files, or neither is replaced if one cannot be written.
+/// Writes both texts before either file appears. So no file is replaced without room for both.
 Result<Done> PageOutput::finish(const scenes::Simulation& simulation) {
     if (svg_) {
         const report::SceneTimeline& timeline = page_ ? page_->timeline() : timeline_;

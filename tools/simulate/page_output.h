@@ -15,7 +15,7 @@ namespace cdprep::cli {
 [[nodiscard]] Result<Done> check_outputs(const std::vector<std::filesystem::path>& inputs,
                                          const std::vector<std::filesystem::path>& outputs);
 
-/// The files of --html and --svg. Both appear when both are complete.
+/// The files of --html and --svg. They appear when both are written.
 class PageOutput {
 public:
     /// Creates the files, so that an unwritable place is reported before the work. An empty path

@@ -104,6 +104,10 @@ std::vector<std::string> response_refusals(const SceneFile& scene,
         const Result<dynamics::BodyMass> mass = dynamics::mass_of(body);
         if (!mass) refusals.push_back(mass.error().message);
     }
+    if (!refusals.empty()) return refusals;
+    // What else may be wrong is found where the bodies are made.
+    const Result<Response> whole = Response::make(scene, models, 1, serial_for);
+    if (!whole) refusals.push_back(whole.error().message);
     return refusals;
 }
 
@@ -145,6 +149,11 @@ Result<Done> Response::drive(double time_s) {
     for (const std::uint32_t body : driven_) {
         const Result<Pose> pose = pose_of(*file_, file_->objects[objects_[body]], time_s);
         if (!pose) return pose.error();
+        // An object that stands still wakes nothing.
+        const Pose& now = bodies_->pose(body);
+        if (pose->rotation() == now.rotation() && pose->translation() == now.translation()) {
+            continue;
+        }
         if (Result<Done> driven = bodies_->drive(body, *pose); !driven) return driven;
     }
     return Done{};

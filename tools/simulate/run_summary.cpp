@@ -187,7 +187,11 @@ std::string changes_text(const RunSummary& summary) {
 /// What the table does not say about the bodies.
 std::string response_text(const RunSummary& summary) {
     const scenes::Response* response = summary.simulation.response();
-    if (response == nullptr) return "";
+    if (response == nullptr) {
+        return scenes::has_response(summary.scene)
+                   ? "response was not computed: the poses are those of the recording\n"
+                   : "";
+    }
     const dynamics::DynamicsCounts& counts = summary.table.body_counts();
     std::string text = counted(response->moving().size(), "body", "bodies") + ", " +
                        std::to_string(response->awake_count()) +
@@ -204,7 +208,7 @@ std::string response_text(const RunSummary& summary) {
     if (counts.too_fast > 0) {
         text += counted(counts.too_fast, "body was", "bodies were") +
                 " faster than contacts can follow, counted in each substep. Raise "
-                "dynamics.most_speed or dynamics.substeps.\n";
+                "dynamics.most_speed or dynamics.substeps, or make them continuous.\n";
     }
     return text;
 }
@@ -352,7 +356,11 @@ std::string summary_json(const RunSummary& summary) {
     json["explained"] = rounded_share(summary.table.explained());
     json["state_hash"] = hexadecimal(simulation.scene().state_hash());
     add_costs(json, summary);
-    if (simulation.response() != nullptr) json["response"] = response_json(summary, rows.back());
+    if (simulation.response() != nullptr) {
+        json["response"] = response_json(summary, rows.back());
+    } else if (scenes::has_response(summary.scene)) {
+        json["response_is_replayed"] = true;
+    }
     add_changes(json, summary);
     return compact(json);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -64,6 +65,7 @@ private:
             ++shown_.pairs_unknown;
         } else if (!are_shown(hit) || shown_.hits.size() >= limits_.hits) {
             ++shown_.hits_left_out;
+            left_out_.insert(std::minmax(number_of(hit.a), number_of(hit.b)));
         } else {
             shown_.hits.push_back({number_of(hit.a), number_of(hit.b), effect_bits(hit.holds)});
         }
@@ -72,7 +74,7 @@ private:
     void add(const scenes::Response& response) {
         shown_.bodies = {response.awake_count(), response.bodies().counts().pairs};
         add_pushing(response);
-        if (!contains(simulation_.plan().effects(), Ask::contacts)) add_contacts(response);
+        add_contacts(response);
     }
 
     /// Objects that push each other are hits, whether another effect holds for them or not.
@@ -86,18 +88,27 @@ private:
             if (at != known.end()) {
                 at->second->effects |= kResponseBit;
             } else if (pair.b >= objects_ || shown_.hits.size() >= limits_.hits) {
-                ++shown_.hits_left_out;
+                shown_.hits_left_out += left_out_.contains({pair.a, pair.b}) ? 0 : 1;
             } else {
                 shown_.hits.push_back({pair.a, pair.b, kResponseBit});
             }
         }
     }
 
+    /// Returns whether two objects have contacts of the library, which are then shown.
+    [[nodiscard]] bool ask_for_contacts(std::uint32_t a, std::uint32_t b) const {
+        const auto layers = std::minmax(file_.objects[a].layer, file_.objects[b].layer);
+        return std::ranges::any_of(file_.pairs, [&](const scenes::AskedPair& pair) {
+            return std::minmax(pair.asked.a, pair.asked.b) == layers &&
+                   contains(pair.asked.effects, Ask::contacts);
+        });
+    }
+
     void add_contacts(const scenes::Response& response) {
         for (const dynamics::BodyContact& contact : response.bodies().contacts()) {
-            if (contact.impulse <= 0) continue;
             const std::uint32_t a = response.object_of(contact.a);
             const std::uint32_t b = response.object_of(contact.b);
+            if (contact.impulse <= 0 || ask_for_contacts(a, b)) continue;
             if (std::max(a, b) >= objects_ || shown_.contacts.size() >= limits_.contacts) {
                 ++shown_.contacts_left_out;
                 continue;
@@ -162,6 +173,7 @@ private:
     ShownFrame& shown_;
     std::map<std::uint32_t, std::vector<std::uint32_t>> lit_;  ///< by object
     std::size_t lit_count_ = 0;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> left_out_;  ///< hits
 };
 
 /// Keeps the shapes of a frame that is left out, unless the next one has newer ones.
@@ -240,6 +252,7 @@ void SceneFrames::choose_live_models(const scenes::Simulation& simulation) {
     versions_.assign(changing.size(), 0);
     std::vector<std::pair<std::size_t, std::size_t>> sizes;  // triangles, number
     for (std::size_t i = 0; i < changing.size(); ++i) {
+        if (changing[i].objects.front() >= objects()) continue;  // not on the page
         const scenes::Cut& cut = changing[i].live.cut();
         sizes.emplace_back(changing[i].live.live().triangle_count() + cut.parts.size(), i);
     }

@@ -33,7 +33,7 @@ struct ShownHit {
 struct ShownContact {
     std::uint32_t a;
     std::uint32_t b;
-    Double3 point;   ///< between the points on a and on b
+    Double3 point;   ///< between the points on a and on b; of response: on b
     Double3 normal;  ///< from a to b
     double lower;    ///< bounds of the distance; negative: the depth
     double upper;
@@ -69,7 +69,7 @@ struct ShownTopology {
 
 /// The triangles of a live model that the page draws as it changes.
 struct ShownLiveModel {
-    bool is_drawn = false;  ///< false: it has too many triangles, or it is drawn at rest
+    bool is_drawn = false;  ///< false: it has too many triangles, or no object on the page
     std::array<ShownTopology, 2> topologies;  ///< at rest, and torn
 };
 

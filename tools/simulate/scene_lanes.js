@@ -51,7 +51,7 @@ class Lanes {
     if (!effect.has_events) {
       return effect.name + ': at most ' +
           plural(most_of(holds.map((row) => row[number])), 'pair', 'pairs') +
-          ' of objects push each other in a frame.';
+          ' of objects push each other at the end of a frame.';
     }
     return effect.name + ': begins ' + plural(sum(begins), 'time', 'times') + ', ends ' +
         plural(sum(ends), 'time', 'times') + '; at most ' +

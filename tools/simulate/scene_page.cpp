@@ -202,16 +202,20 @@ Json changing_json(const SceneFrames& frames, std::span<const scenes::ChangingOb
             topologies.push_back(
                 {{"indices", packed(topology.indices)}, {"numbers", packed(topology.numbers)}});
         }
-        json.push_back({{"objects", changing[i].objects}, {"topologies", topologies}});
+        std::vector<std::uint32_t> objects = changing[i].objects;
+        std::erase_if(objects, [&](std::uint32_t object) { return object >= frames.objects(); });
+        json.push_back({{"objects", objects}, {"topologies", topologies}});
     }
     return json;
 }
 
-Json effects_json(Ask asked) {
+/// `asked` are those of the scene file, `computed` those of the run.
+Json effects_json(Ask asked, Ask computed) {
     Json json = Json::array();
     for (const Ask effect : kSimulatedEffects) {
         json.push_back({{"name", scenes::effect_name(effect)},
-                        {"asked", contains(asked, effect)},
+                        {"asked", contains(computed, effect)},
+                        {"is_replayed", contains(asked, effect) && !contains(computed, effect)},
                         {"has_events", effect != Ask::response}});
     }
     return json;
@@ -310,6 +314,7 @@ public:
                      std::span<const scenes::ChangingObjects> changing) {
         for (std::size_t i = 0; i < changing.size(); ++i) {
             if (frames.live_models()[i].is_drawn) continue;
+            if (changing[i].objects.front() >= frames.objects()) continue;  // told above
             const std::string name = printable(file.objects[changing[i].objects.front()].name);
             add("'" + name + "' deforms or tears, but is drawn as it was at rest: " +
                 std::to_string(changing[i].live.live().triangle_count()) +
@@ -372,23 +377,24 @@ std::string ScenePage::finish(const scenes::Simulation& simulation) {
     left_out_ = std::move(words.sentences);
 
     const std::string name = std::filesystem::path(file_.name).filename().string();
-    const Json data = {{"name", name},
-                       {"frames", count_},
-                       {"step_s", file_.step_s},
-                       {"metres_per_unit", file_.metres_per_unit},
-                       {"centre", point_json(geometry.frame.centre)},
-                       {"exponent", geometry.frame.exponent},
-                       {"half", geometry.frame.half_box},
-                       {"layers", file_.layers},
-                       {"effects", effects_json(asked_effects(file_, plan))},
-                       {"models", models_json(file_, geometry)},
-                       {"objects", objects_json(file_, plan, frames_.objects())},
-                       {"object_count", file_.objects.size()},
-                       {"changing", changing_json(frames_, simulation.changing())},
-                       {"spans", spans_json(timeline_)},
-                       {"events", packed(events_)},
-                       {"left_out", left_out_},
-                       {"state_hash", hexadecimal(simulation.scene().state_hash())}};
+    const Json data = {
+        {"name", name},
+        {"frames", count_},
+        {"step_s", file_.step_s},
+        {"metres_per_unit", file_.metres_per_unit},
+        {"centre", point_json(geometry.frame.centre)},
+        {"exponent", geometry.frame.exponent},
+        {"half", geometry.frame.half_box},
+        {"layers", file_.layers},
+        {"effects", effects_json(asked_effects(file_, plan), computed_effects(simulation))},
+        {"models", models_json(file_, geometry)},
+        {"objects", objects_json(file_, plan, frames_.objects())},
+        {"object_count", file_.objects.size()},
+        {"changing", changing_json(frames_, simulation.changing())},
+        {"spans", spans_json(timeline_)},
+        {"events", packed(events_)},
+        {"left_out", left_out_},
+        {"state_hash", hexadecimal(simulation.scene().state_hash())}};
     Json triangles = Json::array();
     for (const ModelDrawing& model : geometry.models) triangles.push_back(triangles_json(model));
     std::string frames;

@@ -153,7 +153,8 @@ function effect_table() {
              make('td', {}, effect.has_events ? cell(spans.ends, k) : '\u2013'),
              make('td', {}, whole(now.calls[k])))
       : make('tr', {class: 'off'}, make('td', {}, effect.name),
-             make('td', {colspan: 4}, 'not computed: no pair of layers asks')));
+             make('td', {colspan: 4}, effect.is_replayed ? 'not computed: poses of the recording'
+                                                         : 'not computed: no pair of layers asks')));
   const head = ['Effect', 'Pairs', 'Begin', 'End', 'Calls'].map((name) => make('th', {scope: 'col'}, name));
   return make('table', {class: 'plain', id: 'effect-table'}, make('thead', {}, make('tr', {}, ...head)),
               make('tbody', {}, ...rows));

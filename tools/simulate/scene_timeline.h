@@ -26,7 +26,7 @@ struct TimelineSpan {
     ByEffect begins{};
     ByEffect ends{};
     /// The most pairs of objects for which it holds in a frame. `response` holds for those that
-    /// push each other.
+    /// push each other at its end.
     ByEffect holds{};
     std::vector<double> seconds;  ///< of each stage, in all frames together
     double longest = 0;           ///< of a frame, in seconds

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulate/time_histogram.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace cdprep::report {
 namespace {
@@ -36,7 +38,9 @@ void TimeHistogram::add(std::uint64_t nanoseconds) {
 
 std::uint64_t TimeHistogram::at(double share) const noexcept {
     if (count_ == 0) return 0;
-    const auto rank = static_cast<std::uint64_t>(share * static_cast<double>(count_ - 1));
+    // The least time that is not below this share of all times.
+    const auto above = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count_)));
+    const std::uint64_t rank = std::max<std::uint64_t>(above, 1) - 1;
     std::uint64_t before = 0;
     for (std::size_t bucket = 0; bucket < buckets_.size(); ++bucket) {
         before += buckets_[bucket];

@@ -19,7 +19,8 @@ public:
     [[nodiscard]] std::uint64_t sum() const noexcept {
         return sum_;
     }
-    /// Returns the time below which a share of all times lies, in nanoseconds; 0 without times.
+    /// Returns the least time that a share of all times does not exceed, in nanoseconds. Returns 0
+    /// without times.
     [[nodiscard]] std::uint64_t at(double share) const noexcept;
 
 private:

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "cdprep/contacts.h"
 #include "cdprep/time_of_impact.h"
 #include "mesh/vectors.h"
 #include "simulate/dynamics/bullet_world.h"
@@ -38,6 +39,15 @@ std::string fault_of(const DynamicsOptions& o) {
         return "There are " + std::to_string(o.substeps) + " substeps, " +
                std::to_string(o.iterations) + " iterations and " + std::to_string(o.threads) +
                " threads, but at least 1 of each is needed.";
+    }
+    constexpr std::uint32_t kMost = 1'000'000;  // of Bullet's int
+    if (o.substeps > kMost || o.iterations > kMost) {
+        return "There are " + std::to_string(o.substeps) + " substeps and " +
+               std::to_string(o.iterations) + " iterations; at most 1000000 are possible.";
+    }
+    if (o.most_contacts == 0 || o.most_contacts > kMostListedContacts) {
+        return "Two bodies may have " + std::to_string(o.most_contacts) + " contacts; 1 to " +
+               std::to_string(kMostListedContacts) + " are possible.";
     }
     if (!positive(o.rest_gap)) {
         return "The rest gap is " + text(o.rest_gap) + ", but it must be above 0.";
@@ -202,7 +212,7 @@ Result<Done> BulletBodies::drive(std::uint32_t number, const Pose& world_from_mo
         return refused(body.given.name + ": only a driven body has its poses set.");
     }
     Result<Motion> motion = Motion::between(body.pose, world_from_model, body.mass.centre);
-    if (!motion) return motion.error();
+    if (!motion) return refused(body.given.name + ": " + motion.error().message);
     body.drive = *motion;
     const Motion::Parts& parts = motion->parts();
     const double rate = 1 / options_.step_s;
@@ -263,7 +273,8 @@ void BulletBodies::set_paces() {
         if (body.given.kind == BodyKind::fixed || !body.rigid->isActive()) continue;
         const double speed = speed_bound(i);
         scene_.set_pace(i, speed <= slow ? Pace::slow : Pace::fast);
-        counts_.too_fast += speed > options_.most_speed ? 1 : 0;
+        const bool is_too_fast = speed > options_.most_speed && !body.given.is_continuous;
+        counts_.too_fast += is_too_fast ? 1 : 0;
     }
 }
 
@@ -291,7 +302,7 @@ void BulletBodies::add_impact(std::uint32_t number, std::uint32_t other, double 
 Result<Pose> BulletBodies::stopped(std::uint32_t number, const Pose& end, double substep_s) {
     const BulletBody& body = *bodies_[number];
     const Result<Motion> motion = Motion::between(body.pose, end, body.mass.centre);
-    if (!motion) return motion.error();
+    if (!motion) return refused(body.given.name + ": " + motion.error().message);
     const double reach = body.mass.radius + length(motion->parts().shift);
     double time = 1;
     std::optional<std::uint32_t> first;

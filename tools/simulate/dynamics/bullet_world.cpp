@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "bullet_manifold.h"
 #include "mesh/vectors.h"
@@ -295,9 +296,11 @@ void Manifolds::bounce() {
 }
 
 std::vector<BodyContact> Manifolds::listed() const {
+    std::map<const btManifoldPoint*, double> bounced;
+    for (const Bounce& bounce : bounces_) bounced.emplace(bounce.point, bounce.impulse);
     const auto impulse_of = [&](const btManifoldPoint& point) {
-        const auto at = std::ranges::find(bounces_, &point, &Bounce::point);
-        return at != bounces_.end() ? at->impulse : double{point.m_appliedImpulse};
+        const auto at = bounced.find(&point);
+        return at != bounced.end() ? at->second : double{point.m_appliedImpulse};
     };
     std::vector<BodyContact> list;
     visit_points([&](const auto& pair, const btPersistentManifold&, const btManifoldPoint& point) {

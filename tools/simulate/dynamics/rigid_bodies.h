@@ -104,7 +104,7 @@ struct DynamicsCounts {
     std::uint64_t shortened = 0;
     std::uint64_t incomplete = 0;  ///< lists that most_contacts cut short
     /// Bodies of which a point may be faster than most_speed, in each substep. Two that fly towards
-    /// each other count by their own speeds.
+    /// each other count by their own speeds. Continuous bodies do not count.
     std::uint64_t too_fast = 0;
     std::uint64_t impacts = 0;  ///< of continuous bodies
 };
