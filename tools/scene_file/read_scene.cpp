@@ -166,7 +166,7 @@ private:
         }
         if (const auto work = element.find("work")) pair.asked.work = work->whole(1).value_or(1);
         if (element.find("events")) read_events(element, pair);
-        scene_.pairs.push_back(std::move(pair));
+        scene_.pairs.push_back(pair);
     }
 
     void read_pair_layers(const JsonElement& element, LayerPair& pair) {

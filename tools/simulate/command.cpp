@@ -180,7 +180,7 @@ private:
     }
 
     [[nodiscard]] Result<std::uint64_t> frame_count() const {
-        const Result<std::uint64_t> asked = asked_frames();
+        Result<std::uint64_t> asked = asked_frames();
         if (!asked || !replay_) return asked;
         return std::min(*asked, replay_->frames());
     }
