@@ -4,7 +4,7 @@
 
 Both threads are r = RADIUS + DEPTH / 2 * cos(2 pi z / PITCH - angle), the hole wider by CLEARANCE.
 The bolt turns by an angle about z and moves by PITCH * angle / (2 pi) along z. The hand shakes: it
-shifts the bolt by up to SHAKE and tilts it by up to TILT. Usage: make_bolt.py FOLDER
+shifts the bolt by up to SHAKE along x and y, and tilts it by up to TILT. Usage: make_bolt.py FOLDER
 """
 import math
 import pathlib

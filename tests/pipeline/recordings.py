@@ -72,7 +72,7 @@ def until(program, folder):
     for time_s, frames in ((0, 1), (0.124, 1), (0.125, 2), (1, 9), (3.99, 32)):
         done = simulate(program, SCENES / "crates.json", "--until", time_s)
         must(summary_of(done)["frames"] == frames, f"--until {time_s}: {summary_of(done)['frames']}")
-    # A third of a step is no double: the tenth frame counts all the same.
+    # 0.3 / 0.1 is below 3 in doubles; the frame at 0.3 s counts all the same.
     scene = folder / "third.json"
     scene.write_text((SCENES / "crates.json").read_text().replace("0.125", "0.1")
                      .replace("crate.obj", str(SCENES / "crate.obj"))

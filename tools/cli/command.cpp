@@ -48,6 +48,7 @@ Exit fail_all(const char* command, const std::vector<Error>& errors) {
 
 Exit fail_all(const char* command, const std::vector<std::string>& sentences, ErrorCode code) {
     std::vector<Error> errors;
+    errors.reserve(sentences.size());
     for (const std::string& sentence : sentences) errors.push_back({code, sentence});
     return fail_all(command, errors);
 }

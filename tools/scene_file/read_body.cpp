@@ -57,7 +57,7 @@ std::optional<BodyMotion> read_body(const JsonElement& motion) {
         if (const auto member = motion.find(other)) {
             member->refuse("a body excludes " + std::string(other) +
                            ": it is rigid, and contacts and gravity move it. Its first velocities "
-                           "belong into 'body'.");
+                           "belong in 'body'.");
         }
     }
     return read_members(*body);

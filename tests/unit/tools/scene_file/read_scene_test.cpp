@@ -325,7 +325,7 @@ TEST(ReadScene, NamesMistakesOfBodies) {
           no_gravity}},
         {one_object(", \"motion\": {\"body\": {}, \"velocity\": [1, 2, 3]}"),
          {"line 4: /objects/0/motion/velocity: a body excludes velocity: it is rigid, and contacts "
-          "and gravity move it. Its first velocities belong into 'body'.",
+          "and gravity move it. Its first velocities belong in 'body'.",
           no_gravity}},
         {one_object(", \"material\": {\"friction\": -1, \"restitution\": 2}"),
          {"line 4: /objects/0/material/friction: found -1; expected a number, 0 or more.",
