@@ -32,11 +32,11 @@ struct ScenePageOptions {
 ///   until it is listed again. `lit` has pairs of an object and its triangles. `hits` has a, b and
 ///   a bit for each effect; `contacts` a, b and point, normal, lower, upper; `distances` a, b and
 ///   two points, lower, upper. Bounds are in model units.
-/// - `frame-data` may also have `shapes`, pairs of an object and the positions of its vertices,
-///   three float32 each. Their order and unit are those of `positions` in `model-data`;
-///   draw_triangles() of all triangles gives this order. The object has this shape until it is
-///   listed again. The page plays it; nothing writes it yet. Such a model must be drawn exactly,
-///   and the pose of the object refers to the same centre.
+/// - `changing` in `scene-data` has the live models, null for one that is drawn at rest. Each has
+///   its objects and two `topologies`, at rest and torn: vertices of triangles, and their numbers.
+///   `shapes` in `frame-data` has the number of a live model, that of its topology, and three
+///   float32 for each vertex. They count from the centre of the model, in page units. The model has
+///   this shape until it is listed again.
 /// - `plan-data` and `plan-text`: what `--plan` prints.
 class ScenePage {
 public:

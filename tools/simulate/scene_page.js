@@ -25,7 +25,8 @@ function layer_swatch(layer) {
 const seconds = (frame) => number_s(run.time_s(frame)) + ' s';
 function in_bytes(bytes) {
   if (bytes < 1e4) return whole(bytes) + ' B';
-  return bytes < 1e7 ? (bytes / 1e3).toPrecision(3) + ' kB' : (bytes / 1e6).toPrecision(3) + ' MB';
+  const [unit, name] = bytes < 1e6 ? [1e3, ' kB'] : [1e6, ' MB'];
+  return Number((bytes / unit).toPrecision(3)) + name;
 }
 
 // ---- Going to a frame
