@@ -44,7 +44,7 @@ def simulate(program, scene, *arguments):
 
 
 def without_times(summary):
-    """Also without the memory, of which each thread has its own."""
+    """The memory is left out too: each thread has its own."""
     return untimed(dict(summary, effects=[untimed(effect) for effect in summary["effects"]]))
 
 

@@ -55,7 +55,7 @@ struct BodyMotion {
     bool is_continuous = false;
 };
 
-/// The body of an object that is none.
+/// The number of the body of an object that is not one.
 inline constexpr std::uint32_t kNoBody = 0xffffffffU;
 
 /// How `response` moves bodies. Lengths are in model units. What is unset follows from the others.
