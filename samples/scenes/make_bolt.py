@@ -10,6 +10,7 @@ import math
 import pathlib
 import sys
 
+from mesh_text import obj
 from scene_text import text_of
 
 RADIUS, DEPTH, PITCH, CLEARANCE = 10, 2, 4, 0.5
@@ -67,10 +68,7 @@ def mesh(rings, name, closes):
             for column in range(COLUMNS):
                 edge = [row * COLUMNS + column, row * COLUMNS + (column + 1) % COLUMNS][::order]
                 faces.append((len(points) - 1, *edge))
-    lines = [f"# {name}; millimetres."]
-    lines += ["v " + " ".join(f"{x:.4f}" for x in point) for point in points]
-    lines += ["f " + " ".join(str(index + 1) for index in face) for face in faces]
-    return "\n".join(lines) + "\n"
+    return obj(name, (points, faces), ".4f", "millimetres")
 
 
 def bolt():

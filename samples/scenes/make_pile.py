@@ -102,8 +102,8 @@ def main():
     given = sys.argv[3:]
     meshes = {pathlib.Path(path).stem + ".obj": read_obj(path) for path in given}
     for name, mesh in (meshes or {"jack.obj": jack()}).items():
-        (folder / name).write_text(obj(f"A body of a pile, {name}", scaled(mesh, SIZE), 5))
-    (folder / "tray.obj").write_text(obj("A box without a lid", tray(), 5))
+        (folder / name).write_text(obj(f"A body of a pile, {name}", scaled(mesh, SIZE), ".5g"))
+    (folder / "tray.obj").write_text(obj("A box without a lid", tray(), ".5g"))
     (folder / "pile.json").write_text(text_of(scene(count, list(meshes) or ["jack.obj"])))
 
 

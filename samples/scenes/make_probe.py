@@ -71,8 +71,8 @@ def scene():
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    (folder / "organ.obj").write_text(obj("A soft organ", organ(), 4))
-    (folder / "probe.obj").write_text(obj("A probe, its tip at the origin", probe(), 4))
+    (folder / "organ.obj").write_text(obj("A soft organ", organ(), ".4g"))
+    (folder / "probe.obj").write_text(obj("A probe, its tip at the origin", probe(), ".4g"))
     (folder / "probe.json").write_text(text_of(scene()))
 
 

@@ -46,9 +46,10 @@ def middle(points, middles, a, b):
     return middles[key]
 
 
-def obj(name, mesh, digits):
+def obj(name, mesh, form, unit="metres"):
+    """The text of a file. `form` is that of a coordinate, as for format(): ".5g"."""
     points, faces = mesh
-    lines = [f"# {name}; metres."]
-    lines += ["v " + " ".join(f"{c:.{digits}g}" for c in point) for point in points]
+    lines = [f"# {name}; {unit}."]
+    lines += ["v " + " ".join(format(c, form) for c in point) for point in points]
     lines += ["f " + " ".join(str(index + 1) for index in face) for face in faces]
     return "\n".join(lines) + "\n"
