@@ -331,6 +331,14 @@ private:
     }
 };
 
+std::string frames_text(const FrameWriter& writer, const SceneFrames& frames) {
+    std::string text;
+    for (const ShownFrame& shown : frames.frames()) {
+        text += (text.empty() ? "" : ",\n") + compact(writer.json(shown));
+    }
+    return "[" + text + "]";
+}
+
 }  // namespace
 
 ScenePage::ScenePage(const scenes::SceneFile& file, std::span<const scenes::SceneModel> models,
@@ -397,11 +405,6 @@ std::string ScenePage::finish(const scenes::Simulation& simulation) {
         {"state_hash", hexadecimal(simulation.scene().state_hash())}};
     Json triangles = Json::array();
     for (const ModelDrawing& model : geometry.models) triangles.push_back(triangles_json(model));
-    std::string frames;
-    const FrameWriter writer(file_, geometry);
-    for (const ShownFrame& shown : frames_.frames()) {
-        frames += (frames.empty() ? "" : ",\n") + compact(writer.json(shown));
-    }
     const auto element = [](const char* id, const std::string& json) {
         return script_element(id, kJsonType, script_json(json));
     };
@@ -414,7 +417,7 @@ std::string ScenePage::finish(const scenes::Simulation& simulation) {
         {"@chart_words@", escaped(scene_chart_words(timeline_))},
         {"@data@",
          element("scene-data", compact(data)) + element("model-data", compact(triangles)) +
-             element("frame-data", "[" + frames + "]") +
+             element("frame-data", frames_text(FrameWriter(file_, geometry), frames_)) +
              element("plan-data", plan_json(file_, plan, models_, simulation.changing())) +
              element("plan-text", compact(plan_text(file_, plan, models_, simulation.changing())))},
         {"@three@", std::string(page::kThree)},
