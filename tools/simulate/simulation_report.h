@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,7 @@ public:
 
 private:
     [[nodiscard]] bool is_told(const SceneEvent& event) const;
+    [[nodiscard]] std::string event_text(const nlohmann::ordered_json& event);
 
     const scenes::SceneFile& scene_;
     EventFormat format_;

@@ -110,6 +110,42 @@ TEST_F(ResponseTest, BodiesComeToRestAndEventsTell) {
     EXPECT_TRUE(simulation.response()->bodies().is_asleep(1));
 }
 
+// A body that rests for two seconds sleeps, and is told once.
+TEST_F(ResponseTest, ASleepingBodyIsToldOnce) {
+    const Falling falling(0.51);
+    Simulation simulation = falling.make();
+    std::vector<BodyEvent> events;
+    for (std::uint64_t frame = 0; frame < 240; ++frame) {
+        ASSERT_TRUE(simulation.step(frame));
+        const auto of_frame = simulation.response()->events();
+        events.insert(events.end(), of_frame.begin(), of_frame.end());
+    }
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].kind, BodyEventKind::sleeps);
+    EXPECT_EQ(events[0].body, 1u);
+    EXPECT_GT(events[0].time_s, 2);
+    EXPECT_LT(events[0].time_s, 3);
+}
+
+// By hand: at 32 m/s it needs 2.5 m / (32 m/s), less the little that gravity adds.
+TEST_F(ResponseTest, AnImpactHasItsTime) {
+    Falling falling(3);
+    falling.file().bodies[0].velocity = {0, 0, -32};
+    falling.file().bodies[0].is_continuous = true;
+    Simulation simulation = falling.make();
+    std::vector<BodyEvent> impacts;
+    for (std::uint64_t frame = 0; frame < 8; ++frame) {
+        ASSERT_TRUE(simulation.step(frame));
+        for (const BodyEvent& event : simulation.response()->events()) {
+            if (event.kind == BodyEventKind::impact) impacts.push_back(event);
+        }
+    }
+    ASSERT_FALSE(impacts.empty());
+    EXPECT_EQ(impacts[0].body, 1u);
+    EXPECT_EQ(impacts[0].other, 0u);
+    EXPECT_NEAR(impacts[0].time_s, 2.5 / 32, 2e-3);
+}
+
 // Poses that were kept give the same results, on other threads too.
 TEST_F(ResponseTest, GivenPosesGiveTheSameResults) {
     const Falling falling(0.75);
