@@ -6,6 +6,7 @@ nothing. What is not taken is listed. Mistakes have their exit codes.
 
 Usage: gltf_scenes.py CDPREP
 """
+import base64
 import json
 import math
 import pathlib
@@ -40,7 +41,8 @@ def lines_of(done):
 
 def told(done):
     """Frame, effect and kind of each event, and its objects."""
-    return [(line["frame"], line["event"], line["a"], line["b"]) for line in lines_of(done)[0]]
+    return [(line["frame"], line["event"], line["a"], line["b"]) for line in lines_of(done)[0]
+            if line["effect"] != "response"]
 
 
 # --- A scene in both forms -----------------------------------------------------------------
@@ -192,7 +194,8 @@ def the_list(program, folder):
         start + "assumed: a kinematic node without a centre of mass turns about its origin.",
         start + "assumed: a collider or trigger in no collision system is in none of those that a "
                 "filter lists.",
-        start + "assumed: a step is 1/60 s, and a run takes 1 s without --frames."], f"{plain}")
+        start + "assumed: a step is 1/60 s, and a run takes 1 s without --frames or "
+                "--until."], f"{plain}")
     joint = part("joined", 0, [9, 9, 9], {**surface("collider", 0), "joint": {"connectedNode": 0}})
     hull = part("hull", 0, [9, 9, -9], {
         "trigger": {"geometry": {"node": 9, "convexHull": True}}})
@@ -231,6 +234,20 @@ def mistakes(program, folder):
         simulate(program, folder / "cut.glb", code=3)
 
 
+def the_buffers(program, folder):
+    """A file that the scene refers to is no output."""
+    scene = write_scene(folder / "scene.gltf")
+    document = json.loads(scene.read_text())
+    data = base64.b64decode(document["buffers"][0]["uri"].split(",", 1)[1])
+    document["buffers"][0]["uri"] = "meshes.bin"
+    (folder / "meshes.bin").write_bytes(data)
+    scene.write_text(json.dumps(document))
+    for option in ("--record", "--html", "--svg", "-o"):
+        wrong = simulate(program, scene, option, folder / "meshes.bin", code=2)
+        must("meshes.bin" in wrong.stderr, wrong.stderr)
+    must((folder / "meshes.bin").read_bytes() == data, "a buffer was overwritten")
+
+
 def the_bodies(program, folder):
     """By hand: the bottom of the box falls 0.25 m to the gate's top in 0.2258 s, so at frame 14. It
     comes to rest on the floor, whose top is at 0."""
@@ -252,7 +269,7 @@ def the_bodies(program, folder):
 def main():
     program = sys.argv[1]
     for check in (the_triggers, the_bodies, the_plan, the_forms, the_recordings, the_list,
-                  mistakes):
+                  the_buffers, mistakes):
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))
 

@@ -63,6 +63,10 @@ std::span<const Affine> Assembly::world_from_nodes() const noexcept {
     return content_->scene->world_from_nodes();
 }
 
+std::span<const mesh::InputFile> Assembly::other_files() const noexcept {
+    return content_->notes.other_files;
+}
+
 Result<mesh::TriangleSoup> Assembly::triangles(const MeshNode& node,
                                                const Affine& model_from_mesh) const {
     const ImportOptions& options = content_->options;

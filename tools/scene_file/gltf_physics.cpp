@@ -43,9 +43,7 @@ bool truth_at(const Element& parent, std::string_view key) {
 
 std::optional<Double3> vector_at(const Element& parent, std::string_view key) {
     const Element found = member(parent, key);
-    const auto numbers = found ? found->numbers(3) : std::nullopt;
-    if (!numbers) return std::nullopt;
-    return Double3{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+    return found ? found->vector() : std::nullopt;
 }
 
 /// Returns the number of an element of a list that has `count`. `words` names the elements.
@@ -70,7 +68,7 @@ public:
     GltfPhysics read() {
         if (!root_->keys()) return {};
         nodes_ = list_at(root_, "nodes");
-        mesh_count_ = list_at(root_, "meshes").size();
+        meshes_ = list_at(root_, "meshes");
         const Element extensions = root_->find("extensions");
         shapes_ = list_at(member(extensions, kShapes), "shapes");
         const Element physics = member(extensions, kPhysics);
@@ -80,6 +78,7 @@ public:
         read_materials(physics);
         result_.nodes.resize(nodes_.size());
         for (std::uint32_t i = 0; i < nodes_.size(); ++i) read_tree(i);
+        find_meshes_below();
         for (std::uint32_t i = 0; i < nodes_.size(); ++i) read_node(i);
         read_roots();
         list_animations();
@@ -92,7 +91,7 @@ private:
     void read_tree(std::uint32_t number) {
         const JsonElement& node = nodes_[number];
         if (!node.keys()) return;
-        result_.nodes[number].mesh = reference(node.find("mesh"), mesh_count_, "meshes");
+        result_.nodes[number].mesh = reference(node.find("mesh"), meshes_.size(), "meshes");
         result_.nodes[number].children = references(node.find("children"));
     }
 
@@ -125,21 +124,24 @@ private:
         }
     }
 
-    /// Returns whether nodes below one have a mesh. The tree may have cycles: it is not checked
-    /// yet.
-    [[nodiscard]] bool has_meshes_below(std::uint32_t top) const {
-        std::set<std::uint32_t> seen = {top};
-        std::vector<std::uint32_t> pending = {top};
+    /// Notes above which nodes there are meshes. The tree may have cycles: it is not checked yet.
+    void find_meshes_below() {
+        std::vector<std::vector<std::uint32_t>> parents(nodes_.size());
+        std::vector<std::uint32_t> pending;
+        for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+            for (const std::uint32_t child : result_.nodes[i].children) parents[child].push_back(i);
+            if (result_.nodes[i].mesh) pending.push_back(i);
+        }
+        has_meshes_below_.resize(nodes_.size(), false);
         while (!pending.empty()) {
-            const GltfNode& node = result_.nodes[pending.back()];
+            const std::uint32_t node = pending.back();
             pending.pop_back();
-            for (const std::uint32_t child : node.children) {
-                if (!seen.insert(child).second) continue;
-                if (result_.nodes[child].mesh) return true;
-                pending.push_back(child);
+            for (const std::uint32_t parent : parents[node]) {
+                if (has_meshes_below_[parent]) continue;
+                has_meshes_below_[parent] = true;
+                pending.push_back(parent);
             }
         }
-        return false;
     }
 
     // --- What objects share ----------------------------------------------------------
@@ -172,35 +174,34 @@ private:
 
     /// The defaults are the draft's.
     Material read_material(const JsonElement& element) {
-        constexpr double kFriction = 0.6;
         list_unknown(element, {"staticFriction", "dynamicFriction", "restitution",
                                "frictionCombine", "restitutionCombine"});
         Material material;
-        material.friction = number_at(element, "dynamicFriction", Range::zero_or_more, kFriction);
+        material.friction =
+            number_at(element, "dynamicFriction", Range::zero_or_more, kGltfFriction);
         material.restitution = number_at(element, "restitution", Range::zero_or_more, 0);
-        if (number_at(element, "staticFriction", Range::zero_or_more, kFriction) !=
-            material.friction) {
+        const double other =
+            number_at(element, "staticFriction", Range::zero_or_more, kGltfFriction);
+        if (other != material.friction) {
             findings_.not_taken("a static friction other than the dynamic one, which is used",
-                                element.pointer());
+                                element.pointer() + ": " + report::number_text(other) +
+                                    " instead of " + report::number_text(material.friction));
         }
         if (material.restitution > 1) {
-            findings_.not_taken("a restitution above 1; 1 is used",
-                                element.pointer() + "/restitution");
+            list("a restitution above 1; 1 is used", *element.find("restitution"));
             material.restitution = 1;
         }
         static const std::vector<std::string> words = {"average", "minimum", "maximum", "multiply"};
         if (const Element rule = element.find("frictionCombine")) {
             const bool is_read = rule->one_of(words, "a rule").has_value();
             if (is_read) {
-                findings_.not_taken("a rule for two frictions; their geometric mean is used",
-                                    rule->pointer());
+                list("a rule for two frictions; their geometric mean is used", *rule);
             }
         }
         if (const Element rule = element.find("restitutionCombine")) {
             const auto word = rule->one_of(words, "a rule");
             if (word && words[*word] != "maximum") {
-                findings_.not_taken("a rule for two restitutions; the larger one is used",
-                                    rule->pointer());
+                list("a rule for two restitutions; the larger one is used", *rule);
             }
         }
         return material;
@@ -230,10 +231,14 @@ private:
         if (const Element skin = element.find("skin")) {
             findings_.not_taken("a skin; the mesh is used as it is stored", skin->pointer());
         }
-        if (const Element weights = element.find("weights")) {
-            findings_.not_taken("morph weights; the mesh is used as it is stored",
-                                weights->pointer());
-        }
+        list_weights(element);
+        if (node.mesh) list_weights(meshes_[*node.mesh]);
+    }
+
+    void list_weights(const JsonElement& owner) {
+        const Element weights = owner.find("weights");
+        if (!weights) return;
+        findings_.not_taken("morph weights; the mesh is used as it is stored", weights->pointer());
     }
 
     std::optional<GltfMotion> read_motion(const JsonElement& element) {
@@ -252,13 +257,14 @@ private:
         if (motion.is_kinematic) return motion;
         if (motion.mass == 0) {
             motion.is_kinematic = true;
-            findings_.not_taken("an infinite mass (0) that gravity moves; it is kinematic",
-                                mass->pointer());
+            findings_.not_taken(
+                "an infinite mass (0); the body is kinematic instead, so gravity "
+                "does not move it",
+                mass->pointer());
             return motion;
         }
         if (gravity != 1) {
-            findings_.not_taken("a gravity factor other than 1",
-                                element.pointer() + "/gravityFactor");
+            list("a gravity factor other than 1", *element.find("gravityFactor"));
         }
         list_inertia(element);
         return motion;
@@ -267,12 +273,11 @@ private:
     void list_inertia(const JsonElement& motion) {
         for (const auto& [key, count, words] :
              {std::tuple{"centerOfMass", 3U, "a centre of mass"},
-              std::tuple{"inertiaDiagonal", 3U, "moments of inertia"},
-              std::tuple{"inertiaOrientation", 4U, "axes of inertia"}}) {
+              std::tuple{"inertiaDiagonal", 3U, "an inertia"},
+              std::tuple{"inertiaOrientation", 4U, "a rotation of the inertia"}}) {
             const Element element = motion.find(key);
             if (!element || !element->numbers(count)) continue;
-            findings_.not_taken(std::string(words) + "; those of the model are used",
-                                element->pointer());
+            list(std::string(words) + "; that of the model is used", *element);
         }
     }
 
@@ -324,7 +329,7 @@ private:
         if (shape) return takes_shape(*shape, node, kind);
         bool is_own = false;
         if (mesh) {
-            const auto number = reference(mesh, mesh_count_, "meshes");
+            const auto number = reference(mesh, meshes_.size(), "meshes");
             if (!number) return false;
             is_own = result_.nodes[node].mesh == number;
         } else {
@@ -332,7 +337,7 @@ private:
             if (!number) return false;
             is_own =
                 result_.nodes[node].mesh && result_.nodes[*number].mesh == result_.nodes[node].mesh;
-            if (has_meshes_below(*number)) {
+            if (has_meshes_below_[*number]) {
                 findings_.not_taken("meshes below the node of a geometry", other->pointer());
             }
         }
@@ -364,6 +369,11 @@ private:
 
     // --- What is listed --------------------------------------------------------------
 
+    /// Lists a value that is not taken.
+    void list(const std::string& what, const JsonElement& value) {
+        findings_.not_taken(what, value.pointer() + ": " + value.value_text());
+    }
+
     using Keys = std::initializer_list<std::string_view>;
 
     /// Lists the keys of an object that the draft does not have, but for those of any glTF object.
@@ -390,8 +400,9 @@ private:
     Findings& findings_;
     GltfPhysics result_;
     std::vector<JsonElement> nodes_;
+    std::vector<bool> has_meshes_below_;  ///< by node
     std::vector<JsonElement> shapes_;
-    std::size_t mesh_count_ = 0;
+    std::vector<JsonElement> meshes_;
     std::size_t joint_count_ = 0;
     std::vector<GltfFilter> filters_;
     std::vector<Material> materials_;

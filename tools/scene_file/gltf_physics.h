@@ -51,13 +51,17 @@ struct GltfFilter {
 /// surface in no system is in none of either list.
 [[nodiscard]] bool accept(const GltfFilter& a, const GltfFilter& b);
 
+/// The friction of a material that states none, as the draft says.
+inline constexpr double kGltfFriction = 0.6;
+
 /// A collider or a trigger, whose geometry is the mesh of its node.
 struct GltfSurface {
     GltfFilter filter;
-    Material material;
+    std::optional<Material> material;
 };
 
-/// The motion of a node, in metres and in the space of the node.
+/// The motion of a node, in the space of the node. Speeds are in metres per second. The centre is a
+/// point as those of the mesh.
 struct GltfMotion {
     bool is_kinematic = false;  ///< or its mass is infinite
     std::optional<double> mass;

@@ -14,30 +14,26 @@
 #include <utility>
 
 #include "import/source_file.h"
+#include "mesh/vectors.h"
 #include "scene_file/gltf_physics.h"
+#include "text/number_text.h"
 
 namespace cdprep::scenes {
 namespace {
 
 namespace fs = std::filesystem;
 using import::Affine;
+using mesh::cross;
+using mesh::minus;
+using mesh::scaled;
 
 constexpr double kGravity = 9.81;  ///< metres per second squared
 constexpr std::uint32_t kNone = 0xffffffffU;
 
 // --- Vectors -------------------------------------------------------------------------
 
-Double3 cross(const Double3& a, const Double3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 double length(const Double3& a) {
     return std::hypot(a.x, a.y, a.z);
-}
-Double3 difference(const Double3& a, const Double3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Double3 times(const Double3& a, double factor) {
-    return {factor * a.x, factor * a.y, factor * a.z};
 }
 bool is_zero(const Double3& a) {
     return a.x == 0 && a.y == 0 && a.z == 0;
@@ -63,10 +59,10 @@ std::optional<Affine> rotation_of(Affine m) {
         columns[i] = {m[i], m[4 + i], m[8 + i]};
         const double size = length(columns[i]);
         if (!(size > 0)) return std::nullopt;
-        columns[i] = times(columns[i], 1 / size);
+        columns[i] = scaled(columns[i], 1 / size);
     }
-    const Double3 off = difference(cross(columns[0], columns[1]), columns[2]);
-    const Double3 side = difference(cross(columns[1], columns[2]), columns[0]);
+    const Double3 off = minus(cross(columns[0], columns[1]), columns[2]);
+    const Double3 side = minus(cross(columns[1], columns[2]), columns[0]);
     if (!(length(off) <= kFloatRounding && length(side) <= kFloatRounding)) return std::nullopt;
     Affine rotation{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -141,7 +137,7 @@ public:
         if (auto error = add_layers()) return error;
         add_pairs();
         free_bodies();
-        keep_models();
+        keep_used();
         set_world();
         return std::nullopt;
     }
@@ -223,7 +219,9 @@ private:
         }
         place.new_object = static_cast<std::uint32_t>(scene().objects.size());
         scene().objects.push_back(std::move(all[place.object]));
-        if (node.collider) scene().objects.back().material = node.collider->material;
+        if (!node.collider) return;
+        scene().objects.back().material =
+            node.collider->material.value_or(Material{.friction = kGltfFriction});
     }
 
     // --- Motions ---------------------------------------------------------------------
@@ -242,7 +240,7 @@ private:
         Velocities found;
         found.centre = motion.centre ? moved(world, *motion.centre) : origin_of(world);
         if (rotation) {
-            found.velocity = times(turned(*rotation, motion.velocity), 1 / metres_per_unit_);
+            found.velocity = scaled(turned(*rotation, motion.velocity), 1 / metres_per_unit_);
             found.turn = turned(*rotation, motion.turn);
         } else if (!is_zero(motion.velocity) || !is_zero(motion.turn)) {
             findings_.not_taken("velocities of a node that is sheared, mirrored or flat",
@@ -301,7 +299,7 @@ private:
         // A steady motion turns about the origin of its object.
         constexpr double kRounding = 1e-9;
         const double size = length(start.translation()) + length(velocities.centre);
-        const double off = length(cross(difference(start.translation(), velocities.centre), turn));
+        const double off = length(cross(minus(start.translation(), velocities.centre), turn));
         if (!(off <= kRounding * size * length(turn))) {
             findings_.not_taken(
                 "a turn of a kinematic node whose axis is not through the origin "
@@ -323,6 +321,7 @@ private:
         object.body = static_cast<std::uint32_t>(scene().bodies.size());
         scene().bodies.push_back(
             {.mass = motion.mass, .velocity = velocities.velocity, .turn = velocities.turn});
+        if (!motion.mass) findings_.assumed("a body without a mass has the density of water");
     }
 
     // --- Layers and pairs ------------------------------------------------------------
@@ -440,12 +439,13 @@ private:
 
     // --- The rest --------------------------------------------------------------------
 
-    /// Drops the models and motions of nodes that are left out.
-    void keep_models() {
+    /// Drops the models, motions and bodies that no object has.
+    void keep_used() {
         std::vector<std::uint32_t> numbers(assembly_.models.size(), kNone);
         std::vector<AssemblyModel> models;
         std::vector<fs::path> paths;
         std::vector<Motion> motions;
+        std::vector<BodyMotion> bodies;
         for (FileObject& object : scene().objects) {
             std::uint32_t& number = numbers[object.model];
             if (number == kNone) {
@@ -456,17 +456,25 @@ private:
             object.model = number;
             motions.push_back(scene().motions[object.motion]);
             object.motion = static_cast<std::uint32_t>(motions.size() - 1);
+            if (object.body == kNoBody) continue;
+            bodies.push_back(scene().bodies[object.body]);
+            object.body = static_cast<std::uint32_t>(bodies.size() - 1);
         }
         assembly_.models = std::move(models);
         scene().models = std::move(paths);
         scene().motions = std::move(motions);
+        scene().bodies = std::move(bodies);
     }
 
     void set_world() {
         scene().metres_per_unit = metres_per_unit_;
         scene().step_s = 1.0 / 60;
         scene().duration_s = 1;
-        findings_.assumed("a step is 1/60 s, and a run takes 1 s without --frames");
+        if (assembly_.rounding > 0) {
+            findings_.assumed("transforms were rounded to rigid ones, by " +
+                              report::number_text(assembly_.rounding));
+        }
+        findings_.assumed("a step is 1/60 s, and a run takes 1 s without --frames or --until");
         if (scene().bodies.empty()) return;
         const format::UpAxis up = options_.up_axis.value_or(format::UpAxis::y);
         const double g = -kGravity / metres_per_unit_;
@@ -477,6 +485,14 @@ private:
         findings_.assumed(
             "of two surfaces, the friction is the geometric mean and the "
             "restitution the larger one");
+        const bool lacks_material = std::ranges::any_of(places_, [&](const Place& place) {
+            const auto& collider = node_of(place).collider;
+            return place.new_object != kNone && collider && !collider->material;
+        });
+        if (lacks_material) {
+            findings_.assumed("a collider without a material has a friction of " +
+                              report::number_text(kGltfFriction));
+        }
     }
 
     AssemblyScene& assembly_;

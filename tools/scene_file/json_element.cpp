@@ -10,15 +10,6 @@
 namespace cdprep::scenes {
 namespace {
 
-/// Returns a value on one line, shortened for a message.
-std::string shown(const nlohmann::json& value) {
-    if (value.is_object()) return value.empty() ? "an empty object" : "an object";
-    constexpr std::size_t kLongest = 60;
-    std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-    if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-    return text;
-}
-
 std::string listed(std::span<const std::string> words) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -70,7 +61,15 @@ void JsonElement::refuse(const std::string& what) const {
 }
 
 void JsonElement::refuse_value(const std::string& expected) const {
-    refuse("found " + shown(*value_) + "; expected " + expected + ".");
+    refuse("found " + value_text() + "; expected " + expected + ".");
+}
+
+std::string JsonElement::value_text() const {
+    if (value_->is_object()) return value_->empty() ? "an empty object" : "an object";
+    constexpr std::size_t kLongest = 60;
+    std::string text = value_->dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+    return text;
 }
 
 bool JsonElement::is_object_of(std::initializer_list<std::string_view> keys) const {
@@ -149,13 +148,12 @@ std::optional<bool> JsonElement::boolean() const {
     return std::nullopt;
 }
 
-std::optional<std::uint32_t> JsonElement::whole(std::uint32_t least) const {
-    constexpr std::uint32_t kMost = 1U << 31;
+std::optional<std::uint32_t> JsonElement::whole(std::uint32_t least, std::uint32_t most) const {
     if (value_->is_number_unsigned()) {
         const auto found = value_->get<std::uint64_t>();
-        if (found >= least && found <= kMost) return static_cast<std::uint32_t>(found);
+        if (found >= least && found <= most) return static_cast<std::uint32_t>(found);
     }
-    refuse_value("a whole number from " + std::to_string(least) + " to " + std::to_string(kMost));
+    refuse_value("a whole number from " + std::to_string(least) + " to " + std::to_string(most));
     return std::nullopt;
 }
 
@@ -169,6 +167,12 @@ std::optional<std::vector<double>> JsonElement::numbers(std::size_t count) const
     }
     refuse_value("an array of " + std::to_string(count) + " numbers");
     return std::nullopt;
+}
+
+std::optional<Double3> JsonElement::vector() const {
+    const auto found = numbers(3);
+    if (!found) return std::nullopt;
+    return Double3{(*found)[0], (*found)[1], (*found)[2]};
 }
 
 std::optional<std::size_t> JsonElement::one_of(std::span<const std::string> words,

@@ -10,9 +10,12 @@
 #include <string_view>
 #include <vector>
 
+#include "cdprep/format/geometry.h"
 #include "scene_file/json_file.h"
 
 namespace cdprep::scenes {
+
+using format::Double3;
 
 /// The numbers that a value may be. A share is from 0 to 1.
 enum class Range : std::uint8_t { any, zero_or_more, above_zero, share };
@@ -38,6 +41,8 @@ public:
     [[nodiscard]] std::optional<std::vector<JsonElement>> items() const;
     /// Returns the keys of an object.
     [[nodiscard]] std::optional<std::vector<std::string>> keys() const;
+    /// Returns the value on one line, shortened for a message.
+    [[nodiscard]] std::string value_text() const;
     /// The place of the value, as a JSON pointer.
     [[nodiscard]] const std::string& pointer() const noexcept {
         return pointer_;
@@ -46,8 +51,11 @@ public:
     [[nodiscard]] std::optional<std::string> text() const;  ///< not empty
     [[nodiscard]] std::optional<double> number(Range range) const;
     [[nodiscard]] std::optional<bool> boolean() const;
-    [[nodiscard]] std::optional<std::uint32_t> whole(std::uint32_t least) const;
+    /// Limits are inclusive.
+    [[nodiscard]] std::optional<std::uint32_t> whole(std::uint32_t least,
+                                                     std::uint32_t most = 1U << 31) const;
     [[nodiscard]] std::optional<std::vector<double>> numbers(std::size_t count) const;
+    [[nodiscard]] std::optional<Double3> vector() const;  ///< an array of three numbers
     /// Returns the number of a text among `words`. `kind` names the words: "a layer".
     [[nodiscard]] std::optional<std::size_t> one_of(std::span<const std::string> words,
                                                     const char* kind) const;

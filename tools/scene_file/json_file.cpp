@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// Deeper values are refused, so that pointers stay short.
-constexpr std::size_t kMostLevels = 32;
+constexpr std::size_t kMostLevels = 128;
 
 /// The reason that the parser gives, without its own numbers of lines and columns.
 std::string reason_of(const std::string& what) {

@@ -22,8 +22,8 @@ struct JsonFile {
 /// Returns the JSON pointer to a member below another pointer.
 [[nodiscard]] std::string pointer_below(const std::string& pointer, std::string_view key);
 
-/// Parses JSON. Fails with `unreadable` if the text is no JSON or an object has a key twice. Also
-/// fails if values are nested deeper than a scene file needs. The message names the line.
+/// Parses JSON. Fails with `unreadable` if the text is no JSON in UTF-8 or an object has a key
+/// twice. Also fails if values are nested deeper than 128 levels. The message names the line.
 [[nodiscard]] Result<JsonFile> parse_json_file(const std::string& name, const std::string& text);
 
 }  // namespace cdprep::scenes

@@ -3,8 +3,13 @@
 
 #include <string_view>
 
+#include "cdprep/contacts.h"
+
 namespace cdprep::scenes {
 namespace {
+
+// As the dynamics allow.
+constexpr std::uint32_t kMostSteps = 1'000'000;  ///< substeps, and iterations
 
 void take_number(const JsonElement& parent, const char* key, Range range, double& number) {
     if (const auto member = parent.find(key)) number = member->number(range).value_or(number);
@@ -15,15 +20,14 @@ void take_number(const JsonElement& parent, const char* key, Range range,
     if (const auto member = parent.find(key)) number = member->number(range);
 }
 
-void take_whole(const JsonElement& parent, const char* key, std::uint32_t& number) {
-    if (const auto member = parent.find(key)) number = member->whole(1).value_or(number);
+void take_whole(const JsonElement& parent, const char* key, std::uint32_t most,
+                std::uint32_t& number) {
+    if (const auto member = parent.find(key)) number = member->whole(1, most).value_or(number);
 }
 
 std::optional<Double3> find_vector(const JsonElement& parent, const char* key) {
     const auto member = parent.find(key);
-    const auto numbers = member ? member->numbers(3) : std::nullopt;
-    if (!numbers) return std::nullopt;
-    return Double3{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+    return member ? member->vector() : std::nullopt;
 }
 
 BodyMotion read_members(const JsonElement& element) {
@@ -81,9 +85,9 @@ Dynamics read_dynamics(const JsonElement& root) {
                                 "sleep_speed", "most_contacts", "sleeps"})) {
         return dynamics;
     }
-    take_whole(*element, "substeps", dynamics.substeps);
-    take_whole(*element, "iterations", dynamics.iterations);
-    take_whole(*element, "most_contacts", dynamics.most_contacts);
+    take_whole(*element, "substeps", kMostSteps, dynamics.substeps);
+    take_whole(*element, "iterations", kMostSteps, dynamics.iterations);
+    take_whole(*element, "most_contacts", kMostListedContacts, dynamics.most_contacts);
     take_number(*element, "rest_gap", Range::above_zero, dynamics.rest_gap);
     take_number(*element, "most_speed", Range::zero_or_more, dynamics.most_speed);
     take_number(*element, "tolerance", Range::above_zero, dynamics.tolerance);

@@ -22,10 +22,6 @@ using Names = std::vector<std::string>;
 
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 
-Double3 vector_of(const std::vector<double>& numbers) {
-    return {numbers[0], numbers[1], numbers[2]};
-}
-
 /// The copies of an object on a grid.
 struct Grid {
     std::vector<std::uint32_t> counts = {1, 1, 1};
@@ -188,7 +184,7 @@ private:
             options.tolerance = tolerance->number(Range::zero_or_more).value_or(0);
         }
         if (const auto most = element.find("most")) {
-            options.most = most->whole(1).value_or(1);
+            options.most = most->whole(1, kMostListedContacts).value_or(1);
         }
         if (const auto work = element.find("work")) {
             options.work = work->whole(1).value_or(1);
@@ -291,7 +287,7 @@ private:
         Grid grid;
         if (!element.is_object_of({"counts", "spacing"})) return grid;
         if (const auto spacing = element.require("spacing")) {
-            if (const auto numbers = spacing->numbers(3)) grid.spacing = vector_of(*numbers);
+            grid.spacing = spacing->vector().value_or(Double3{});
         }
         const auto member = element.require("counts");
         const auto counts = member ? member->items() : std::nullopt;
@@ -351,8 +347,7 @@ private:
         if (element.find("path")) return read_path(element, start, has_pose);
         const auto read_vector = [&](const char* key) {
             const auto member = element.find(key);
-            const auto numbers = member ? member->numbers(3) : std::nullopt;
-            return numbers ? vector_of(*numbers) : Double3{};
+            return member ? member->vector().value_or(Double3{}) : Double3{};
         };
         const Double3 velocity = read_vector("velocity");
         if (!element.find("velocity") && !element.find("turn_rad_per_s") &&
@@ -428,8 +423,7 @@ private:
             quaternion = member->numbers(4).value_or(quaternion);
         }
         if (const auto member = element.find("translation")) {
-            const auto numbers = member->numbers(3);
-            if (numbers) translation = vector_of(*numbers);
+            translation = member->vector().value_or(Double3{});
         }
         return Pose::from_quaternion(quaternion[0], quaternion[1], quaternion[2], quaternion[3],
                                      translation);

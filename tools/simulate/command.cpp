@@ -62,9 +62,16 @@ std::vector<fs::path> outputs_of(const Arguments& arguments) {
 }
 
 /// Returns the files that a scene refers to, and its own.
-std::vector<fs::path> inputs_of(const scenes::SceneFile& scene) {
+std::vector<fs::path> inputs_of(const scenes::SceneFile& scene,
+                                const scenes::AssemblyScene* assembly) {
+    const fs::path file = scene.name;
     std::vector<fs::path> inputs = scene.models;
-    inputs.emplace_back(scene.name);
+    inputs.push_back(file);
+    if (assembly != nullptr) {
+        for (const mesh::InputFile& other : assembly->file.other_files()) {
+            inputs.push_back(file.parent_path() / other.name);
+        }
+    }
     for (const scenes::Change& change : scene.changes) {
         const auto* stream = change.deform ? std::get_if<scenes::Stream>(&*change.deform) : nullptr;
         if (stream != nullptr) inputs.push_back(stream->file);
@@ -84,7 +91,8 @@ public:
 
     Exit run() {
         if (const auto failed = read()) return *failed;
-        const Result<Done> apart = check_outputs(inputs_of(scene_), outputs_of(arguments_));
+        const Result<Done> apart = check_outputs(
+            inputs_of(scene_, assembly_ ? &*assembly_ : nullptr), outputs_of(arguments_));
         if (!apart) return fail("simulate", apart.error());
         if (!scene_.has_pairs) {
             return fail("simulate", {ErrorCode::unreadable,

@@ -127,8 +127,8 @@ TEST(GltfPhysics, ReadsMotionsSurfacesAndMaterials) {
     ASSERT_TRUE(gate.motion && gate.trigger && !gate.collider);
     EXPECT_TRUE(gate.motion->is_kinematic);
     EXPECT_EQ(gate.motion->centre, (Double3{0, 1, 0}));
-    ASSERT_TRUE(read.physics.nodes[2].collider);
-    EXPECT_EQ(read.physics.nodes[2].collider->material.friction, 0.6);  // the draft's default
+    ASSERT_TRUE(read.physics.nodes[2].collider && read.physics.nodes[2].collider->material);
+    EXPECT_EQ(read.physics.nodes[2].collider->material->friction, 0.6);  // the draft's default
     EXPECT_EQ(read.physics.roots, (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
@@ -145,18 +145,20 @@ void expect_finding(const std::string& node, const std::string& words, const std
 TEST(GltfPhysics, ListsWhatItDoesNotTake) {
     const std::string at = "/nodes/0/extensions/KHR_physics_rigid_bodies/";
     const auto motion = [](const std::string& member) { return R"({"motion":{)" + member + "}}"; };
-    expect_finding(motion(R"("mass":0)"),
-                   "an infinite mass (0) that gravity moves; it is kinematic", at + "motion/mass");
+    expect_finding(
+        motion(R"("mass":0)"),
+        "an infinite mass (0); the body is kinematic instead, so gravity does not move it",
+        at + "motion/mass");
     expect_finding(motion(R"("gravityFactor":0.5)"), "a gravity factor other than 1",
-                   at + "motion/gravityFactor");
+                   at + "motion/gravityFactor: 0.5");
     expect_finding(motion(R"("centerOfMass":[0,0,1])"),
-                   "a centre of mass; those of the model are used", at + "motion/centerOfMass");
-    expect_finding(motion(R"("inertiaDiagonal":[1,1,1])"),
-                   "moments of inertia; those of the model are used",
-                   at + "motion/inertiaDiagonal");
+                   "a centre of mass; that of the model is used",
+                   at + "motion/centerOfMass: [0,0,1]");
+    expect_finding(motion(R"("inertiaDiagonal":[1,1,1])"), "an inertia; that of the model is used",
+                   at + "motion/inertiaDiagonal: [1,1,1]");
     expect_finding(motion(R"("inertiaOrientation":[0,0,0,1])"),
-                   "axes of inertia; those of the model are used",
-                   at + "motion/inertiaOrientation");
+                   "a rotation of the inertia; that of the model is used",
+                   at + "motion/inertiaOrientation: [0,0,0,1]");
     expect_finding(motion(R"("spin":1)"), "the key 'spin', which is not known here",
                    at + "motion/spin");
     expect_finding(R"({"joint":{"joint":0,"connectedNode":0}})", "a joint", at + "joint",
@@ -177,15 +179,28 @@ TEST(GltfPhysics, ListsWhatItDoesNotTake) {
                    at + "trigger/nodes");
     const std::string shared = "/extensions/KHR_physics_rigid_bodies/physicsMaterials/0";
     expect_finding(collider(), "a static friction other than the dynamic one, which is used",
-                   shared, R"({"physicsMaterials":[{"staticFriction":0.7}]})");
-    expect_finding(collider(), "a restitution above 1; 1 is used", shared + "/restitution",
+                   shared + ": 0.7 instead of 0.6",
+                   R"({"physicsMaterials":[{"staticFriction":0.7}]})");
+    expect_finding(collider(), "a restitution above 1; 1 is used", shared + "/restitution: 2",
                    R"({"physicsMaterials":[{"restitution":2}]})");
     expect_finding(collider(), "a rule for two frictions; their geometric mean is used",
-                   shared + "/frictionCombine",
+                   shared + "/frictionCombine: \"average\"",
                    R"({"physicsMaterials":[{"frictionCombine":"average"}]})");
     expect_finding(collider(), "a rule for two restitutions; the larger one is used",
-                   shared + "/restitutionCombine",
+                   shared + "/restitutionCombine: \"minimum\"",
                    R"({"physicsMaterials":[{"restitutionCombine":"minimum"}]})");
+}
+
+// Node 0 has a geometry of node 1, below which only a cycle without meshes comes.
+TEST(GltfPhysics, ACycleOfNodesEnds) {
+    const PhysicsText read = read_physics(
+        R"({"nodes":[{"mesh":0,"extensions":{"KHR_physics_rigid_bodies":{"trigger":{"geometry":)"
+        R"({"node":1}}}}},{"mesh":0,"children":[2]},{"children":[3]},{"children":[2]}],)"
+        R"("meshes":[{"weights":[0.5]}]})");
+    EXPECT_TRUE(read.physics.nodes[0].trigger);
+    EXPECT_EQ(read.findings, (std::vector<std::string>{
+                                 "a.gltf: not taken: morph weights; the mesh is used as it is "
+                                 "stored (/meshes/0/weights)."}));
 }
 
 TEST(GltfPhysics, ListsEqualFindingsOnce) {

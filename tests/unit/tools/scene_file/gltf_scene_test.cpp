@@ -148,8 +148,9 @@ TEST(GltfScene, TriggersAloneNeedNoResponse) {
     EXPECT_EQ(scene.metres_per_unit, 1);
     EXPECT_TRUE(has_finding(reading,
                             "assumed: a step is 1/60 s, and a run takes 1 s without "
-                            "--frames."));
+                            "--frames or --until."));
     EXPECT_FALSE(has_finding(reading, "assumed: gravity"));
+    EXPECT_FALSE(has_finding(reading, "friction"));
     EXPECT_TRUE(compile_scene(scene, {.objects = 3, .pairs = 1}).plan);
 }
 
@@ -193,6 +194,10 @@ TEST(GltfScene, GravityIsAgainstTheChosenAxis) {
     options.up_axis = format::UpAxis::z;
     const GltfReading reading = read_nodes(node("", kMotion + kCollider), "{}", options);
     EXPECT_EQ(reading.assembly->scene.dynamics.gravity, (Double3{0, 0, -9.81}));
+    EXPECT_EQ(reading.assembly->scene.objects.at(0).material.friction, 0.6);
+    EXPECT_TRUE(
+        has_finding(reading, "assumed: a collider without a material has a friction of 0.6."));
+    EXPECT_TRUE(has_finding(reading, "assumed: a body without a mass has the density of water."));
     EXPECT_TRUE(has_finding(reading, "assumed: gravity is 9.81 m/s^2 along -z."));
 }
 
@@ -250,6 +255,16 @@ TEST(GltfScene, ABodyThatNothingPushesStays) {
     EXPECT_EQ(reading.assembly->scene.objects[0].body, kNoBody);
     EXPECT_TRUE(has_finding(reading, "not taken: a body that no collider can push"));
     EXPECT_TRUE(has_finding(reading, "assumed: nothing is computed"));
+    EXPECT_TRUE(reading.assembly->scene.bodies.empty());
+    EXPECT_FALSE(has_finding(reading, "assumed: gravity"));
+}
+
+// A turn whose quaternion has seven digits.
+TEST(GltfScene, TellsThatTransformsWereRounded) {
+    const GltfReading reading =
+        read_nodes(node(R"("rotation":[0,0,0.7071068,0.7071069],)", kTrigger));
+    EXPECT_GT(reading.assembly->rounding, 0);
+    EXPECT_TRUE(has_finding(reading, "assumed: transforms were rounded to rigid ones, by "));
 }
 
 Pose pose_of_object(const GltfReading& reading, std::size_t number, double time_s) {

@@ -337,7 +337,7 @@ TEST(ReadScene, NamesMistakesOfBodies) {
           "rest_gap, most_speed, tolerance, sleep_speed, most_contacts or sleeps."}},
         {"{\"cdprep_scene\": 1, \"layers\": [], \"objects\": [],\n"
          "\"dynamics\": {\"substeps\": 0, \"rest_gap\": 0, \"sleeps\": 1}}",
-         {"line 2: /dynamics/substeps: found 0; expected a whole number from 1 to 2147483648.",
+         {"line 2: /dynamics/substeps: found 0; expected a whole number from 1 to 1000000.",
           "line 2: /dynamics/rest_gap: found 0; expected a number above 0.",
           "line 2: /dynamics/sleeps: found 1; expected true or false."}},
     };
