@@ -5,8 +5,13 @@
 #include <array>
 #include <cmath>
 
+#include "mesh/vectors.h"
+
 namespace cdprep::scenes {
 namespace {
+
+using mesh::plus;
+using mesh::scaled;
 
 /// A quaternion w + xi + yj + zk.
 using Quaternion = std::array<double, 4>;
@@ -52,13 +57,6 @@ Quaternion slerp(const Quaternion& p, Quaternion q, double share) {
     return mixed;
 }
 
-Double3 sum(const Double3& a, const Double3& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Double3 scaled(const Double3& a, double factor) {
-    return {factor * a.x, factor * a.y, factor * a.z};
-}
-
 /// Returns the pose with another translation. The rotation keeps every bit.
 Result<Pose> moved_to(const Pose& pose, const Double3& translation) {
     const auto& r = pose.rotation();
@@ -69,8 +67,8 @@ Result<Pose> moved_to(const Pose& pose, const Double3& translation) {
 Result<Pose> between(const KeyPose& before, const KeyPose& after, double time_s,
                      const Double3& offset) {
     const double share = (time_s - before.time_s) / (after.time_s - before.time_s);
-    const Double3 place = sum(
-        sum(scaled(before.pose.translation(), 1 - share), scaled(after.pose.translation(), share)),
+    const Double3 place = plus(
+        plus(scaled(before.pose.translation(), 1 - share), scaled(after.pose.translation(), share)),
         offset);
     if (before.pose.rotation() == after.pose.rotation()) return moved_to(before.pose, place);
     const Quaternion q = slerp(unit(quaternion_of(before.pose.rotation())),
@@ -107,11 +105,11 @@ Result<Pose> Motion::at(double time_s, const Double3& offset) const {
     const KeyPose& before = after == keys_.begin() ? keys_.front() : *(after - 1);
     if (keys_.size() > 1) {
         if (after == keys_.begin() || after == keys_.end() || before.time_s == time_s) {
-            return moved_to(before.pose, sum(before.pose.translation(), offset));
+            return moved_to(before.pose, plus(before.pose.translation(), offset));
         }
         return between(before, *after, time_s, offset);
     }
-    const Double3 place = sum(sum(before.pose.translation(), scaled(velocity_, time_s)), offset);
+    const Double3 place = plus(plus(before.pose.translation(), scaled(velocity_, time_s)), offset);
     const double speed = std::hypot(turn_.x, turn_.y, turn_.z);
     if (speed == 0 || time_s == 0) return moved_to(before.pose, place);
     const double half = speed * time_s / 2;
