@@ -7,6 +7,7 @@
 
 #include "build/chunks.h"
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/format/portable.h"
 #include "core/numbers.h"
 
 namespace cdprep::build {
@@ -36,8 +37,8 @@ struct PointBounds {
             const double x = coordinate(p, axis);
             lower[axis] = std::min(lower[axis], x);
             upper[axis] = std::max(upper[axis], x);
-            lost |= std::bit_cast<std::uint64_t>(x) ^
-                    std::bit_cast<std::uint64_t>(double{static_cast<float>(x)});
+            lost |= format::bit_cast<std::uint64_t>(x) ^
+                    format::bit_cast<std::uint64_t>(double{static_cast<float>(x)});
         }
     }
 };

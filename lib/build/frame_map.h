@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
 
 #include "cdprep/advanced/build_bvh.h"
+#include "cdprep/format/portable.h"
 #include "exact/powers_of_two.h"
 
 namespace cdprep::build {
@@ -28,9 +28,9 @@ namespace cdprep::build {
 [[nodiscard]] inline float float_above(double x) {
     const auto rounded = static_cast<float>(x);
     const float zero_is_positive = rounded + 0.0F;
-    const auto bits = std::bit_cast<std::int32_t>(zero_is_positive);
+    const auto bits = format::bit_cast<std::int32_t>(zero_is_positive);
     const std::int32_t away = bits < 0 ? -1 : 1;
-    return double{rounded} < x ? std::bit_cast<float>(bits + away) : rounded;
+    return double{rounded} < x ? format::bit_cast<float>(bits + away) : rounded;
 }
 
 [[nodiscard]] inline float float_below(double x) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -11,6 +10,7 @@
 #include "build/chunks.h"
 #include "build/frame_map.h"
 #include "build/oriented_axes.h"
+#include "cdprep/format/portable.h"
 
 // The axes are those of the surface below a box (oriented_axes.h). The moments of a box are the sum
 // of the moments of its contents. Its extents are those of all vertices below. Eight boxes are
@@ -65,7 +65,8 @@ private:
 /// Returns a power of two near 1 / size, so that squares of squares stay in the range of float.
 float unit_of(const BvhLeaf& leaf) {
     const float size = std::max({leaf.half[0], leaf.half[1], leaf.half[2], 0x1p-100F});
-    return std::bit_cast<float>((254U << 23U) - (std::bit_cast<std::uint32_t>(size) & 0x7f800000U));
+    return format::bit_cast<float>((254U << 23U) -
+                                   (format::bit_cast<std::uint32_t>(size) & 0x7f800000U));
 }
 
 /// Returns the moments of a leaf. For one triangle, the integral of x x^T is

@@ -8,6 +8,7 @@
 
 #include "build/frame_map.h"
 #include "build/split_sets.h"
+#include "cdprep/format/portable.h"
 
 namespace cdprep::build {
 namespace {
@@ -38,7 +39,7 @@ struct alignas(16) MiddleItem {
         return lanes[axis];
     }
     [[nodiscard]] std::uint32_t number() const {
-        return std::bit_cast<std::uint32_t>(lanes[kNumberLane]);
+        return format::bit_cast<std::uint32_t>(lanes[kNumberLane]);
     }
 };
 
@@ -50,7 +51,7 @@ struct alignas(32) BoxItem {
         return box[axis] - box[4 + axis];
     }
     [[nodiscard]] std::uint32_t number() const {
-        return std::bit_cast<std::uint32_t>(box[kNumberLane]);
+        return format::bit_cast<std::uint32_t>(box[kNumberLane]);
     }
 };
 
@@ -76,7 +77,7 @@ void make_item(const Triangle& triangle, std::uint32_t number, std::span<const D
         item.box[axis] = static_cast<float>(reach.lower);
         item.box[4 + axis] = -static_cast<float>(reach.upper);
     }
-    item.box[kNumberLane] = std::bit_cast<float>(number);
+    item.box[kNumberLane] = format::bit_cast<float>(number);
     item.box[7] = 0;
 }
 
@@ -86,7 +87,7 @@ void make_item(const Triangle& triangle, std::uint32_t number, std::span<const D
         const CentreReach reach = reach_of(triangle, positions, map, axis);
         item.lanes[axis] = static_cast<float>(reach.lower + reach.upper);
     }
-    item.lanes[kNumberLane] = std::bit_cast<float>(number);
+    item.lanes[kNumberLane] = format::bit_cast<float>(number);
 }
 
 /// Rounds to the nearest multiple of the subtree size that leaves neither side empty.

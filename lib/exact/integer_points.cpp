@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "exact/integer_points.h"
 
+#include "cdprep/format/portable.h"
+
 namespace cdprep {
 namespace {
 
-__extension__ typedef __int128 Int128;            // NOLINT(modernize-use-using)
-__extension__ typedef unsigned __int128 Uint128;  // NOLINT(modernize-use-using)
+using format::Int128;
+using format::upper_word;
 
 Integer3 operator-(const Integer3& a, const Integer3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
@@ -31,18 +33,18 @@ class WideSum {
 public:
     void add_product(Int128 minor, std::int64_t factor) noexcept {
         const Int128 low = static_cast<Int128>(static_cast<std::uint64_t>(minor)) * factor;
-        high_ += (minor >> 64) * factor + (low >> 64);
+        high_ += upper_word(minor) * factor + upper_word(low);
         low_ += static_cast<std::uint64_t>(low);
     }
     [[nodiscard]] int sign() const noexcept {
-        const Int128 high = high_ + static_cast<Int128>(low_ >> 64);
+        const Int128 high = high_ + upper_word(low_);
         if (high != 0) return high > 0 ? 1 : -1;
         return static_cast<std::uint64_t>(low_) != 0 ? 1 : 0;
     }
 
 private:
     Int128 high_ = 0;
-    Uint128 low_ = 0;
+    Int128 low_ = 0;  ///< a sum of three words
 };
 
 int dot_sign(const Normal& n, const Integer3& a) {

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
+#include "cdprep/format/portable.h"
 #include "exact/expansion.h"
 
 namespace cdprep {
@@ -57,7 +57,7 @@ inline bool add_scaled(double value, double scale, double unscale, std::int64_t&
 
 inline double power_of_two(int exponent) noexcept {
     assert(exponent > -1023 && exponent < 1024);
-    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+    return format::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
 
 template <std::size_t N>
@@ -81,7 +81,7 @@ ScaledAxis<N> scaled_axis(const std::array<double, N>& x, double from, int bits)
         most *= kLift;
     }
     const int shift =
-        bits - 1 - (static_cast<int>(std::bit_cast<std::uint64_t>(most) >> 52) - 1023);
+        bits - 1 - (static_cast<int>(format::bit_cast<std::uint64_t>(most) >> 52) - 1023);
     const double scale = power_of_two(shift);
     const double unscale = power_of_two(-shift);
     result.fits = true;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
+
+#include "cdprep/format/portable.h"
 
 namespace cdprep {
 
@@ -11,7 +12,7 @@ namespace cdprep {
 inline double two_to(int exponent) noexcept {
     constexpr int kBias = 1023;
     if (exponent <= -kBias || exponent > kBias) return std::ldexp(1.0, exponent);
-    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + kBias) << 52);
+    return format::bit_cast<double>(static_cast<std::uint64_t>(exponent + kBias) << 52);
 }
 
 /// Multiplies by 2^exponent in two steps. No step leaves the range unless the result does.

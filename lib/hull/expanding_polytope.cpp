@@ -2,10 +2,10 @@
 #include "hull/expanding_polytope.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 
+#include "cdprep/format/portable.h"
 #include "core/numbers.h"
 #include "exact/double_double.h"
 #include "hull/difference_side.h"
@@ -51,9 +51,9 @@ Accurate3 accurate_edge(const Difference& p, const Difference& q, double scale) 
 double scale_of(const Double3& edge) {
     constexpr int kBias = 1023;
     constexpr int kMost = 1000;
-    const auto exponent = static_cast<int>(std::bit_cast<std::uint64_t>(largest_of(edge)) >> 52);
+    const auto exponent = static_cast<int>(format::bit_cast<std::uint64_t>(largest_of(edge)) >> 52);
     const int wanted = std::clamp(kBias - exponent, -kMost, kMost);
-    return std::bit_cast<double>(static_cast<std::uint64_t>(wanted + kBias) << 52);
+    return format::bit_cast<double>(static_cast<std::uint64_t>(wanted + kBias) << 52);
 }
 
 /// Sets `normal` to the normal of p, q, r, which turn counter-clockwise as seen from its tip.

@@ -130,10 +130,10 @@ struct RowPair {
 template <class R>
 RowPair take_rows(unsigned& rows) noexcept {
     assert(rows != 0 && rows >> kLanes == 0);
-    const auto first = static_cast<std::size_t>(__builtin_ctz(rows));
+    const auto first = std::size_t{format::lowest_set_bit(rows)};
     rows &= rows - 1;
     if (R::kRows == 1 || rows == 0) return {first, first};
-    const auto second = static_cast<std::size_t>(__builtin_ctz(rows));
+    const auto second = std::size_t{format::lowest_set_bit(rows)};
     rows &= rows - 1;
     return {first, second};
 }
@@ -343,7 +343,7 @@ BoxPairs overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const N
     if (oriented && one_row) {
         // Rotating the axis-aligned boxes would cost more than it saves.
         assert(choice.of_b != 0);
-        const auto row = static_cast<unsigned>(__builtin_ctz(choice.of_b));
+        const auto row = format::lowest_set_bit(std::uint32_t{choice.of_b});
         const BoxPairs pairs = BoxPairs{choice.of_a} << (kLanes * row);
         return keep_oriented<F, R, false>(p, a, b, pairs, sizes, nullptr);
     }

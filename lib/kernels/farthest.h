@@ -17,7 +17,7 @@ namespace {
 /// The highest value of each lane, and the first block that has it.
 template <class D8>
 struct HighestOfLane {
-    D8 value = D8(-__builtin_inf());
+    D8 value = D8(-format::kInfinity);
     D8 block = D8(0.0);
 
     void take(const D8& other, const D8& number) noexcept {
@@ -31,7 +31,7 @@ struct HighestOfLane {
         double blocks[kLanes];
         value.store(values);
         block.store(blocks);
-        FarthestPoint best = {0, -__builtin_inf(), 0};
+        FarthestPoint best = {0, -format::kInfinity, 0};
         for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
             const auto number = static_cast<std::uint32_t>(blocks[lane]) * 8 + lane;
             // Without branches, because the lane is unpredictable.
@@ -74,7 +74,7 @@ FarthestPoint farthest_moved_of(const double* blocks, std::size_t count,
     const double* t = from.translation;
     const D8 error(kValueError);
     HighestOfLane<D8> highest;
-    D8 bound(-__builtin_inf());
+    D8 bound(-format::kInfinity);
     D8 number(0.0);
     const D8 one(1.0);
     for (const double* end = blocks + 24 * count; blocks != end; blocks += 24) {

@@ -294,7 +294,7 @@ std::size_t judge_all(std::size_t candidates, std::size_t found, LeafScratch& sc
         for (unsigned rest = (verdict.crossing | verdict.unknown) & used; rest != 0;
              rest &= rest - 1) {
             assert(found < kMostPairs);
-            const auto i = static_cast<unsigned>(__builtin_ctz(rest));
+            const auto i = format::lowest_set_bit(rest);
             const unsigned candidate = scratch.candidate[first + i];
             scratch.found[found++] = {static_cast<std::uint8_t>(candidate >> 6),
                                       static_cast<std::uint8_t>(candidate & 7),
@@ -316,7 +316,7 @@ std::size_t append_rows(unsigned pair, RowPair at, unsigned found, unsigned used
     const unsigned first = pair << 6 | static_cast<unsigned>(at.first) << 3;
     const unsigned second = pair << 6 | static_cast<unsigned>(at.second) << 3;
     R::store_lanes(kept, first, second, candidate + count);
-    return count + static_cast<unsigned>(__builtin_popcount(kept));
+    return count + format::count_set_bits(kept);
 }
 
 /// The leaf that claims each place, over some pairs.

@@ -114,7 +114,7 @@ struct F8 {
         template <class Rows>
         void add(const F8& depth, unsigned bits, const Rows& at) noexcept {
             for (bits &= 0xff; bits != 0; bits &= bits - 1) {
-                const auto i = static_cast<unsigned>(__builtin_ctz(bits));
+                const auto i = format::lowest_set_bit(bits);
                 if (depth.x[i] <= most_) continue;
                 most_ = depth.x[i];
                 bit_ = static_cast<unsigned>(kLanes * at.first) + i;

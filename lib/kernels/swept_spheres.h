@@ -289,7 +289,7 @@ BoxPairs overlapping_swept_of(const BoxPlacement& p, const NodeBoxes& a, const N
                               const BoxChoice& choice, BoxSizes& sizes) noexcept {
     if ((choice.of_b & (choice.of_b - 1)) == 0) {
         assert(choice.of_b != 0);
-        const auto row = static_cast<unsigned>(__builtin_ctz(choice.of_b));
+        const auto row = format::lowest_set_bit(std::uint32_t{choice.of_b});
         const BoxPairs pairs = BoxPairs{choice.of_a} << (kLanes * row);
         return keep_swept<kSides, F, R>(p, a, b, pairs, sizes);
     }

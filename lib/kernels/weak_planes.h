@@ -61,7 +61,7 @@ std::size_t weak_planes_of(const BoxPlacement& placement, const PlaneRows& plane
         if (rest < R::kCount) lanes &= (1U << rest) - 1;
         R::store_lanes(lanes, static_cast<unsigned>(at), static_cast<unsigned>(at + kLanes),
                        numbers + weak);
-        weak += static_cast<unsigned>(__builtin_popcount(lanes));
+        weak += format::count_set_bits(lanes);
     }
     return weak;
 }

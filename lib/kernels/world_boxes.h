@@ -82,7 +82,7 @@ std::size_t met_boxes_of(const BoxTree& tree, const float* box, unsigned until, 
             if (++level == tree.levels) return count;
             continue;
         }
-        const auto lane = static_cast<unsigned>(__builtin_ctz(lanes[level]));
+        const auto lane = format::lowest_set_bit(lanes[level]);
         lanes[level] &= lanes[level] - 1;
         const std::uint64_t child = node[level] * kLanes + lane;
         if (level == until) {
@@ -100,7 +100,7 @@ BoxPairs meeting_boxes_of(const float* a, const float* b, const float* around_b)
     BoxPairs pairs = 0;
     unsigned near = meeting_lanes(of_a, BoxLanes<F>::of_lane(around_b, 0));
     for (; near != 0; near &= near - 1) {
-        const auto lane = static_cast<unsigned>(__builtin_ctz(near));
+        const auto lane = format::lowest_set_bit(near);
         const unsigned met = meeting_lanes(BoxLanes<F>::of_lane(a, lane), of_b);
         pairs |= BoxPairs{met} << (kLanes * lane);
     }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <functional>
@@ -19,6 +18,7 @@
 #include "build/make_nodes.h"
 #include "build/mesh_fault.h"
 #include "cdprep/advanced/mesh_arrays.h"
+#include "cdprep/format/portable.h"
 #include "exact/powers_of_two.h"
 #include "live/image_table.h"
 
@@ -52,11 +52,11 @@ std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
 
 /// Returns a number that differs, almost certainly, for other vertices and other positions.
 std::uint64_t hash_of(std::uint32_t vertex, const Float3& p) {
-    const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
+    const auto bits = [](float x) { return std::uint64_t{format::bit_cast<std::uint32_t>(x)}; };
     return mixed(bits(p.x) | bits(p.y) << 32, bits(p.z) | std::uint64_t{vertex} << 32);
 }
 std::uint64_t hash_of(std::uint32_t vertex, const Double3& p) {
-    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    const auto bits = [](double x) { return format::bit_cast<std::uint64_t>(x); };
     return mixed(mixed(bits(p.x), bits(p.y)), bits(p.z) + vertex * 0x9e3779b97f4a7c15);
 }
 

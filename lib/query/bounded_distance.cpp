@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
 #include "cdprep/format/float_environment.h"
+#include "cdprep/format/portable.h"
 #include "core/require.h"
 #include "query/nearest_search.h"
 
@@ -40,10 +40,10 @@ public:
 private:
     void add_to(QueryCounts& all) const noexcept {
         using Numbers = std::array<std::uint64_t, sizeof(QueryCounts) / sizeof(std::uint64_t)>;
-        auto sums = std::bit_cast<Numbers>(all);
-        const auto numbers = std::bit_cast<Numbers>(own_);
+        auto sums = format::bit_cast<Numbers>(all);
+        const auto numbers = format::bit_cast<Numbers>(own_);
         for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += numbers[i];
-        all = std::bit_cast<QueryCounts>(sums);
+        all = format::bit_cast<QueryCounts>(sums);
     }
 
     Workspace::Storage& scratch_;

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "cdprep/bounded_distance.h"
+#include "cdprep/format/portable.h"
 #include "cdprep/pairs.h"
 #include "exact/exact_within.h"
 #include "exact/length_of.h"
@@ -242,10 +243,10 @@ public:
 
 private:
     static float bound_of(std::uint64_t entry) noexcept {
-        return std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32));
+        return format::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32));
     }
     static std::uint64_t entry_of(float bound, std::uint32_t at) noexcept {
-        return std::uint64_t{std::bit_cast<std::uint32_t>(bound)} << 32 | at;
+        return std::uint64_t{format::bit_cast<std::uint32_t>(bound)} << 32 | at;
     }
     /// Returns the greatest entry with this bound.
     static std::uint64_t last_of(float bound) noexcept {

@@ -379,7 +379,7 @@ void BroadPhase::State::find_pairs_of_leaves(std::size_t a, std::size_t b, const
     constexpr kernels::BoxPairs kOnce = 0x0080c0e0f0f8fcfe;  // bits 8 i + j with j > i
     if (a == b) pairs &= kOnce;
     for (; pairs != 0; pairs &= pairs - 1) {
-        const auto bit = static_cast<std::size_t>(__builtin_ctzll(pairs));
+        const auto bit = std::size_t{format::lowest_set_bit(pairs)};
         const std::uint32_t one = tree.box_at(a * kLanes + bit / kLanes);
         const std::uint32_t two = tree.box_at(b * kLanes + bit % kLanes);
         if (filters[one].allows(filters[two])) writer.add(one, two);

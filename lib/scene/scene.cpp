@@ -2,11 +2,11 @@
 #include "cdprep/scene.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <new>
 #include <utility>
 
+#include "cdprep/format/portable.h"
 #include "core/require.h"
 #include "scene/scene_state.h"
 
@@ -26,7 +26,7 @@ public:
         add(std::uint64_t{one} << 32 | two);
     }
     void add(double number) noexcept {
-        add(std::bit_cast<std::uint64_t>(number));
+        add(format::bit_cast<std::uint64_t>(number));
     }
     void add(const ObjectId& id) noexcept {
         add(id.slot, id.generation);
