@@ -5,6 +5,8 @@
 
 #include <cassert>
 
+#include "set_bits.h"
+
 namespace cdprep::kernels {
 namespace {
 
@@ -27,22 +29,6 @@ inline Mask8 operator~(Mask8 a) noexcept {
 inline unsigned bits(Mask8 a) noexcept {
     return static_cast<unsigned>(_mm256_movemask_ps(a.x));
 }
-
-/// For each set of eight bits, the numbers of the bits that are set, one after the other.
-struct SetBits {
-    alignas(8) std::uint8_t number[256][8];
-};
-constexpr SetBits set_bits() noexcept {
-    SetBits set{};
-    for (unsigned bits = 0; bits < 256; ++bits) {
-        unsigned count = 0;
-        for (unsigned i = 0; i < 8; ++i) {
-            if ((bits >> i & 1) != 0) set.number[bits][count++] = static_cast<std::uint8_t>(i);
-        }
-    }
-    return set;
-}
-constexpr SetBits kSetBits = set_bits();
 
 /// Eight indices.
 struct Index8 {

@@ -388,6 +388,9 @@ extern const Table kScalar;  ///< the reference, for any processor
 extern const Table kAvx2;    ///< call through it only if available() lists it
 extern const Table kAvx512;  ///< likewise
 #endif
+#ifdef CDPREP_HAVE_NEON
+extern const Table kNeon;  ///< which every ARM64 processor can run
+#endif
 
 /// The tables that this processor can run, the reference first.
 struct Available {

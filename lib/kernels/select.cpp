@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <cstdlib>
 #include <cstring>
-#ifdef CDPREP_HAVE_AVX2
-#include <cpuid.h>
-#endif
 
 #include "cdprep/advanced/query_counts.h"
 #include "curve.h"
 #include "kernels.h"
+#ifdef CDPREP_HAVE_AVX2
+#include "processor.h"
+#endif
 
 namespace cdprep {
 
@@ -37,14 +37,10 @@ const Table& choose() noexcept {
 #ifdef CDPREP_HAVE_AVX2
 /// Returns whether BMI2 distributes bits in a few cycles: on Intel, and on AMD from Zen 3 (family
 /// 0x19) on. Others are unknown and count as slow.
-bool has_fast_bmi2() noexcept {
-    if (!__builtin_cpu_supports("bmi2")) return false;
-    if (__builtin_cpu_is("intel")) return true;
-    unsigned a = 0, b = 0, c = 0, d = 0;
-    if (!__builtin_cpu_is("amd") || __get_cpuid(1, &a, &b, &c, &d) == 0) return false;
+bool has_fast_bmi2(const Processor& processor) noexcept {
     constexpr unsigned kZen3 = 0x19;
-    const unsigned family = (a >> 8 & 0xf) + (a >> 20 & 0xff);
-    return family >= kZen3;
+    if (!processor.bmi2) return false;
+    return processor.is_intel || (processor.is_amd && processor.family >= kZen3);
 }
 #endif
 
@@ -52,7 +48,7 @@ const Curve& choose_curve() noexcept {
     const char* wanted = wanted_kernels();
     if (wanted != nullptr && std::strcmp(wanted, kScalarCurve.name) == 0) return kScalarCurve;
 #ifdef CDPREP_HAVE_AVX2
-    if (has_fast_bmi2()) return kBmi2Curve;
+    if (has_fast_bmi2(ask_processor())) return kBmi2Curve;
 #endif
     return kScalarCurve;
 }
@@ -62,7 +58,7 @@ const Curve& choose_curve() noexcept {
 AvailableCurves available_curves() noexcept {
     AvailableCurves curves = {{&kScalarCurve, nullptr}, 1};
 #ifdef CDPREP_HAVE_AVX2
-    if (__builtin_cpu_supports("bmi2")) curves.curve[curves.count++] = &kBmi2Curve;
+    if (ask_processor().bmi2) curves.curve[curves.count++] = &kBmi2Curve;
 #endif
     return curves;
 }
@@ -75,13 +71,12 @@ const Curve& active_curve() noexcept {
 Available available() noexcept {
     Available tables = {{&kScalar, nullptr, nullptr}, 1};
 #ifdef CDPREP_HAVE_AVX2
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-        tables.table[tables.count++] = &kAvx2;
-    }
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512dq")) {
-        tables.table[tables.count++] = &kAvx512;
-    }
+    const Processor processor = ask_processor();
+    if (processor.avx2) tables.table[tables.count++] = &kAvx2;
+    if (processor.avx512) tables.table[tables.count++] = &kAvx512;
+#endif
+#ifdef CDPREP_HAVE_NEON
+    tables.table[tables.count++] = &kNeon;
 #endif
     return tables;
 }

@@ -7,9 +7,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "cdprep/format/hull.h"
@@ -17,6 +19,9 @@
 #include "exact/triangle_distance.h"
 #include "support/random_pose.h"
 #include "unit/lib/kernels/each_table.h"
+#ifdef CDPREP_HAVE_AVX2
+#include "kernels/processor.h"
+#endif
 
 namespace cdprep::kernels {
 namespace {
@@ -1051,6 +1056,115 @@ TEST(Kernels, ScalarIsAlwaysAvailable) {
     EXPECT_GE(available().count, 1u);
     EXPECT_STREQ(available().table[0]->name, "scalar");
 }
+
+/// A hash of numbers, FNV-1a over words.
+class BitHash {
+public:
+    template <class Number>
+    void add(Number number) noexcept {
+        std::uint64_t word = 0;
+        std::memcpy(&word, &number, sizeof number);
+        hash_ = (hash_ ^ word) * 0x100000001b3U;
+    }
+    [[nodiscard]] std::uint64_t value() const noexcept {
+        return hash_;
+    }
+
+private:
+    std::uint64_t hash_ = 0xcbf29ce484222325U;
+};
+
+void add_depths(const Table& table, const BoxPlacement& placement, const NodeBoxes& a,
+                const NodeBoxes& b, BitHash& hash) {
+    const BoxChoice everything{0xff, 0xff, nullptr};
+    BoxSizes sizes{};
+    BoxDepths depths{};
+    const BoxPairs found = table.overlap_depths(placement, a, b, everything, sizes, depths);
+    hash.add(table.overlapping_boxes(placement, a, b, everything, sizes));
+    hash.add(found);
+    if (found != 0) hash.add(depths.deepest);
+    const Reach reach{1, 0.1F, {0.6F, 0, 0.8F}, {0, 0.6F, 0.8F}};
+    BoxPairFloats gaps{};
+    const BoxPairs near = table.near_boxes(placement, a, b, everything, reach, gaps);
+    hash.add(near);
+    for (std::size_t j = 0; j < kLanes; ++j) {
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            if (has(found, i, j)) hash.add(depths.value[j][i]);
+            if (has(near, i, j)) hash.add(gaps.value[j][i]);
+        }
+    }
+}
+
+void add_leaves(const Table& table, const Pose& pose, const Leaf& a, const Leaf& b,
+                LeafScratch& scratch, BitHash& hash) {
+    scratch.begin();
+    const LeafPlacement placement = leaf_placement(pose);
+    const LeafPair pair = pair_of(a, b);
+    const std::size_t contacts = table.find_contacts(placement, &pair, 1, scratch);
+    hash.add(contacts);
+    for (std::size_t i = 0; i < contacts; ++i) {
+        hash.add(scratch.found[i].a);
+        hash.add(scratch.found[i].b);
+        hash.add(scratch.found[i].certain);
+    }
+    const Reach reach{1, 0.1F, {0, 0, 0}, {0, 0, 0}};
+    const std::size_t gaps = table.near_triangles(placement, pair, reach, scratch);
+    hash.add(gaps);
+    for (std::size_t i = 0; i < gaps; ++i) hash.add(scratch.gap[i].lower);
+}
+
+/// A pose from whole numbers, so that no mathematical library decides its bits.
+Pose pose_of_integers(std::mt19937& random) {
+    const auto draw = [&] { return static_cast<double>(static_cast<int>(random() % 2001) - 1000); };
+    const std::array<double, 4> q = {draw() + 1001, draw(), draw(), draw()};
+    const double x = draw() / 1024, y = draw() / 1024, z = draw() / 1024;
+    const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    return Pose::from_quaternion(q[0] / size, q[1] / size, q[2] / size, q[3] / size, {x, y, z})
+        .value();
+}
+
+// Both round a product and a sum at once. So a model is walked in the same way on both processors,
+// and counts of a query are the same.
+TEST(Kernels, NeonGivesTheBitsOfAvx2) {
+    constexpr std::uint64_t kBoth = 8722119030184830269U;
+    std::size_t compared = 0;
+    for_each_table([&](const Table& table) {
+        const std::string name = table.name;
+        if (name != "avx2" && name != "neon") return;
+        std::mt19937 random(8);
+        const auto scratch = std::make_unique<LeafScratch>();
+        BitHash hash;
+        for (int round = 0; round < 400; ++round) {
+            const Node a = random_node(random), b = random_node(random);
+            const Pose pose = pose_of_integers(random);
+            add_depths(table, placement_of(pose, 1e-5F), {a.data(), nullptr}, {b.data(), nullptr},
+                       hash);
+            const bool is_coarse = round % 2 == 0;
+            const Leaf leaf_a = random_leaf(random, is_coarse);
+            const Leaf leaf_b = random_leaf(random, is_coarse);
+            add_leaves(table, pose, leaf_a, leaf_b, *scratch, hash);
+        }
+        EXPECT_EQ(hash.value(), kBoth);
+        ++compared;
+    });
+    if (compared == 0) GTEST_SKIP() << "this processor has neither AVX2 nor NEON";
+}
+
+// The operating system and the compiler agree with what the processor says.
+#if defined(CDPREP_HAVE_AVX2) && defined(__GNUC__)
+TEST(Kernels, TheProcessorIsAskedAsTheCompilerDoes) {
+    const Processor processor = ask_processor();
+    const auto is_set = [](int found) { return found != 0; };
+    EXPECT_EQ(processor.avx2,
+              is_set(__builtin_cpu_supports("avx2")) && is_set(__builtin_cpu_supports("fma")));
+    EXPECT_EQ(processor.avx512, is_set(__builtin_cpu_supports("avx512f")) &&
+                                    is_set(__builtin_cpu_supports("avx512vl")) &&
+                                    is_set(__builtin_cpu_supports("avx512dq")));
+    EXPECT_EQ(processor.bmi2, is_set(__builtin_cpu_supports("bmi2")));
+    EXPECT_EQ(processor.is_intel, is_set(__builtin_cpu_is("intel")));
+    EXPECT_EQ(processor.is_amd, is_set(__builtin_cpu_is("amd")));
+}
+#endif
 
 }  // namespace
 }  // namespace cdprep::kernels
