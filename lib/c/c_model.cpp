@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "cdprep/format/sections.h"
+#include "core/mapped_file.h"
 
 namespace cdprep::c {
 namespace {
@@ -114,12 +115,6 @@ int open_copy(Call& call, const Asked& asked, std::span<const std::byte> bytes, 
     return open_copied(call, asked, copy, to);
 }
 
-struct CloseFile {
-    void operator()(std::FILE* file) const noexcept {
-        std::fclose(file);
-    }
-};
-
 int fail_reading(Call& call, const std::string& path, const char* why) {
     return call.fail(CDPREP_UNREADABLE, path + ": " + why);
 }
@@ -127,18 +122,18 @@ int fail_reading(Call& call, const std::string& path, const char* why) {
 /// Reads the file, without mapping it.
 int open_copy(Call& call, const Asked& asked, const std::filesystem::path& path,
               cdprep_model** to) {
-    const std::string name = path.string();
+    const std::string name = path_text(path);
     std::error_code failed;
     if (!std::filesystem::is_regular_file(path, failed)) {
         return fail_reading(call, name, "is not there, or is not a regular file.");
     }
-    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(name.c_str(), "rb"));
-    if (file == nullptr) return fail_reading(call, name, "cannot be opened.");
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return fail_reading(call, name, "cannot be opened.");
     const std::uintmax_t size = std::filesystem::file_size(path, failed);
     if (failed) return fail_reading(call, name, "has no size that can be read.");
     OwnedMemory copy;
     if (const int code = copy.allocate(call, asked.allocator, size)) return code;
-    if (size > 0 && std::fread(copy.get().start, 1, size, file.get()) != size) {
+    if (!file.read(reinterpret_cast<char*>(copy.get().start), static_cast<std::streamsize>(size))) {
         return fail_reading(call, name, "cannot be read to its end.");
     }
     Asked named = asked;

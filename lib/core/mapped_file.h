@@ -4,10 +4,17 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include "cdprep/result.h"
 
 namespace cdprep {
+
+/// Returns a path as text in UTF-8, for messages.
+[[nodiscard]] inline std::string path_text(const std::filesystem::path& path) {
+    const std::u8string text = path.u8string();
+    return {text.begin(), text.end()};
+}
 
 /// The bytes of a file, mapped or copied, read-only. The only part of the library that depends on
 /// the operating system. Move-only; releases the memory on destruction.

@@ -16,7 +16,7 @@ namespace cdprep {
 namespace {
 
 Error unreadable(const std::filesystem::path& path, const std::string& why) {
-    return {ErrorCode::unreadable, path.string() + ": " + why};
+    return {ErrorCode::unreadable, path_text(path) + ": " + why};
 }
 
 /// A descriptor that closes itself.

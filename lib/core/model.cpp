@@ -132,7 +132,7 @@ Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& 
     Result<MappedFile> mapped = is_copied ? MappedFile::copy(path) : MappedFile::map(path);
     if (!mapped) return mapped.error();
     OpenOptions named = options;
-    const std::string name = path.string();
+    const std::string name = path_text(path);
     named.name = name;
     Result<Model> model = from_bytes(mapped.value().bytes(), named);
     if (model) model.value().state_->mapping = std::move(mapped).value();
@@ -186,9 +186,9 @@ Result<Model> Model::open_trusted(const std::filesystem::path& path) {
     auto state = std::make_unique<State>();
     state->mapping = std::move(mapped).value();
     state->file = state->mapping.bytes();
-    state->name = path.string();
+    state->name = path_text(path);
     if (const auto damage = format::find_header_damage(state->file)) {
-        return damaged(path.string(), *damage);
+        return damaged(path_text(path), *damage);
     }
     state->find_sections(SectionSet::all());
     return Model(std::move(state));
