@@ -9,6 +9,14 @@ endif()
 
 function(cdprep_compile_options target)
     target_compile_features(${target} PUBLIC cxx_std_20)
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    if(MSVC)
+        # Never tried. Attributes of GCC are without effect (5030).
+        target_compile_options(${target} PRIVATE
+            /W4 /wd5030 /permissive- /utf-8 /Zc:__cplusplus /fp:precise)
+        target_compile_definitions(${target} PRIVATE _CRT_SECURE_NO_WARNINGS)  # std::getenv
+        return()
+    endif()
     target_compile_options(${target} PRIVATE
         -Wall -Wextra -Wpedantic -Wshadow -Werror=return-type
         -fno-fast-math -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math
@@ -19,7 +27,8 @@ function(cdprep_compile_options target)
         # GCC 12.2 drops two of the three roundings of `p = {float(p.x), float(p.y),
         # float(p.z)}` in a loop over points of doubles.
         $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
+        # There GCC takes a format of printf() for that of an old C library. Linux checks them.
+        $<$<BOOL:${MINGW}>:-Wno-format;-Wno-format-extra-args>
         # GCC takes what is nameless in an included source for a mistake of a header.
         $<$<AND:$<COMPILE_LANG_AND_ID:CXX,GNU>,$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wno-subobject-linkage>)
-    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
 endfunction()
