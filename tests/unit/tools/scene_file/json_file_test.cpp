@@ -55,9 +55,9 @@ TEST(JsonFile, RefusesAKeyThatStandsTwice) {
 
 // A hostile file: its pointers would take quadratic memory.
 TEST(JsonFile, RefusesDeepNesting) {
-    EXPECT_TRUE(parse_json_file("f", std::string(32, '[') + std::string(32, ']')));
+    EXPECT_TRUE(parse_json_file("f", std::string(128, '[') + std::string(128, ']')));
     EXPECT_EQ(refusal_of(std::string(1'000'000, '[')),
-              "f: line 1: values are nested deeper than 32 levels.");
+              "f: line 1: values are nested deeper than 128 levels.");
 }
 
 }  // namespace

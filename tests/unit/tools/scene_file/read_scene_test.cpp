@@ -198,7 +198,7 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
                     "\"effects\": [\"contacts\"], \"contacts\": {\"most\": 0, \"tolerance\": -1}"),
          {"line 3: /pairs/0/contacts/tolerance: found -1; expected a number, 0 or more.",
           "line 3: /pairs/0/contacts/most: found 0; expected a whole number from 1 to "
-          "2147483648."}},
+          "256."}},
         {one_object(", \"pose\": {\"translation\": [1, 2]}"),
          {"line 4: /objects/0/pose/translation: found [1,2]; expected an array of 3 numbers."}},
         {one_object(", \"pose\": {\"quaternion\": [0, 0, 0, 0]}"),
