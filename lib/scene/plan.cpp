@@ -43,6 +43,14 @@ std::string list_of(const std::vector<std::string>& words) {
     return text;
 }
 
+/// Returns the reason why an effect is refused: it is not built. Lists the built ones.
+std::string unbuilt_effect(Ask one) {
+    std::vector<std::string> built;
+    built.reserve(std::size(kSceneEffects));
+    for (const Ask effect : kSceneEffects) built.push_back(name_of(effect));
+    return name_of(one) + " is not built in a scene. Built are " + list_of(built) + ".";
+}
+
 /// Calls `visit` with each bit.
 template <class Visit>
 void for_each_bit(Ask asks, const Visit& visit) {
@@ -113,7 +121,7 @@ private:
             if (contains(kSceneChanges, one)) return;
             if (std::find(kSceneEffects.begin(), kSceneEffects.end(), one) != kSceneEffects.end())
                 return;
-            add(place + unbuilt_effect(name_of(one)));
+            add(place + unbuilt_effect(one));
         });
         check_together(place, pair);
         check_number(place, "tolerance", pair.tolerance, has(pair.effects, Ask::within), "within");
@@ -299,13 +307,6 @@ std::string effects_text(const LayerPair& pair) {
 }
 
 }  // namespace
-
-std::string unbuilt_effect(std::string_view name) {
-    std::vector<std::string> built;
-    built.reserve(std::size(kSceneEffects));
-    for (const Ask effect : kSceneEffects) built.push_back(name_of(effect));
-    return std::string(name) + " is not built in a scene. Built are " + list_of(built) + ".";
-}
 
 Plan::Plan(const PlanOptions& options)
     : limits_(options.limits),

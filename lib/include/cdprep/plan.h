@@ -89,10 +89,6 @@ struct PlanOptions {
     std::span<const std::string_view> layer_names = {};
 };
 
-/// Returns the reason why an effect with this name is refused: it is not built. Lists the built
-/// ones.
-[[nodiscard]] std::string unbuilt_effect(std::string_view name);
-
 /// What a scene computes, and nothing else: compiled once from the effects of pairs of layers.
 ///
 /// Objects of layers that are not paired are never looked at together, not even their boxes. A

@@ -297,7 +297,8 @@ TEST(Plan, NamesLayers) {
             .refusals,
         Sentences({"Pair 1 of layers, 'crates' and 'floor': layers 'crates' and 'floor' are "
                    "also those of pair 0.",
-                   "Pair 2 of layers, 2 and 2: " + unbuilt_effect("ray"),
+                   "Pair 2 of layers, 2 and 2: ray is not built in a scene. Built are collide, "
+                   "overlap, within, distance, contacts, continuous, self and haptic.",
                    "arm.cdp.h5: its layer 'crates' asks for within, which the model does not "
                    "serve. Bake it with --effects within.",
                    "arm.cdp.h5: its layer 2 asks for ray, which the model does not serve. "

@@ -52,7 +52,10 @@ TEST(CompileScene, ListsAllRefusals) {
     EXPECT_FALSE(compiled.plan);
     ASSERT_EQ(compiled.refusals.size(), 2u);
     const std::string place = "s.json: Pair 0 of layers, 'a' and 'b': ";
-    EXPECT_EQ(compiled.refusals[0], place + unbuilt_effect("inside"));
+    EXPECT_EQ(compiled.refusals[0],
+              place +
+                  "inside is not built in a scene. Built are collide, overlap, within, "
+                  "distance, contacts, continuous, self and haptic.");
     EXPECT_EQ(compiled.refusals[1], place +
                                         "response needs bodies, but no object of these layers has "
                                         "the motion \"body\".");
