@@ -226,6 +226,11 @@ const Model* Scene::model_of(ObjectId object) const noexcept {
     const ObjectSlot* const found = state_->find(object);
     return found == nullptr ? nullptr : found->model;
 }
+std::optional<SceneObject> Scene::find(ObjectId object) const noexcept {
+    const ObjectSlot* const found = state_->find(object);
+    if (found == nullptr) return std::nullopt;
+    return SceneObject{found->model, found->layer, found->pose};
+}
 ObjectId Scene::object_at(std::uint32_t slot) const noexcept {
     if (slot >= state_->plan->limits().objects) return {};
     const ObjectSlot& object = state_->objects[slot];

@@ -252,6 +252,8 @@ public:
     [[nodiscard]] std::uint32_t object_count() const noexcept;
     /// Returns the model of an object, or null if there is none with this id.
     [[nodiscard]] const Model* model_of(ObjectId object) const noexcept;
+    /// Returns an object as it is now, or nothing if there is none with this id.
+    [[nodiscard]] std::optional<SceneObject> find(ObjectId object) const noexcept;
     /// Returns the object in a slot, or the id of no object if there is none.
     [[nodiscard]] ObjectId object_at(std::uint32_t slot) const noexcept;
     /// Returns a hash of all hits, lists, distances, impacts and events. It leaves out witness
