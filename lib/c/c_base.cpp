@@ -48,6 +48,17 @@ int nearest(Call& call, const std::array<double, 16>& matrix, std::uint32_t layo
                  pose);
 }
 
+/// Reads two poses, and clears the result, which may be one of them.
+int read_two(Call& call, const Name& first_name, const cdprep_pose& first, const Name& second_name,
+             const cdprep_pose* second, cdprep_pose& result, Pose& a, Pose& b) {
+    const cdprep_pose outer = first;
+    const cdprep_pose inner = second != nullptr ? *second : cdprep_pose{};
+    result = {};
+    if (const int code = call.need(second, second_name)) return code;
+    if (const int code = read_pose(call, first_name, &outer, a)) return code;
+    return read_pose(call, second_name, &inner, b);
+}
+
 /// Clears the result, and returns whether all arguments are present.
 int begin(Call& call, const void* first, const char* first_name, cdprep_pose* pose,
           const char* pose_name) noexcept {
@@ -143,13 +154,11 @@ int cdprep_pose_compose(const cdprep_pose* a_from_b, const cdprep_pose* b_from_c
         if (const int code = cdprep::c::begin(call, a_from_b, "a_from_b", a_from_c, "a_from_c")) {
             return code;
         }
-        const cdprep_pose outer = *a_from_b;
-        const cdprep_pose inner = b_from_c != nullptr ? *b_from_c : cdprep_pose{};
-        *a_from_c = {};
-        if (const int code = call.need(b_from_c, {"b_from_c"})) return code;
         Pose first, second;
-        if (const int code = read_pose(call, {"a_from_b"}, &outer, first)) return code;
-        if (const int code = read_pose(call, {"b_from_c"}, &inner, second)) return code;
+        if (const int code = cdprep::c::read_two(call, {"a_from_b"}, *a_from_b, {"b_from_c"},
+                                                 b_from_c, *a_from_c, first, second)) {
+            return code;
+        }
         return cdprep::c::store(call, {"b_from_c"}, CDPREP_WHY_OUT_OF_RANGE,
                                 cdprep::composed_pose(first, second), *a_from_c);
     });
@@ -166,6 +175,28 @@ int cdprep_pose_inverse(const cdprep_pose* a_from_b, cdprep_pose* b_from_a, cdpr
         if (const int code = read_pose(call, {"a_from_b"}, &given, pose)) return code;
         return cdprep::c::store(call, {"a_from_b"}, CDPREP_WHY_OUT_OF_RANGE,
                                 cdprep::inverse_pose(pose), *b_from_a);
+    });
+}
+
+int cdprep_pose_relative(const cdprep_pose* world_from_a, const cdprep_pose* world_from_b,
+                         cdprep_pose* a_from_b, cdprep_error* error) {
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code =
+                cdprep::c::begin(call, world_from_a, "world_from_a", a_from_b, "a_from_b")) {
+            return code;
+        }
+        Pose a, b;
+        if (const int code = cdprep::c::read_two(call, {"world_from_a"}, *world_from_a,
+                                                 {"world_from_b"}, world_from_b, *a_from_b, a, b)) {
+            return code;
+        }
+        const cdprep_pose relative = cdprep::c::stored(cdprep::relative_pose(a, b));
+        Pose checked;
+        if (const int code = cdprep::c::read_relative(call, {"world_from_b"}, relative, checked)) {
+            return code;
+        }
+        *a_from_b = relative;
+        return CDPREP_OK;
     });
 }
 

@@ -362,6 +362,21 @@ int cdprep_model_section(const cdprep_model* model, uint32_t section, cdprep_arr
     });
 }
 
+int cdprep_model_bytes(const cdprep_model* model, cdprep_array* bytes, cdprep_error* error) {
+    Call call(error);
+    if (bytes != nullptr) *bytes = {};
+    if (const int code = call.need(model, {"model"})) return code;
+    if (const int code = call.need(bytes, {"bytes"})) return code;
+    if (!model->own) {
+        return call.refuse(CDPREP_WHY_NO_MEANING, {"model"},
+                           "is that of a %s, whose bytes are not those of a file.",
+                           model->live != nullptr ? "live model" : "window");
+    }
+    const std::span<const std::byte> file = model->model.bytes();
+    *bytes = {file.data(), file.size(), 1};
+    return CDPREP_OK;
+}
+
 int cdprep_model_text(const cdprep_model* model, uint32_t kind, uint32_t number, const char** text,
                       size_t* length, cdprep_error* error) {
     Call call(error);

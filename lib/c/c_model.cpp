@@ -240,6 +240,11 @@ void cdprep_open_options_init(cdprep_open_options* options, size_t size) {
     cdprep::c::initialise(options, size);
 }
 
+const char* cdprep_ask_name(uint32_t ask) {
+    const cdprep::Needs* const row = cdprep::find_needs(static_cast<cdprep::Ask>(ask));
+    return row == nullptr ? nullptr : row->name;
+}
+
 int cdprep_model_open(const char* utf8_path, const cdprep_open_options* options,
                       cdprep_model** model, cdprep_error* error) {
     if (model != nullptr) *model = nullptr;

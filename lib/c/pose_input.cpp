@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "c/pose_input.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -52,6 +53,17 @@ int read_pose(Call& call, const Name& name, const cdprep_pose* given, Pose& pose
         return code;
     }
     return read_rigid(call, name, *given, pose);
+}
+
+int read_relative(Call& call, const Name& name, const cdprep_pose& computed, Pose& pose) {
+    {
+        const format::FloatEnvironment environment;
+        if (std::any_of(computed.rows + 9, computed.rows + 12,
+                        [](double t) { return !(std::fabs(t) <= format::kMaxCoordinate); })) {
+            return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name, "is more than 2^1000 away.");
+        }
+    }
+    return read_rigid(call, name, computed, pose);
 }
 
 int read_placement(Call& call, const Name& name, std::uint32_t moving, const cdprep_pose& pose_a,

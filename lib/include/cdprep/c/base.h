@@ -23,7 +23,8 @@
  *   the model serves the query, and whether the workspace is in use. If there are several errors,
  *   one is reported. One invalid entry makes the whole batch fail.
  * - Numbers are finite and at most 2^1000 in magnitude. NaN is always refused. Infinity is allowed
- *   only for max_distance, max_t and the limits of boxes. No answer holds NaN or infinity.
+ *   only for max_distance, max_t and the limits of boxes. No answer holds NaN. None holds infinity,
+ *   unless its comment says so.
  * - On failure, answers are unknown: counts and `found` are 0; `hit`, `inside` and similar fields
  *   are CDPREP_UNKNOWN. The items of lists may hold anything. Answers stay unchanged if their
  *   number is not known. That is so if the query is null or not initialised, or if a count is too
@@ -264,6 +265,16 @@ CDPREP_API int cdprep_pose_compose(const cdprep_pose* a_from_b, const cdprep_pos
  * Errors: CDPREP_WHY_OUT_OF_RANGE if the translation exceeds 2^1000. */
 CDPREP_API int cdprep_pose_inverse(const cdprep_pose* a_from_b, cdprep_pose* b_from_a,
                                    cdprep_error* error);
+
+/* Stores the pose that moves B's points into A's frame: world_from_a^-1 world_from_b. R is Ra^T Rb
+ * and T is Ra^T (Tb - Ta), each sum from left to right. These are the numbers of relative_pose() in
+ * C++, and a query with CDPREP_MOVE_B moves by them. Takes some 20 ns. `a_from_b` may point to
+ * either argument.
+ * Errors: CDPREP_WHY_OUT_OF_RANGE if the translation exceeds 2^1000. CDPREP_WHY_NOT_RIGID if both
+ * rotations deviate so far that the product deviates by more than 1e-12. */
+CDPREP_API int cdprep_pose_relative(const cdprep_pose* world_from_a,
+                                    const cdprep_pose* world_from_b, cdprep_pose* a_from_b,
+                                    cdprep_error* error);
 
 /* Moves `count` points, 3 numbers each, by the formula that all queries use. x becomes
  * ((R00 x + R01 y) + R02 z) + T0, and y and z likewise. It is computed in double, without fused

@@ -37,6 +37,10 @@ enum {
     CDPREP_ASK_SOLID = 1 << 30 /* collide, distance and containment of solids */
 };
 
+/* Returns the name of one CDPREP_ASK_ bit, as messages and `cdprep bake` use it: "collide". Returns
+ * null for a set of bits and for a bit that this version does not know. */
+CDPREP_API const char* cdprep_ask_name(uint32_t ask);
+
 /* The way in which a file gets into memory. */
 enum {
     CDPREP_MAP = 0,  /* Memory-mapped and validated. Processes share the memory. */
@@ -156,6 +160,14 @@ typedef struct cdprep_array {
  * lacks the section; CDPREP_WHY_NOT_OPENED if the model was opened without it. */
 CDPREP_API int cdprep_model_section(const cdprep_model* model, uint32_t section,
                                     cdprep_array* array, cdprep_error* error);
+
+/* Stores the address of all bytes of a model, to store or to send. The stride is 1, and the count
+ * is the number of bytes. cdprep_model_open_memory() accepts a copy of them. The address is valid
+ * as long as the model. Nothing is copied: O(1).
+ * Errors: CDPREP_WHY_NO_MEANING for the model of a live model (see cdprep_live_image()) or of a
+ * window. */
+CDPREP_API int cdprep_model_bytes(const cdprep_model* model, cdprep_array* bytes,
+                                  cdprep_error* error);
 
 enum {
     CDPREP_PROVENANCE = 0,    /* JSON: how the file was made */

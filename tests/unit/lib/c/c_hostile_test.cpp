@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "c/input.h"
+#include "cdprep/ask.h"
 #include "cdprep/cdprep.h"
 #include "support/c_mistakes.h"
 #include "support/c_models.h"
@@ -25,6 +26,7 @@
 #include "support/float_modes.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
+#include "support/random_pose.h"
 #include "support/scratch_folder.h"
 #include "support/tiny_baker.h"
 
@@ -371,6 +373,102 @@ TEST_F(CHostile, TheGreatestToleranceOfAPoseIsInclusive) {
         CDPREP_BAD_ARGUMENT);
     EXPECT_STREQ(error.argument, "tolerance");
     EXPECT_EQ(error.why, CDPREP_WHY_OUT_OF_RANGE);
+}
+
+// As B moves in a query. The poses are not changed if one is the result.
+TEST_F(CHostile, RelativePosesAreThoseOfCpp) {
+    std::mt19937 random(11);
+    for (int i = 0; i < 300; ++i) {
+        const Pose a = random_pose(random, 10), b = random_pose(random, 10);
+        const cdprep_pose in_a = rows_in_c(a), in_b = rows_in_c(b);
+        const cdprep_pose expected = rows_in_c(relative_pose(a, b));
+        for (const FloatMode& mode : float_modes()) {
+            cdprep_pose found{}, over_a = in_a, over_b = in_b;
+            (void)run_in(mode, [&] {
+                (void)cdprep_pose_relative(&in_a, &in_b, &found, nullptr);
+                (void)cdprep_pose_relative(&over_a, &in_b, &over_a, nullptr);
+                (void)cdprep_pose_relative(&in_a, &over_b, &over_b, nullptr);
+            });
+            EXPECT_EQ(std::memcmp(&found, &expected, sizeof found), 0) << mode.name;
+            EXPECT_EQ(std::memcmp(&over_a, &expected, sizeof found), 0) << mode.name;
+            EXPECT_EQ(std::memcmp(&over_b, &expected, sizeof found), 0) << mode.name;
+        }
+    }
+}
+
+TEST_F(CHostile, RelativePosesAreChecked) {
+    const cdprep_pose right = pair().pose_a;
+    cdprep_error error;
+    const auto expect = [&](const cdprep_pose* a, const cdprep_pose* b, int why,
+                            const char* argument) {
+        cdprep_pose found = right;
+        EXPECT_EQ(cdprep_pose_relative(a, b, &found, &error), CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error.why, why) << argument;
+        EXPECT_STREQ(error.argument, argument);
+        for (const double number : found.rows) EXPECT_EQ(number, 0);
+    };
+    expect(nullptr, &right, CDPREP_WHY_NULL, "world_from_a");
+    expect(&right, nullptr, CDPREP_WHY_NULL, "world_from_b");
+    EXPECT_EQ(cdprep_pose_relative(&right, &right, nullptr, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "a_from_b");
+    cdprep_pose wrong = right;
+    wrong.rows[9] = kNan;
+    expect(&wrong, &right, CDPREP_WHY_NOT_FINITE, "world_from_a.rows[9]");
+    expect(&right, &wrong, CDPREP_WHY_NOT_FINITE, "world_from_b.rows[9]");
+    wrong = {};
+    expect(&right, &wrong, CDPREP_WHY_NOT_RIGID, "world_from_b");
+    cdprep_pose far = right, other = right;
+    far.rows[9] = 0x1p1000;
+    other.rows[9] = -0x1p1000;
+    expect(&far, &other, CDPREP_WHY_OUT_OF_RANGE, "world_from_b");
+    // Each is a pose; their product deviates by twice as much as a pose may.
+    cdprep_pose drifted = right;
+    drifted.rows[0] = drifted.rows[4] = drifted.rows[8] = 1 + 4.9e-13;
+    expect(&drifted, &drifted, CDPREP_WHY_NOT_RIGID, "world_from_b");
+}
+
+// A built cube is sent, and opened again.
+TEST_F(CHostile, BytesOfAModelAreOneAgain) {
+    const TestMesh cube = unit_cube();
+    const CBuilt built(build_options_of(cube), workspace_.get());
+    for (const cdprep_model* model : {built.get(), model_.get()}) {
+        cdprep_array bytes{};
+        ASSERT_EQ(cdprep_model_bytes(model, &bytes, nullptr), CDPREP_OK);
+        EXPECT_EQ(bytes.stride, 1u);
+        AlignedBytes copy(bytes.count);
+        std::memcpy(copy.span().data(), bytes.data, bytes.count);
+        const CModel again(copy);
+        std::size_t answered = 0;
+        for (const CQuestion& question : c_questions()) {
+            const CAnswer answer = question.ask({model, model, 0.5, workspace_.get()});
+            const CAnswer same = question.ask({again.get(), again.get(), 0.5, workspace_.get()});
+            EXPECT_EQ(answer.code, same.code) << question.name;
+            EXPECT_EQ(answer.bytes, same.bytes) << question.name;
+            answered += answer.code == CDPREP_OK;
+        }
+        EXPECT_GT(answered, 20u);
+    }
+    cdprep_error error;
+    cdprep_array bytes = {&error, 77, 77};
+    EXPECT_EQ(cdprep_model_bytes(nullptr, &bytes, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "model");
+    EXPECT_EQ(bytes.data, nullptr);
+    EXPECT_EQ(cdprep_model_bytes(built.get(), nullptr, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "bytes");
+}
+
+TEST_F(CHostile, EveryFeatureHasAName) {
+    std::uint32_t named = 0;
+    for (std::uint32_t bit = 0; bit < 32; ++bit) {
+        const char* const name = cdprep_ask_name(1U << bit);
+        if (name != nullptr) named |= 1U << bit;
+    }
+    EXPECT_EQ(named, static_cast<std::uint32_t>(known_asks()));
+    EXPECT_STREQ(cdprep_ask_name(CDPREP_ASK_COLLIDE), "collide");
+    EXPECT_STREQ(cdprep_ask_name(CDPREP_ASK_HULLS), "hull");
+    EXPECT_EQ(cdprep_ask_name(0), nullptr);
+    EXPECT_EQ(cdprep_ask_name(CDPREP_ASK_COLLIDE | CDPREP_ASK_RAY), nullptr);
+    EXPECT_EQ(cdprep_ask_name(UINT32_MAX), nullptr);
 }
 
 TEST_F(CHostile, RefusalsNameTheParameter) {
