@@ -8,6 +8,7 @@
 #include "cdprep/c/points.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/points.h"
+#include "core/share_out.h"
 
 namespace cdprep::c {
 
@@ -33,8 +34,6 @@ constexpr std::array kFields = {
     Field{"world_from_model", offsetof(cdprep_shape_query, world_from_model), Holds::number, 0, 12},
 };
 
-constexpr Name kQuery = {"query"};
-
 /// The number of points that a shape uses, and whether it has a radius.
 struct ShapeFields {
     std::size_t points;
@@ -55,47 +54,46 @@ ShapeFields fields_of(std::uint32_t shape) noexcept {
 }
 
 /// Limits may be infinite, but no lower limit may exceed its upper limit.
-int check_box(Call& call, const cdprep_shape_query& query) noexcept {
+int check_box(Call& call, const Name& name, const cdprep_shape_query& query) noexcept {
     const format::FloatEnvironment environment;
     for (std::size_t i = 0; i < 3; ++i) {
         for (const bool is_lower : {true, false}) {
             const double limit = is_lower ? query.a[i] : query.b[i];
             const double open = std::numeric_limits<double>::infinity() * (is_lower ? -1 : 1);
             if (limit == open) continue;
-            if (const int code = check_numbers(call, kQuery.of(is_lower ? "a" : "b", i),
+            if (const int code = check_numbers(call, name.of(is_lower ? "a" : "b", i),
                                                Holds::number, &limit, 1)) {
                 return code;
             }
         }
         if (query.a[i] > query.b[i]) {
-            return call.refuse(CDPREP_WHY_OUT_OF_RANGE, kQuery.of("b", i),
+            return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("b", i),
                                "is less than query.a[%zu]: the box is empty.", i);
         }
     }
     return CDPREP_OK;
 }
 
-int check_shape(Call& call, const cdprep_shape_query& query) noexcept {
+int check_shape(Call& call, const Name& name, const cdprep_shape_query& query) noexcept {
     if (query.shape == 0) {
-        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, kQuery.of("shape"),
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("shape"),
                            "is 0; choose CDPREP_BOX, _SPHERE, _CAPSULE or _TRIANGLE.");
     }
-    if (query.shape == CDPREP_BOX) return check_box(call, query);
+    if (query.shape == CDPREP_BOX) return check_box(call, name, query);
     const ShapeFields fields = fields_of(query.shape);
     const std::array<const double*, 3> points = {query.a, query.b, query.c};
     constexpr std::array kNames = {"a", "b", "c"};
     for (std::size_t i = 0; i < fields.points; ++i) {
-        if (const int code =
-                check_numbers(call, kQuery.of(kNames[i]), Holds::number, points[i], 3)) {
+        if (const int code = check_numbers(call, name.of(kNames[i]), Holds::number, points[i], 3)) {
             return code;
         }
     }
     if (!fields.has_radius) return CDPREP_OK;
-    return check_numbers(call, kQuery.of("radius"), Holds::length, &query.radius, 1);
+    return check_numbers(call, name.of("radius"), Holds::length, &query.radius, 1);
 }
 
-int refuse_meaning(Call& call, const char* field) noexcept {
-    return call.refuse(CDPREP_WHY_NO_MEANING, kQuery.of(field),
+int refuse_meaning(Call& call, const Name& name, const char* field) noexcept {
+    return call.refuse(CDPREP_WHY_NO_MEANING, name.of(field),
                        "is set, but this query does not use it; leave it at its default.");
 }
 
@@ -124,51 +122,113 @@ struct AskedShape {
     ShapeOptions options;
 };
 
-int read_shape(Call& call, const cdprep_shape_query* given, AskedShape& asked) {
-    if (const int code = read_input(call, kQuery, given, asked.query)) return code;
-    if (const int code = check_shape(call, asked.query)) return code;
+int read_shape(Call& call, const Name& name, const cdprep_shape_query* given, AskedShape& asked) {
+    if (const int code = read_input(call, name, given, asked.query)) return code;
+    if (const int code = check_shape(call, name, asked.query)) return code;
     asked.shape = shape_of(asked.query);
     asked.options.max_distance = asked.query.max_distance;
     if (asked.query.degenerate == CDPREP_SKIP_DEGENERATE) {
         asked.options.degenerate = Degenerate::skip;
     }
-    return read_rigid(call, kQuery.of("world_from_model"), asked.query.world_from_model,
+    return read_rigid(call, name.of("world_from_model"), asked.query.world_from_model,
                       asked.options.world_from_model);
 }
 
-int check_touch(Call& call, const AskedShape& asked) noexcept {
-    return is_infinite(asked.query.max_distance) ? CDPREP_OK : refuse_meaning(call, "max_distance");
+int check_touch(Call& call, const Name& name, const AskedShape& asked) noexcept {
+    return is_infinite(asked.query.max_distance) ? CDPREP_OK
+                                                 : refuse_meaning(call, name, "max_distance");
 }
 
-int check_distance(Call& call, const AskedShape& asked) noexcept {
+int check_distance(Call& call, const Name& name, const AskedShape& asked) noexcept {
     const bool skips = asked.query.degenerate != CDPREP_KEEP_DEGENERATE;
-    return skips ? refuse_meaning(call, "degenerate") : CDPREP_OK;
+    return skips ? refuse_meaning(call, name, "degenerate") : CDPREP_OK;
+}
+
+/// Reads a query and checks all of it; `check(call, name, shape)` checks what depends on its kind.
+template <class Check>
+int read_asked(Call& call, const Name& name, const cdprep_shape_query* given, Check&& check,
+               AskedShape& asked) {
+    if (const int code = read_shape(call, name, given, asked)) return code;
+    if (const int code = check(call, name, asked)) return code;
+    return check_serves(call, name.of("model"), *asked.query.model, Ask::touch);
 }
 
 /// Runs a query about a shape. Sets the answer to unknown, then checks everything; `check(call,
-/// shape)` checks what depends on the kind of query. Then calls `ask(shape, model, workspace)`.
+/// name, shape)` checks what depends on the kind of query. Then calls `ask(shape, model,
+/// workspace)`.
 template <class Answer, class Check, class Asker>
 int ask_shape(const cdprep_shape_query* query, cdprep_workspace* workspace, Answer* answer,
               const char* answer_name, cdprep_error* error, Check&& check, Asker&& ask) noexcept {
     if constexpr (!std::is_function_v<Answer>) set_unknown(answer, 1);
     return guarded(error, [&](Call& call) -> int {
-        if (const int code = call.need(query, kQuery)) return code;
+        const Name name = {"query"};
+        if (const int code = call.need(query, name)) return code;
         if (const int code = call.need(workspace, {"workspace"})) return code;
         if (answer == nullptr) return call.need(nullptr, {answer_name});
         if constexpr (requires { answer->items; }) {
             if (const int code = check_list(call, {answer_name}, *answer)) return code;
         }
         AskedShape asked;
-        if (const int code = read_shape(call, query, asked)) return code;
-        if (const int code = check(call, asked)) return code;
-        const cdprep_model& model = *asked.query.model;
-        if (const int code = check_serves(call, kQuery.of("model"), model, Ask::touch)) {
-            return code;
-        }
+        if (const int code = read_asked(call, name, query, check, asked)) return code;
         InUse use;
         if (const int code = use.begin(call, *workspace)) return code;
         assert(!workspace->lanes.empty());
-        ask(asked, model.model, workspace->lanes[0]);
+        ask(asked, asked.query.model->model, workspace->lanes[0]);
+        return CDPREP_OK;
+    });
+}
+
+/// A batch of queries about shapes.
+template <class Answer>
+struct ShapeBatch {
+    const cdprep_shape_query* queries;
+    std::size_t count;
+    cdprep_workspace* workspace;
+    Answer* answers;
+    const char* answers_name;
+    cdprep_error* error;
+};
+
+/// Checks that the arrays of a batch are there, then every query.
+template <class Answer, class Check>
+int check_batch(Call& call, const ShapeBatch<Answer>& batch, Check&& check) {
+    if (const int code = call.need(batch.workspace, {"workspace"})) return code;
+    if (batch.count > 0) {
+        if (const int code = call.need(batch.queries, {"queries"})) return code;
+        if (const int code = call.need(batch.answers, {batch.answers_name})) return code;
+    }
+    if (batch.count > kMostAnswers<Answer>) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"count"}, "is more than memory holds.");
+    }
+    for (std::size_t i = 0; i < batch.count; ++i) {
+        const Name name = {"queries", i};
+        const cdprep_shape_query* const query = element(batch.queries, i);
+        if (const int code = check_stride(call, name, batch.queries, query)) return code;
+        AskedShape asked;
+        if (const int code = read_asked(call, name, query, check, asked)) return code;
+    }
+    return CDPREP_OK;
+}
+
+/// Sets all answers to unknown, checks everything, then calls `ask(answer, shape, workspace)` for
+/// each query, on all lanes. Queries that change meanwhile keep their answer unknown.
+template <class Answer, class Check, class Asker>
+int ask_shapes(const ShapeBatch<Answer>& batch, Check&& check, Asker&& ask) noexcept {
+    set_unknown(batch.answers, batch.count);
+    return guarded(batch.error, [&](Call& call) -> int {
+        if (const int code = check_batch(call, batch, check)) return code;
+        InUse use;
+        if (const int code = use.begin(call, *batch.workspace)) return code;
+        const std::span<Workspace> lanes = batch.workspace->lanes;
+        const CallersThreads threads(*batch.workspace);
+        share_jobs(batch.count, lanes.size(), threads, [&](std::size_t i, std::size_t lane) {
+            assert(lane < lanes.size());
+            AskedShape asked;
+            Call again(nullptr);
+            const cdprep_shape_query* const query = element(batch.queries, i);
+            if (read_asked(again, {"queries", i}, query, check, asked) != CDPREP_OK) return;
+            ask(batch.answers[i], asked, lanes[lane]);
+        });
         return CDPREP_OK;
     });
 }
@@ -198,8 +258,10 @@ const InputType Input<cdprep_shape_query>::type = {"cdprep_shape_query", 0xcd500
 using cdprep::Model;
 using cdprep::Workspace;
 using cdprep::c::ask_shape;
+using cdprep::c::ask_shapes;
 using cdprep::c::AskedShape;
 using cdprep::c::check_touch;
+using cdprep::c::ShapeBatch;
 
 void cdprep_shape_query_init(cdprep_shape_query* query, size_t size) {
     cdprep::c::initialise(query, size);
@@ -241,4 +303,25 @@ int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* wor
         [&](const AskedShape& asked, const Model& model, Workspace& scratch) {
             *nearest = cdprep::c::in_c(shape_distance(model, asked.shape, scratch, asked.options));
         });
+}
+
+int cdprep_touch_many(const cdprep_shape_query* queries, size_t count, cdprep_workspace* workspace,
+                      uint32_t* touches, cdprep_error* error) {
+    const ShapeBatch<uint32_t> batch = {queries, count, workspace, touches, "touches", error};
+    return ask_shapes(
+        batch, check_touch, [](uint32_t& to, const AskedShape& asked, Workspace& scratch) {
+            to = cdprep::c::word(
+                cdprep::touches(asked.query.model->model, asked.shape, scratch, asked.options));
+        });
+}
+
+int cdprep_shape_distance_many(const cdprep_shape_query* queries, size_t count,
+                               cdprep_workspace* workspace, cdprep_nearest* nearest,
+                               cdprep_error* error) {
+    const ShapeBatch<cdprep_nearest> batch = {queries, count, workspace, nearest, "nearest", error};
+    return ask_shapes(batch, cdprep::c::check_distance,
+                      [](cdprep_nearest& to, const AskedShape& asked, Workspace& scratch) {
+                          to = cdprep::c::in_c(shape_distance(asked.query.model->model, asked.shape,
+                                                              scratch, asked.options));
+                      });
 }

@@ -162,4 +162,17 @@ CDPREP_API int cdprep_touch_visit(const cdprep_shape_query* query, cdprep_worksp
 CDPREP_API int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                      cdprep_nearest* nearest, cdprep_error* error);
 
+/* Both functions run `count` queries on the lanes of the workspace, about one model or several. The
+ * answers are those of cdprep_touch() and cdprep_shape_distance(), in the same order. All queries
+ * are checked first. If one is invalid, none runs, and error.argument names it
+ * ("queries[3].radius"). The size in the head of the first query is the stride of the array. A
+ * batch of about ten queries or more is faster than single calls.
+ * Needs: CDPREP_ASK_TOUCH */
+CDPREP_API int cdprep_touch_many(const cdprep_shape_query* queries, size_t count,
+                                 cdprep_workspace* workspace, uint32_t* touches,
+                                 cdprep_error* error);
+CDPREP_API int cdprep_shape_distance_many(const cdprep_shape_query* queries, size_t count,
+                                          cdprep_workspace* workspace, cdprep_nearest* nearest,
+                                          cdprep_error* error);
+
 #endif /* CDPREP_C_POINTS_H */

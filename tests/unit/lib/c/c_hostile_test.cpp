@@ -19,6 +19,7 @@
 #include "c/input.h"
 #include "cdprep/ask.h"
 #include "cdprep/cdprep.h"
+#include "support/c_lanes.h"
 #include "support/c_mistakes.h"
 #include "support/c_models.h"
 #include "support/c_questions.h"
@@ -610,6 +611,107 @@ TEST_F(CHostile, ShapesAreCheckedFieldByField) {
         const int code = cdprep_touch(query, workspace_.get(), &touches, &error);
         return outcome(code, error, touches == CDPREP_UNKNOWN);
     });
+}
+
+// Spheres, capsules, boxes and triangles at many places, on one lane and on several.
+TEST_F(CHostile, BatchesOfShapesGetTheAnswersOfSingleOnes) {
+    constexpr std::size_t kCount = 100;
+    std::vector<cdprep_shape_query> touched, measured;
+    for (std::size_t i = 0; i < kCount; ++i) {
+        cdprep_shape_query query = detail::shape_of({model_.get(), nullptr, 0, nullptr});
+        query.shape = 1 + static_cast<std::uint32_t>(i % 4);
+        const double x = 0.02 * static_cast<double>(i);
+        query.a[0] = query.b[0] = query.c[0] = x;
+        query.a[1] = query.b[1] = 0.25;
+        query.b[2] = query.c[2] = 0.75;
+        query.radius = 0.125;
+        query.world_from_model.rows[9] = 0.5;
+        if (i % 3 == 0) query.degenerate = CDPREP_SKIP_DEGENERATE;
+        touched.push_back(query);
+        query.degenerate = CDPREP_KEEP_DEGENERATE;
+        if (i % 3 == 0) query.max_distance = 0.25;
+        measured.push_back(query);
+    }
+    std::vector<std::uint32_t> touches(kCount);
+    std::vector<cdprep_nearest> nearest(kCount);
+    for (const std::uint32_t lanes : {1U, 4U}) {
+        const CLanes workspace(lanes);
+        std::fill(touches.begin(), touches.end(), 77U);
+        std::fill(nearest.begin(), nearest.end(), cdprep_nearest{});
+        cdprep_error error;
+        ASSERT_EQ(
+            cdprep_touch_many(touched.data(), kCount, workspace.get(), touches.data(), &error),
+            CDPREP_OK)
+            << error.message;
+        ASSERT_EQ(cdprep_shape_distance_many(measured.data(), kCount, workspace.get(),
+                                             nearest.data(), &error),
+                  CDPREP_OK)
+            << error.message;
+        std::size_t touching = 0, found = 0;
+        for (std::size_t i = 0; i < kCount; ++i) {
+            std::uint32_t one = 77;
+            cdprep_nearest single{};
+            ASSERT_EQ(cdprep_touch(&touched[i], workspace_.get(), &one, nullptr), CDPREP_OK);
+            ASSERT_EQ(cdprep_shape_distance(&measured[i], workspace_.get(), &single, nullptr),
+                      CDPREP_OK);
+            EXPECT_EQ(touches[i], one) << i;
+            EXPECT_EQ(std::memcmp(&nearest[i], &single, sizeof single), 0) << i;
+            touching += one == CDPREP_YES;
+            found += single.found == CDPREP_YES;
+        }
+        EXPECT_GT(touching, kCount / 5);
+        EXPECT_LT(touching, kCount * 4 / 5);
+        EXPECT_GT(found, kCount / 2);
+        EXPECT_LT(found, kCount);
+    }
+}
+
+// No query of a batch runs if one is wrong; all answers are unknown, and the wrong one is named.
+TEST_F(CHostile, BatchesOfShapesNameTheWrongQuery) {
+    using Q = cdprep_shape_query;
+    const Q right = detail::shape_of({model_.get(), nullptr, 0, nullptr});
+    std::vector<Mistake<Q>> all = struct_mistakes<Q>("queries[2]");
+    all.push_back({"model", [](Q& q) { q.model = nullptr; }, CDPREP_WHY_NULL, "queries[2].model"});
+    all.push_back(
+        {"radius", [](Q& q) { q.radius = kNan; }, CDPREP_WHY_NOT_FINITE, "queries[2].radius"});
+    all.push_back({"pose", [](Q& q) { q.world_from_model = {}; }, CDPREP_WHY_NOT_RIGID,
+                   "queries[2].world_from_model"});
+    all.push_back({"max_distance", [](Q& q) { q.max_distance = 1; }, CDPREP_WHY_NO_MEANING,
+                   "queries[2].max_distance"});
+    all.push_back(
+        {"another size", [](Q& q) { q.head.size += 8; }, CDPREP_WHY_NOT_INITIALISED, "queries[2]"});
+    for (const Mistake<Q>& mistake : all) {
+        std::array<Q, 3> queries = {right, right, right};
+        mistake.make(queries[2]);
+        std::array<std::uint32_t, 3> touches = {CDPREP_NO, CDPREP_NO, CDPREP_NO};
+        cdprep_error error;
+        EXPECT_EQ(cdprep_touch_many(queries.data(), 3, workspace_.get(), touches.data(), &error),
+                  CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error.why, mistake.why) << mistake.what;
+        EXPECT_STREQ(error.argument, mistake.argument) << mistake.what;
+        for (const std::uint32_t one : touches) EXPECT_EQ(one, std::uint32_t{CDPREP_UNKNOWN});
+    }
+    std::uint32_t touches = 0;
+    cdprep_nearest nearest{};
+    cdprep_error error;
+    const auto refuse = [&](int code) {
+        EXPECT_EQ(code, CDPREP_BAD_ARGUMENT);
+        return std::string(error.argument);
+    };
+    cdprep_workspace* const workspace = workspace_.get();
+    EXPECT_EQ(refuse(cdprep_touch_many(nullptr, 1, workspace, &touches, &error)), "queries");
+    EXPECT_EQ(refuse(cdprep_touch_many(&right, 1, nullptr, &touches, &error)), "workspace");
+    EXPECT_EQ(refuse(cdprep_touch_many(&right, 1, workspace, nullptr, &error)), "touches");
+    EXPECT_EQ(refuse(cdprep_touch_many(&right, SIZE_MAX, workspace, &touches, &error)), "count");
+    EXPECT_EQ(refuse(cdprep_shape_distance_many(&right, 1, workspace, nullptr, &error)), "nearest");
+    EXPECT_EQ(refuse(cdprep_shape_distance_many(&right, SIZE_MAX, workspace, &nearest, &error)),
+              "count");
+    Q skips = right;
+    skips.degenerate = CDPREP_SKIP_DEGENERATE;
+    EXPECT_EQ(refuse(cdprep_shape_distance_many(&skips, 1, workspace, &nearest, &error)),
+              "queries[0].degenerate");
+    EXPECT_EQ(cdprep_touch_many(nullptr, 0, workspace, nullptr, &error), CDPREP_OK);
+    EXPECT_EQ(cdprep_shape_distance_many(nullptr, 0, workspace, nullptr, &error), CDPREP_OK);
 }
 
 TEST_F(CHostile, SelfQueriesAreCheckedFieldByField) {

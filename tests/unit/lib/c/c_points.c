@@ -136,6 +136,19 @@ static const char* ask_distance(const cdprep_model* cube, cdprep_workspace* scra
     return NULL;
 }
 
+/* A shape that touches the cube, and one that does not. */
+static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) {
+    const cdprep_shape_query two[2] = {shape_at(cube, CDPREP_SPHERE, 1.25, 0.125),
+                                       shape_at(cube, CDPREP_SPHERE, 1, 0)};
+    uint32_t touches[2] = {CDPREP_UNKNOWN, CDPREP_UNKNOWN};
+    cdprep_nearest nearest[2];
+    MUST(cdprep_touch_many(two, 2, scratch, touches, NULL) == CDPREP_OK);
+    MUST(touches[0] == CDPREP_NO && touches[1] == CDPREP_YES);
+    MUST(cdprep_shape_distance_many(two, 2, scratch, nearest, NULL) == CDPREP_OK);
+    MUST(nearest[0].found == CDPREP_YES && nearest[0].upper > 0 && nearest[1].upper == 0);
+    return NULL;
+}
+
 static const char* ask_wide_box(const cdprep_model* cube, cdprep_workspace* scratch) {
     cdprep_shape_query wide = shape_at(cube, CDPREP_BOX, 0, 0);
     for (int i = 0; i < 3; ++i) {
@@ -154,6 +167,7 @@ const char* ask_points(const cdprep_model* cube, cdprep_workspace* workspace) {
         if (wrong == NULL) wrong = ask_touches(cube, workspace, shape);
         if (wrong == NULL) wrong = ask_distance(cube, workspace, shape);
     }
+    if (wrong == NULL) wrong = ask_two(cube, workspace);
     if (wrong == NULL) wrong = ask_wide_box(cube, workspace);
     return wrong;
 }
