@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "c/c_model.h"
+#include "c/c_pairs.h"
 #include "c/c_workspace.h"
 #include "c/memory.h"
 #include "cdprep/format/float_environment.h"
@@ -314,6 +315,40 @@ int cdprep_live_rebuild(cdprep_live* live, uint32_t most_triangles, uint32_t* ta
         cdprep::c::make_index(live->model, live->model.tree_triangle.data());
     }
     return CDPREP_OK;
+}
+
+int cdprep_live_triangles(const cdprep_live* live, cdprep_live_triangle_list* list,
+                          cdprep_error* error) {
+    using Triangle = cdprep::LiveTriangle;
+    static_assert(sizeof(cdprep_live_triangle) == sizeof(Triangle) &&
+                  offsetof(cdprep_live_triangle, vertex) == offsetof(Triangle, vertex));
+    Call call(error);
+    if (list != nullptr) list->count = 0;
+    if (const int code = call.need(live, {"live"})) return code;
+    if (const int code = call.need(list, {"list"})) return code;
+    if (const int code = cdprep::c::check_list(call, {"list"}, *list)) return code;
+    if (const int code = cdprep::c::check_tears(call, *live)) return code;
+    if (const int code = cdprep::c::check_free(call, {"live"}, live->in_use)) return code;
+    list->count = live->live.triangles({reinterpret_cast<Triangle*>(list->items), list->room});
+    return CDPREP_OK;
+}
+
+int cdprep_live_image(cdprep_live* live, cdprep_array* image, cdprep_error* error) {
+    if (image != nullptr) *image = {};
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(live, {"live"})) return code;
+        if (const int code = call.need(image, {"image"})) return code;
+        if (live->model.can_tear()) {
+            return call.refuse(CDPREP_WHY_NO_MEANING, {"live"},
+                               "was made with max_triangles; build a model of its triangles.");
+        }
+        cdprep::c::InUse use;
+        if (const int code = use.begin(call, {"live"}, live->in_use)) return code;
+        const cdprep::Result<std::span<const std::byte>> bytes = live->live.image();
+        if (!bytes) return call.fail(CDPREP_INTERNAL, bytes.error().message);
+        *image = {bytes->data(), bytes->size(), 1};
+        return CDPREP_OK;
+    });
 }
 
 int cdprep_live_describe(const cdprep_live* live, cdprep_live_info* info, cdprep_error* error) {

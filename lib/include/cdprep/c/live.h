@@ -35,7 +35,8 @@ CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size
  * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_live_size() bytes.
  * With null memory of size 0, the allocator makes one allocation of that size. In addition, the
  * model takes about 1 KiB of the heap. Takes O(n) time, and O(n log n) with max_triangles. No later
- * call but cdprep_live_end() allocates or frees memory, except to report an error. Do not set
+ * call but cdprep_live_end() and cdprep_live_image() allocates or frees memory, except to report an
+ * error. Do not set
  * max_triangles far above the number that comes: triangles are spread over all places, and queries
  * get slower.
  *
@@ -141,5 +142,36 @@ typedef struct cdprep_live_info {
 /* Stores facts about a live model. Takes O(n) time. */
 CDPREP_API int cdprep_live_describe(const cdprep_live* live, cdprep_live_info* info,
                                     cdprep_error* error);
+
+/* A triangle of a live model with max_triangles. */
+typedef struct cdprep_live_triangle {
+    uint32_t number;    /* by which answers name it */
+    uint32_t vertex[3]; /* numbers as in cdprep_live_refit() */
+} cdprep_live_triangle;
+
+typedef struct cdprep_live_triangle_list {
+    cdprep_live_triangle* items; /* null with room 0: only counts */
+    size_t room;                 /* input */
+    size_t count;                /* output: the number of all triangles, also beyond the room */
+} cdprep_live_triangle_list;
+
+/* Lists the triangles by rising number. If there is too little room, the list keeps the smallest
+ * numbers. Takes O(n log n) time.
+ * Errors: CDPREP_WHY_NO_MEANING: the live model was made without max_triangles, so its triangles
+ * are those of its base. CDPREP_WHY_BUSY: another call changes the live model. */
+CDPREP_API int cdprep_live_triangles(const cdprep_live* live, cdprep_live_triangle_list* list,
+                                     cdprep_error* error);
+
+/* Stores the address of the bytes of a live model as it is now, to store or to send. The stride is
+ * 1, and the count is the number of bytes. cdprep_model_open_memory() accepts a copy of them. The
+ * address is valid as long as the live model, and the bytes are until its next change. They depend
+ * only on the base, the positions and the order that cdprep_live_rebuild() made. Takes O(bytes)
+ * time. Allocates.
+ * On failure, image->data is null. Errors:
+ * - CDPREP_WHY_NO_MEANING: the live model was made with max_triangles. Build a model of
+ *   cdprep_live_triangles() instead.
+ * - CDPREP_WHY_BUSY: another call changes the live model.
+ * - CDPREP_OVER_BUDGET: there is not enough memory. */
+CDPREP_API int cdprep_live_image(cdprep_live* live, cdprep_array* image, cdprep_error* error);
 
 #endif /* CDPREP_C_LIVE_H */

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -256,14 +257,19 @@ TEST(CLiveModel, AChangeRefusesAllOtherCalls) {
                             ? 1
                             : 0;
         self.refused += cdprep_live_describe(self.live, &info, &error) != CDPREP_OK ? 1 : 0;
+        cdprep_live_triangle_list list = {nullptr, 0, 0};
+        self.refused += cdprep_live_triangles(self.live, &list, &error) != CDPREP_OK &&
+                                error.why == CDPREP_WHY_BUSY
+                            ? 1
+                            : 0;
         cdprep_live_end(self.live);
         for (std::size_t i = 0; i < count; ++i) task(of_task, i);
     };
     cdprep_workspace* workspace = nullptr;
     ASSERT_EQ(cdprep_workspace_make(&options, nullptr, 0, &workspace, nullptr), CDPREP_OK);
     live.move({}, icosphere(4).positions, workspace);
-    EXPECT_GE(intruder.refused, 3);
-    EXPECT_EQ(intruder.refused % 3, 0);
+    EXPECT_GE(intruder.refused, 4);
+    EXPECT_EQ(intruder.refused % 4, 0);
     cdprep_workspace_end(workspace);
     EXPECT_EQ(live.info().triangles, icosphere(4).triangles.size());
 }
@@ -322,6 +328,65 @@ TEST(CLiveModel, TrianglesComeAndGoByTheirNumbers) {
     EXPECT_EQ(cdprep_model_corners(live.model(), asked.data(), 2, facts.data(), &error),
               CDPREP_BAD_ARGUMENT);
     EXPECT_STREQ(error.argument, "triangles[1]");
+}
+
+// By hand: 128 triangles, of which two go and one comes.
+TEST(CLiveModel, ListsTheTrianglesThatThereAre) {
+    const TestMesh sheet = grid_sheet(8, 8);
+    const AlignedBytes file = file_of(sheet);
+    const CModel base(file);
+    CLive live(options_for(base.get(), 200));
+    const auto count = static_cast<std::uint32_t>(sheet.triangles.size());
+    const std::array<std::uint32_t, 2> gone = {0, 7};
+    ASSERT_EQ(cdprep_live_remove(live.get(), gone.data(), gone.size(), nullptr), CDPREP_OK);
+    std::uint32_t first = 0;
+    const std::array<std::uint32_t, 3> corners = {0, 1, 2};
+    ASSERT_EQ(cdprep_live_append(live.get(), corners.data(), 1, &first, nullptr), CDPREP_OK);
+    std::vector<cdprep_live_triangle> all(count);
+    cdprep_live_triangle_list list = {nullptr, 0, 77};
+    ASSERT_EQ(cdprep_live_triangles(live.get(), &list, nullptr), CDPREP_OK);
+    EXPECT_EQ(list.count, count - 1);
+    list = {all.data(), all.size(), 77};
+    ASSERT_EQ(cdprep_live_triangles(live.get(), &list, nullptr), CDPREP_OK);
+    ASSERT_EQ(list.count, count - 1);
+    for (std::uint32_t i = 0; i < count - 2; ++i) {
+        const std::uint32_t number = i < 6 ? i + 1 : i + 2;
+        ASSERT_EQ(all[i].number, number);
+        for (std::size_t k = 0; k < 3; ++k) {
+            EXPECT_EQ(all[i].vertex[k], sheet.triangles[number].vertex[k]);
+        }
+    }
+    EXPECT_EQ(all[count - 2].number, count);
+    EXPECT_EQ(all[count - 2].vertex[2], 2u);
+    std::array<cdprep_live_triangle, 3> few{};
+    list = {few.data(), few.size(), 77};
+    ASSERT_EQ(cdprep_live_triangles(live.get(), &list, nullptr), CDPREP_OK);
+    EXPECT_EQ(list.count, count - 1);
+    EXPECT_EQ(few[2].number, 3u);
+}
+
+// A copy of the bytes is a model by itself, with the answers of the live one.
+TEST(CLiveModel, ItsBytesAreAModel) {
+    const CWorkspace workspace;
+    const TestMesh ball = icosphere(3);
+    const AlignedBytes file = file_of(ball);
+    const CModel base(file);
+    CLive live(options_for(base.get()));
+    std::vector<Double3> moved = ball.positions;
+    for (Double3& p : moved) p = {2 * p.x, p.y + 0.25 * p.z, p.z};
+    live.move({}, moved, workspace.get());
+    cdprep_array image = {nullptr, 77, 77};
+    cdprep_error error;
+    ASSERT_EQ(cdprep_live_image(live.get(), &image, &error), CDPREP_OK) << error.message;
+    ASSERT_EQ(image.stride, 1u);
+    AlignedBytes copy(image.count);
+    std::memcpy(copy.span().data(), image.data, image.count);
+    const CModel opened(copy);
+    expect_same_answers(live.model(), opened.get(), workspace.get());
+    std::uint32_t first = 0;
+    cdprep_corners corners{};
+    ASSERT_EQ(cdprep_model_corners(opened.get(), &first, 1, &corners, nullptr), CDPREP_OK);
+    EXPECT_EQ(corners.point[0][0], moved[ball.triangles[0].vertex[0]].x);
 }
 
 class CLiveHostile : public testing::Test {
@@ -433,6 +498,37 @@ TEST_F(CLiveHostile, TearsAreChecked) {
     expect(cdprep_live_remove(whole.get(), gone.data(), 1, &error), CDPREP_WHY_NO_MEANING, "live");
     expect(cdprep_live_append(whole.get(), corners.data(), 1, &first, &error),
            CDPREP_WHY_NO_MEANING, "live");
+}
+
+TEST_F(CLiveHostile, ListsAndImagesAreChecked) {
+    cdprep_error error;
+    const auto expect = [&](int code, int why, const char* argument) {
+        EXPECT_EQ(code, CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error.why, why);
+        EXPECT_STREQ(error.argument, argument);
+    };
+    CLive whole(options_for(base_.get()));
+    cdprep_live_triangle_list list = {nullptr, 0, 77};
+    expect(cdprep_live_triangles(nullptr, &list, &error), CDPREP_WHY_NULL, "live");
+    EXPECT_EQ(list.count, 0u);
+    expect(cdprep_live_triangles(live_.get(), nullptr, &error), CDPREP_WHY_NULL, "list");
+    list = {nullptr, 1, 77};
+    expect(cdprep_live_triangles(live_.get(), &list, &error), CDPREP_WHY_NULL, "list.items");
+    EXPECT_EQ(list.count, 0u);
+    list = {nullptr, 0, 77};
+    expect(cdprep_live_triangles(whole.get(), &list, &error), CDPREP_WHY_NO_MEANING, "live");
+    EXPECT_EQ(list.count, 0u);
+    cdprep_array image = {&list, 77, 77};
+    expect(cdprep_live_image(nullptr, &image, &error), CDPREP_WHY_NULL, "live");
+    EXPECT_EQ(image.data, nullptr);
+    expect(cdprep_live_image(whole.get(), nullptr, &error), CDPREP_WHY_NULL, "image");
+    image = {&list, 77, 77};
+    expect(cdprep_live_image(live_.get(), &image, &error), CDPREP_WHY_NO_MEANING, "live");
+    EXPECT_EQ(image.data, nullptr);
+    EXPECT_EQ(image.count, 0u);
+    image = {&list, 77, 77};
+    expect(cdprep_model_bytes(live_.model(), &image, &error), CDPREP_WHY_NO_MEANING, "model");
+    EXPECT_EQ(image.data, nullptr);
 }
 
 TEST_F(CLiveHostile, NullAndMemoryAreChecked) {
