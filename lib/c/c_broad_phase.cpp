@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/broad_phase.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cassert>
@@ -11,9 +12,12 @@
 #include <span>
 #include <utility>
 
+#include "c/c_model.h"
 #include "c/c_scene.h"
 #include "c/c_workspace.h"
 #include "c/memory.h"
+#include "c/pose_input.h"
+#include "cdprep/advanced/object_box.h"
 #include "cdprep/format/float_environment.h"
 
 /// A broad phase. The object and the memory of the C++ one lie one after the other in one block.
@@ -54,6 +58,8 @@ constexpr std::array kFields = {
     Field{"lanes", offsetof(Options, lanes), Holds::choice, kMostLanes},
     Field{"reserved", offsetof(Options, reserved), Holds::reserved},
 };
+
+constexpr cdprep_world_box kAbsent = {{1, 1, 1}, {-1, -1, -1}};
 
 constexpr Name kUpdate = {"update"};
 
@@ -242,5 +248,34 @@ int cdprep_broad_phase_update(cdprep_broad_phase* broad_phase, const cdprep_box_
         if (const int code = use.begin(call, {"broad_phase"}, broad_phase->in_use)) return code;
         if (const int code = workspace_use.begin(call, *workspace)) return code;
         return cdprep::c::update(call, *broad_phase, given, *workspace, *pairs);
+    });
+}
+
+int cdprep_model_box(const cdprep_model* model, const cdprep_pose* world_from_model, double reach,
+                     const double* origin, cdprep_world_box* around, cdprep_error* error) {
+    if (around != nullptr) *around = cdprep::c::kAbsent;
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(model, {"model"})) return code;
+        if (const int code = call.need(world_from_model, {"world_from_model"})) return code;
+        if (const int code = call.need(around, {"around"})) return code;
+        if (const int code = check_number(call, "reach", cdprep::c::Holds::length, reach)) {
+            return code;
+        }
+        std::array<double, 3> from{};
+        if (origin != nullptr) std::copy_n(origin, 3, from.begin());
+        if (const int code =
+                check_numbers(call, {"origin"}, cdprep::c::Holds::number, from.data(), 3)) {
+            return code;
+        }
+        cdprep::Pose pose;
+        if (const int code = read_pose(call, {"world_from_model"}, world_from_model, pose)) {
+            return code;
+        }
+        if (const int code = cdprep::c::check_bvh(call, {"model"}, model->model)) return code;
+        const cdprep::WorldBox found =
+            world_box(root_box(model->model, pose, reach), {from[0], from[1], from[2]});
+        std::copy_n(found.lower, 3, around->lower);
+        std::copy_n(found.upper, 3, around->upper);
+        return CDPREP_OK;
     });
 }

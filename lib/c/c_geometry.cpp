@@ -113,12 +113,6 @@ std::uint32_t component_of(const cdprep_model& model, std::uint32_t vertex) noex
     return model.model.record().components.size() == 1 ? 0 : CDPREP_NONE;
 }
 
-/// Returns the place of a triangle in the tree order, or CDPREP_NONE.
-std::uint32_t place_of(const cdprep_model& model, std::uint32_t triangle) noexcept {
-    if (model.can_tear()) return model.live->place_of(triangle).value_or(CDPREP_NONE);
-    return triangle < model.tree_triangle.size() ? model.tree_triangle[triangle] : CDPREP_NONE;
-}
-
 cdprep_corners corners_of(const cdprep_model& model, std::uint32_t triangle) noexcept {
     const Model& m = model.model;
     const std::uint32_t at = place_of(model, triangle);
@@ -238,6 +232,19 @@ bool is_in_file(const Model& model, SectionId id) noexcept {
 }
 
 }  // namespace
+
+std::uint32_t place_of(const cdprep_model& model, std::uint32_t triangle) noexcept {
+    if (model.can_tear()) return model.live->place_of(triangle).value_or(CDPREP_NONE);
+    return triangle < model.tree_triangle.size() ? model.tree_triangle[triangle] : CDPREP_NONE;
+}
+
+int check_bvh(Call& call, const Name& name, const Model& model) noexcept {
+    if (model.triangle_count() == 0 || !model.bvh().nodes.empty()) return CDPREP_OK;
+    const bool is_there = is_in_file(model, SectionId::bvh_nodes);
+    return call.refuse(is_there ? CDPREP_WHY_NOT_OPENED : CDPREP_WHY_NOT_BAKED, name,
+                       "has no BVH: the section bvh_nodes is %s.",
+                       is_there ? "in the file, but was not opened" : "not in the file");
+}
 
 std::size_t index_size(const Model& model) noexcept {
     if (!model.serves(Ask::corners)) return 0;

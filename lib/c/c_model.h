@@ -57,6 +57,13 @@ struct Input<cdprep_open_options> {
 /// One more than the greatest number of a section in a SectionSet.
 inline constexpr std::uint32_t kSectionNumbers = 64;
 
+/// Returns the place of a triangle in the tree order, or CDPREP_NONE if there is no such triangle.
+/// The model must serve Ask::corners.
+[[nodiscard]] std::uint32_t place_of(const cdprep_model& model, std::uint32_t triangle) noexcept;
+
+/// Refuses a model with triangles but without a BVH.
+int check_bvh(Call& call, const Name& name, const Model& model) noexcept;
+
 /// Refuses bits that this version does not know.
 int check_asks(Call& call, const Name& name, std::uint32_t ask) noexcept;
 

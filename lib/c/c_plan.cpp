@@ -454,6 +454,22 @@ int cdprep_plan_ask(const cdprep_plan* plan, uint32_t layer, uint32_t* ask, cdpr
     return CDPREP_OK;
 }
 
+int cdprep_plan_layer(const cdprep_plan* plan, uint32_t layer, cdprep_layer_info* info,
+                      cdprep_error* error) {
+    Call call(error);
+    if (info != nullptr) *info = {};
+    if (const int code = call.need(plan, {"plan"})) return code;
+    if (const int code = call.need(info, {"info"})) return code;
+    if (const int code = cdprep::c::check_layer(call, layer)) return code;
+    const cdprep::format::FloatEnvironment environment;
+    const cdprep::BoxFilter filter = plan->plan.filter_of(layer);
+    *info = {static_cast<std::uint32_t>(plan->plan.asks_of(layer)),
+             {filter.layers, filter.accepts},
+             0,
+             plan->plan.reach_of(layer)};
+    return CDPREP_OK;
+}
+
 void cdprep_plan_end(cdprep_plan* plan) {
     if (plan == nullptr || plan->users.fetch_sub(1, std::memory_order_acq_rel) > 1) return;
     const cdprep::c::Memory memory = plan->memory;

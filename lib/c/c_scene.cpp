@@ -55,8 +55,9 @@ struct Layout {
                   aligned(results_of(plan, Ask::self) * sizeof(cdprep_scene_self_overlap))),
           bounded_distances(
               impacts + aligned(results_of(plan, Ask::continuous) * sizeof(cdprep_scene_impact))),
-          scene(bounded_distances +
-                aligned(results_of(plan, Ask::haptic) * sizeof(cdprep_scene_bounded))),
+          models(bounded_distances +
+                 aligned(results_of(plan, Ask::haptic) * sizeof(cdprep_scene_bounded))),
+          scene(models + aligned(plan.limits().objects * sizeof(const cdprep_model*))),
           scene_size(aligned(Scene::size(plan))),
           size(scene + scene_size) {}
 
@@ -81,6 +82,7 @@ struct Layout {
     std::size_t self_overlaps;
     std::size_t impacts;
     std::size_t bounded_distances;
+    std::size_t models;
     std::size_t scene;
     std::size_t scene_size;
     std::size_t size;
@@ -112,7 +114,8 @@ int make(Call& call, cdprep_plan& plan, const Given& given, cdprep_scene** to) n
                                   array_at<cdprep_scene_self_overlap>(block, layout.self_overlaps),
                                   array_at<cdprep_scene_impact>(block, layout.impacts),
                                   array_at<cdprep_scene_bounded>(block, layout.bounded_distances)};
-    *to = new (block) cdprep_scene{std::move(*scene), &plan, results, own.take()};
+    *to = new (block) cdprep_scene{std::move(*scene), &plan, results,
+                                   array_at<const cdprep_model*>(block, layout.models), own.take()};
     plan.users.fetch_add(1, std::memory_order_relaxed);
     return CDPREP_OK;
 }
@@ -130,14 +133,15 @@ int check_object(Call& call, const Name& name, const cdprep_scene& scene,
 }
 
 int read_object(Call& call, const Name& name, const cdprep_object_options* from, const Plan& plan,
-                SceneObject& object) {
+                SceneObject& object, const cdprep_model*& model) {
     cdprep_object_options given;
     if (const int code = read_input(call, name, from, given)) return code;
     if (const int code = read_rigid(call, name.of("world_from_model"), given.world_from_model,
                                     object.world_from_model)) {
         return code;
     }
-    object.model = &given.model->model;
+    model = given.model;
+    object.model = &model->model;
     object.layer = given.layer;
     return check_serves(call, name.of("model"), *given.model, plan.asks_of(given.layer));
 }
@@ -176,10 +180,13 @@ int check_new(Call& call, const cdprep_scene& scene, const cdprep_object_options
         const Name name = {"objects", i};
         const cdprep_object_options* const given = element(objects, i);
         SceneObject object;
+        const cdprep_model* model = nullptr;
         if (i > 0) {
             if (const int code = check_stride(call, name, objects, given)) return code;
         }
-        if (const int code = read_object(call, name, given, scene.plan->plan, object)) return code;
+        if (const int code = read_object(call, name, given, scene.plan->plan, object, model)) {
+            return code;
+        }
     }
     return CDPREP_OK;
 }
@@ -190,12 +197,14 @@ void add_all(cdprep_scene& scene, const cdprep_object_options* objects, std::siz
     Call again(nullptr);
     for (std::size_t i = 0; i < count; ++i) {
         SceneObject object;
-        if (read_object(again, {"objects", i}, element(objects, i), scene.plan->plan, object) !=
-            CDPREP_OK) {
+        const cdprep_model* model = nullptr;
+        if (read_object(again, {"objects", i}, element(objects, i), scene.plan->plan, object,
+                        model) != CDPREP_OK) {
             return;
         }
         const std::optional<ObjectId> id = scene.scene.add(object);
         if (!id) return;
+        scene.models[id->slot] = model;
         ids[i] = {id->slot, id->generation};
     }
 }
@@ -409,6 +418,47 @@ int cdprep_scene_step(cdprep_scene* scene, cdprep_workspace* workspace, cdprep_s
         [&](const cdprep::c::LanesThreads& threads) {
             return scene->scene.step(workspace->lanes, threads);
         });
+}
+
+int cdprep_scene_describe(const cdprep_scene* scene, cdprep_object id, cdprep_object_info* info,
+                          cdprep_error* error) {
+    if (info != nullptr) *info = {};
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(scene, {"scene"})) return code;
+        if (const int code = call.need(info, {"info"})) return code;
+        if (const int code = cdprep::c::check_free(call, {"scene"}, scene->in_use)) return code;
+        if (const int code = cdprep::c::check_object(call, {"id"}, *scene, id)) return code;
+        const auto object = scene->scene.find(cdprep::c::in_cpp(id));
+        assert(object.has_value());  // check_object() found it
+        *info = {scene->models[id.slot], object->layer, 0,
+                 cdprep::c::stored(object->world_from_model)};
+        return CDPREP_OK;
+    });
+}
+
+int cdprep_scene_object_at(const cdprep_scene* scene, uint32_t slot, cdprep_object* id,
+                           cdprep_error* error) {
+    Call call(error);
+    if (id != nullptr) *id = {};
+    if (const int code = call.need(scene, {"scene"})) return code;
+    if (const int code = call.need(id, {"id"})) return code;
+    if (const int code = cdprep::c::check_free(call, {"scene"}, scene->in_use)) return code;
+    const uint32_t slots = scene->plan->plan.limits().objects;
+    if (slot >= slots) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"slot"},
+                           "is %u; the scene has %u slots, numbered from 0.", slot, slots);
+    }
+    const cdprep::ObjectId found = scene->scene.object_at(slot);
+    *id = {found.slot, found.generation};
+    return CDPREP_OK;
+}
+
+int cdprep_scene_set_clock(cdprep_scene* scene, cdprep_clock now, cdprep_error* error) {
+    return cdprep::c::change_scene(scene, error, [&](Call& /*call*/) -> int {
+        // The C++ type promises that it does not throw, as callbacks in C must not.
+        scene->scene.set_clock(reinterpret_cast<cdprep::SceneClock>(now));
+        return CDPREP_OK;
+    });
 }
 
 int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** boxes, size_t* count,

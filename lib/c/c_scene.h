@@ -44,6 +44,7 @@ struct cdprep_scene {
     cdprep::Scene scene;
     cdprep_plan* plan;
     cdprep::c::SceneResults results;
-    cdprep::c::Memory memory;  ///< none if it is the caller's
+    const cdprep_model** models;  ///< by slot; of free slots, anything
+    cdprep::c::Memory memory;     ///< none if it is the caller's
     std::atomic<bool> in_use = false;
 };

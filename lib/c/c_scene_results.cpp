@@ -18,6 +18,28 @@ static_assert(CDPREP_REASON_MOVED == static_cast<int>(EventReason::moved) &&
               CDPREP_REASON_PAUSED == static_cast<int>(EventReason::paused) &&
               CDPREP_REASON_UNCHANGED == static_cast<int>(EventReason::unchanged));
 
+/// Returns the index of the ticks of an effect in counts.
+constexpr std::size_t ticks_of(Ask effect) noexcept {
+    switch (effect) {
+        case Ask::collide:
+            return CDPREP_SCENE_TICKS_COLLIDE;
+        case Ask::overlap:
+            return CDPREP_SCENE_TICKS_OVERLAP;
+        case Ask::within:
+            return CDPREP_SCENE_TICKS_WITHIN;
+        case Ask::distance:
+            return CDPREP_SCENE_TICKS_DISTANCE;
+        case Ask::contacts:
+            return CDPREP_SCENE_TICKS_CONTACTS;
+        case Ask::continuous:
+            return CDPREP_SCENE_TICKS_CONTINUOUS;
+        case Ask::self:
+            return CDPREP_SCENE_TICKS_SELF;
+        default:
+            return CDPREP_SCENE_TICKS_HAPTIC;
+    }
+}
+
 cdprep_object as_c(const ObjectId& id) noexcept {
     return {id.slot, id.generation};
 }
@@ -234,5 +256,11 @@ int cdprep_scene_counts(const cdprep_scene* scene, cdprep_counts* counts, cdprep
     counts->n[CDPREP_SCENE_CONTINUOUS] = all.calls_of(cdprep::Ask::continuous);
     counts->n[CDPREP_SCENE_SELF] = all.calls_of(cdprep::Ask::self);
     counts->n[CDPREP_SCENE_HAPTIC] = all.calls_of(cdprep::Ask::haptic);
+    for (std::size_t i = 0; i < cdprep::kSceneEffects.size(); ++i) {
+        counts->n[cdprep::c::ticks_of(cdprep::kSceneEffects[i])] = all.ticks[i];
+    }
+    counts->n[CDPREP_SCENE_TICKS_BOXES] = all.box_ticks;
+    counts->n[CDPREP_SCENE_TICKS_QUERIES] = all.query_ticks;
+    counts->n[CDPREP_SCENE_TICKS_LISTS] = all.list_ticks;
     return CDPREP_OK;
 }

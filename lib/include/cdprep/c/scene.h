@@ -139,7 +139,7 @@ typedef struct cdprep_object {
 } cdprep_object;
 
 /* Stores the number of bytes that cdprep_scene_make() needs for this plan. It depends only on the
- * limits, the effects and `most`. It is about 430 bytes for each object and 470 to 1,640 for each
+ * limits, the effects and `most`. It is about 440 bytes for each object and 470 to 1,640 for each
  * pair. CDPREP_ASK_OVERLAP takes 24 more for each triangle pair, and 16 KiB for each lane.
  * CDPREP_ASK_CONTACTS takes 1,630 more for each contact, and 20 to 120 KiB for each lane. */
 CDPREP_API int cdprep_scene_size(const cdprep_plan* plan, size_t* size, cdprep_error* error);
@@ -199,6 +199,24 @@ CDPREP_API int cdprep_scene_set_poses(cdprep_scene* scene, const cdprep_object* 
  * last poses to these. Errors: those of cdprep_scene_set_poses(). */
 CDPREP_API int cdprep_scene_put(cdprep_scene* scene, const cdprep_object* ids,
                                 const cdprep_pose* poses, size_t count, cdprep_error* error);
+
+/* An object as it is now. */
+typedef struct cdprep_object_info {
+    const cdprep_model* model;
+    uint32_t layer;
+    uint32_t reserved; /* 0 */
+    cdprep_pose world_from_model;
+} cdprep_object_info;
+
+/* Stores the model, the layer and the pose of an object. O(1). On failure, info->model is null.
+ * Errors: CDPREP_WHY_STALE; CDPREP_WHY_BUSY. */
+CDPREP_API int cdprep_scene_describe(const cdprep_scene* scene, cdprep_object id,
+                                     cdprep_object_info* info, cdprep_error* error);
+
+/* Stores the id of the object in a slot, or all 0 if the slot is free. O(1).
+ * Errors: CDPREP_WHY_OUT_OF_RANGE for a slot that is not below max_objects; CDPREP_WHY_BUSY. */
+CDPREP_API int cdprep_scene_object_at(const cdprep_scene* scene, uint32_t slot, cdprep_object* id,
+                                      cdprep_error* error);
 
 /* Pauses these effects from the next step on, and resumes all others. Paused effects are not
  * computed, and their events end.
@@ -372,12 +390,33 @@ enum {
     CDPREP_SCENE_LISTED_CONTACTS = 11, /* in all lists of contacts */
     CDPREP_SCENE_CONTINUOUS = 12,      /* queries for times of impact */
     CDPREP_SCENE_SELF = 13,            /* queries about single objects */
-    CDPREP_SCENE_HAPTIC = 14           /* bounded distance queries */
+    CDPREP_SCENE_HAPTIC = 14,          /* bounded distance queries */
+    /* With cdprep_scene_set_clock(): the ticks of the queries of each effect, summed over all
+     * threads. */
+    CDPREP_SCENE_TICKS_COLLIDE = 15,
+    CDPREP_SCENE_TICKS_OVERLAP = 16,
+    CDPREP_SCENE_TICKS_WITHIN = 17,
+    CDPREP_SCENE_TICKS_DISTANCE = 18,
+    CDPREP_SCENE_TICKS_CONTACTS = 19,
+    CDPREP_SCENE_TICKS_CONTINUOUS = 20,
+    CDPREP_SCENE_TICKS_SELF = 21,
+    CDPREP_SCENE_TICKS_HAPTIC = 22,
+    /* The ticks of the stages of a step, one after the other. Together they are the step. */
+    CDPREP_SCENE_TICKS_BOXES = 23,   /* of boxes, the broad phase and what the last step knew */
+    CDPREP_SCENE_TICKS_QUERIES = 24, /* of all queries, from their begin to their end */
+    CDPREP_SCENE_TICKS_LISTS = 25    /* of lists and events */
 };
 
 /* Stores the work of the last step, for tuning. The rest of counts->n is 0. */
 CDPREP_API int cdprep_scene_counts(const cdprep_scene* scene, cdprep_counts* counts,
                                    cdprep_error* error);
+
+/* A clock of the caller's: returns ticks of any length. It must be safe to call on any thread. */
+typedef uint64_t (*cdprep_clock)(void);
+
+/* Sets the clock for the ticks of cdprep_scene_counts(). Null, as at first: no clock is read, and
+ * the ticks are 0. Errors: CDPREP_WHY_BUSY. */
+CDPREP_API int cdprep_scene_set_clock(cdprep_scene* scene, cdprep_clock now, cdprep_error* error);
 
 /* --- The broad phase -------------------------------------------------------------------------- */
 
@@ -463,6 +502,34 @@ CDPREP_API int cdprep_broad_phase_update(cdprep_broad_phase* broad_phase,
                                          cdprep_error* error);
 
 /* --- Scenes with a broad phase of the caller -------------------------------------------------- */
+
+/* What a plan asks of the objects of one layer. */
+typedef struct cdprep_layer_info {
+    uint32_t ask; /* as cdprep_plan_ask() stores it */
+    /* The layers with which this layer is paired, for boxes of its objects. It accepts none if no
+     * effect of two objects is asked for. */
+    cdprep_box_filter filter;
+    uint32_t reserved; /* 0 */
+    double reach;      /* the margin around boxes of its objects, model units */
+} cdprep_layer_info;
+
+/* Stores what a plan asks of the objects of a layer. O(layer pairs). On failure, *info is all 0.
+ * Errors: CDPREP_WHY_OUT_OF_RANGE for a layer that does not exist. */
+CDPREP_API int cdprep_plan_layer(const cdprep_plan* plan, uint32_t layer, cdprep_layer_info* info,
+                                 cdprep_error* error);
+
+/* Stores the axis-aligned box around a model as `world_from_model` moves it, enlarged by `reach` on
+ * all sides, in model units. It contains every vertex as the pose moves it. It is absent if the
+ * model has no triangles. The box is relative to `origin`, 3 numbers; null is 0. All boxes of a
+ * broad phase must have the same origin. Limits beyond the largest float are infinite. Far from it,
+ * rounding to float widens the box: at 10^7 by about a unit on each side. If two models are at most
+ * d apart, their boxes with a reach of d / 2 each meet. Takes some 100 ns. On failure the box is
+ * absent.
+ * Errors: CDPREP_WHY_NOT_RIGID; CDPREP_WHY_NOT_FINITE and CDPREP_WHY_OUT_OF_RANGE for numbers.
+ * CDPREP_WHY_NOT_BAKED or _NOT_OPENED for a model without a BVH (section bvh_nodes). */
+CDPREP_API int cdprep_model_box(const cdprep_model* model, const cdprep_pose* world_from_model,
+                                double reach, const double* origin, cdprep_world_box* around,
+                                cdprep_error* error);
 
 /* Stores the address of an array of boxes and the number of its elements, which is max_objects. Box
  * i is that of slot i in the next step, relative to the plan's origin. It contains the object as it

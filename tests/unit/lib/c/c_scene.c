@@ -61,6 +61,9 @@ static const char* read_plan(const cdprep_plan* plan) {
     MUST(cdprep_plan_ask(plan, FLOOR, &ask, NULL) == CDPREP_OK && ask == EFFECTS);
     MUST(cdprep_plan_ask(plan, 0, &ask, NULL) == CDPREP_OK && ask == 0);
     MUST(cdprep_plan_ask(plan, CDPREP_LAYERS, &ask, NULL) == CDPREP_BAD_ARGUMENT);
+    cdprep_layer_info info;
+    MUST(cdprep_plan_layer(plan, FLOOR, &info, NULL) == CDPREP_OK && info.ask == EFFECTS);
+    MUST(info.reach == 0.25 && info.filter.accepts == (uint32_t)1 << CRATES);
     return NULL;
 }
 
@@ -111,6 +114,12 @@ static const char* fill(cdprep_scene* scene, const cdprep_model* cube, cdprep_ob
     MUST(cdprep_scene_add(scene, added, 3, ids, NULL) == CDPREP_OK);
     MUST(ids[0].slot == 0 && ids[2].slot == 2 && ids[0].generation != 0);
     MUST(cdprep_scene_add(scene, added, 0, NULL, NULL) == CDPREP_OK);
+    cdprep_object_info info;
+    cdprep_object found;
+    MUST(cdprep_scene_object_at(scene, 2, &found, NULL) == CDPREP_OK && found.slot == 2);
+    MUST(found.generation == ids[2].generation);
+    MUST(cdprep_scene_describe(scene, found, &info, NULL) == CDPREP_OK && info.model == cube);
+    MUST(info.layer == CRATES && info.world_from_model.rows[9] == 10);
     return NULL;
 }
 

@@ -8,10 +8,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "cdprep/advanced/object_box.h"
 #include "cdprep/cdprep.h"
 #include "support/aligned_bytes.h"
 #include "support/c_lanes.h"
@@ -19,6 +21,7 @@
 #include "support/c_models.h"
 #include "support/float_modes.h"
 #include "support/meshes.h"
+#include "support/random_pose.h"
 #include "support/tiny_baker.h"
 
 namespace cdprep::test {
@@ -407,6 +410,22 @@ TEST_F(CSceneHostile, PlansAreReadWithCare) {
         EXPECT_STREQ(error.argument, "layer");
         EXPECT_EQ(ask, 0u);
     }
+    cdprep_layer_info info = {9, {9, 9}, 9, 9};
+    for (const std::uint32_t layer : {32U, 77U, UINT32_MAX}) {
+        info.ask = 9;
+        EXPECT_EQ(cdprep_plan_layer(plan_, layer, &info, &error), CDPREP_BAD_ARGUMENT);
+        EXPECT_STREQ(error.argument, "layer");
+        EXPECT_EQ(error.why, CDPREP_WHY_OUT_OF_RANGE);
+        EXPECT_EQ(info.ask, 0u);
+    }
+    EXPECT_EQ(cdprep_plan_layer(nullptr, 0, &info, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "plan");
+    EXPECT_EQ(cdprep_plan_layer(plan_, 0, nullptr, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "info");
+    cdprep_object id = {7, 7};
+    EXPECT_EQ(cdprep_scene_object_at(scene_, 4, &id, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.message, "slot is 4; the scene has 4 slots, numbered from 0.");
+    EXPECT_EQ(id.generation, 0u);
     EXPECT_EQ(cdprep_plan_ask(nullptr, 0, &ask, nullptr), CDPREP_BAD_ARGUMENT);
     EXPECT_EQ(cdprep_plan_ask(plan_, 0, nullptr, nullptr), CDPREP_BAD_ARGUMENT);
     const cdprep_plan_options right = options();
@@ -510,6 +529,11 @@ TEST_F(CSceneHostile, StaleObjectsAreRefused) {
         EXPECT_EQ(cdprep_scene_set_layer(scene_, id, 2, &error), CDPREP_BAD_ARGUMENT);
         EXPECT_EQ(error.why, CDPREP_WHY_STALE);
         EXPECT_STREQ(error.argument, "id");
+        cdprep_object_info info = {cube_.get(), 7, 7, {}};
+        EXPECT_EQ(cdprep_scene_describe(scene_, id, &info, &error), CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error.why, CDPREP_WHY_STALE);
+        EXPECT_STREQ(error.argument, "id");
+        EXPECT_EQ(info.model, nullptr);
         EXPECT_EQ(step(), 0u) << "nothing has changed";
         EXPECT_EQ(object_count(), 2u);
     }
@@ -646,6 +670,15 @@ TEST_F(CSceneHostile, NullIsRefusedByName) {
     expect(cdprep_scene_hash(scene_, nullptr, &error), "hash");
     expect(cdprep_scene_counts(nullptr, &counts, &error), "scene");
     expect(cdprep_scene_counts(scene_, nullptr, &error), "counts");
+    cdprep_object_info info = {cube_.get(), 7, 7, {}};
+    expect(cdprep_scene_describe(nullptr, id, &info, &error), "scene");
+    EXPECT_EQ(info.model, nullptr);
+    expect(cdprep_scene_describe(scene_, id, nullptr, &error), "info");
+    id = {7, 7};
+    expect(cdprep_scene_object_at(nullptr, 0, &id, &error), "scene");
+    EXPECT_EQ(id.generation, 0u);
+    expect(cdprep_scene_object_at(scene_, 0, nullptr, &error), "id");
+    expect(cdprep_scene_set_clock(nullptr, nullptr, &error), "scene");
     EXPECT_EQ(cdprep_scene_step(nullptr, nullptr, nullptr, nullptr), CDPREP_BAD_ARGUMENT);
     cdprep_scene_end(nullptr);
     cdprep_object_options_init(nullptr, sizeof right);
@@ -913,6 +946,69 @@ TEST_F(CSceneHostile, NoFloatModeChangesAResult) {
         EXPECT_NE(hash, 0u) << mode.name;
         if (expected == 0) expected = hash;
         EXPECT_EQ(hash, expected) << mode.name;
+    }
+}
+
+// Boxes of models ---------------------------------------------------------------------------------
+
+TEST_F(CSceneHostile, BoxesOfModelsAreChecked) {
+    const cdprep_pose right = object().world_from_model;
+    const std::array<double, 3> origin = {0, kNan, 0};
+    cdprep_error error;
+    cdprep_world_box box{};
+    const auto expect = [&](int code, int why, const char* argument) {
+        EXPECT_EQ(code, CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error.why, why) << argument;
+        EXPECT_STREQ(error.argument, argument);
+        EXPECT_GT(box.lower[0], box.upper[0]) << "absent";
+        box = {};
+    };
+    const cdprep_model* const cube = cube_.get();
+    expect(cdprep_model_box(nullptr, &right, 0, nullptr, &box, &error), CDPREP_WHY_NULL, "model");
+    expect(cdprep_model_box(cube, nullptr, 0, nullptr, &box, &error), CDPREP_WHY_NULL,
+           "world_from_model");
+    EXPECT_EQ(cdprep_model_box(cube, &right, 0, nullptr, nullptr, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "around");
+    expect(cdprep_model_box(cube, &right, 0, origin.data(), &box, &error), CDPREP_WHY_NOT_FINITE,
+           "origin[1]");
+    expect(cdprep_model_box(cube, &right, -1, nullptr, &box, &error), CDPREP_WHY_OUT_OF_RANGE,
+           "reach");
+    expect(cdprep_model_box(cube, &right, kInfinity, nullptr, &box, &error), CDPREP_WHY_NOT_FINITE,
+           "reach");
+    cdprep_pose wrong = right;
+    wrong.rows[4] = -1;
+    expect(cdprep_model_box(cube, &wrong, 0, nullptr, &box, &error), CDPREP_WHY_NOT_RIGID,
+           "world_from_model");
+    wrong.rows[4] = kNan;
+    expect(cdprep_model_box(cube, &wrong, 0, nullptr, &box, &error), CDPREP_WHY_NOT_FINITE,
+           "world_from_model.rows[4]");
+    const CModel corners(file_, CDPREP_ASK_CORNERS);
+    expect(cdprep_model_box(corners.get(), &right, 0, nullptr, &box, &error), CDPREP_WHY_NOT_OPENED,
+           "model");
+    EXPECT_EQ(cdprep_model_box(cube, &right, 0, nullptr, &box, &error), CDPREP_OK);
+    EXPECT_LE(box.lower[0], 0);
+    EXPECT_GE(box.upper[2], 1);
+    EXPECT_LT(box.upper[2], 1.001);
+}
+
+// The same boxes as those of C++, in every floating-point environment.
+TEST_F(CSceneHostile, BoxesOfModelsAreThoseOfCpp) {
+    const Model cube = Model::open(file_.span()).value();
+    std::mt19937 random(5);
+    for (int i = 0; i < 200; ++i) {
+        const Pose pose = random_pose(random, 1000);
+        const cdprep_pose rows = rows_in_c(pose);
+        const double reach = (i % 4) * 0.3;
+        const std::array<double, 3> origin = {500.0 * (i % 3), -7, 0.1 * i};
+        const WorldBox expected =
+            world_box(root_box(cube, pose, reach), {origin[0], origin[1], origin[2]});
+        for (const FloatMode& mode : float_modes()) {
+            cdprep_world_box box{};
+            (void)run_in(mode, [&] {
+                (void)cdprep_model_box(cube_.get(), &rows, reach, origin.data(), &box, nullptr);
+            });
+            EXPECT_EQ(std::memcmp(&box, &expected, sizeof box), 0) << mode.name;
+        }
     }
 }
 

@@ -226,6 +226,7 @@ public:
         expect_equal_contacts();
         expect_equal_events();
         expect_equal_numbers();
+        expect_equal_objects();
     }
     std::uint32_t any(std::uint32_t below) {
         return static_cast<std::uint32_t>(random_() % below);
@@ -237,7 +238,7 @@ public:
     /// Of all steps.
     std::size_t hits = 0, overlaps = 0, distances = 0, contacts = 0, points = 0, events = 0;
     std::size_t stays = 0, incomplete = 0, without_room = 0, without_contact_room = 0;
-    std::size_t of_caller = 0, unsearched = 0;
+    std::size_t of_caller = 0, unsearched = 0, objects = 0;
 
 private:
     /// Pairs of slots whose boxes meet, by brute force, and some that do not.
@@ -413,6 +414,27 @@ private:
         for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(counts.n[i], expected[i]) << i;
     }
 
+    /// Slot by slot, free ones too.
+    void expect_equal_objects() {
+        for (std::uint32_t slot = 0; slot < 24; ++slot) {
+            cdprep_object id = {7, 7};
+            ASSERT_EQ(cdprep_scene_object_at(c_scene_, slot, &id, nullptr), CDPREP_OK);
+            EXPECT_EQ(in_cpp(id), scene_.object_at(slot));
+            cdprep_object_info info{};
+            const int code = cdprep_scene_describe(c_scene_, id, &info, nullptr);
+            const std::optional<SceneObject> expected = scene_.find(in_cpp(id));
+            ASSERT_EQ(code == CDPREP_OK, expected.has_value());
+            if (!expected) continue;
+            ++objects;
+            EXPECT_EQ(expected->model, scene_.model_of(in_cpp(id)));
+            const auto number = static_cast<std::size_t>(expected->model - models_.data());
+            EXPECT_EQ(info.model, c_models_[number]->get());
+            EXPECT_EQ(info.layer, expected->layer);
+            const cdprep_pose pose = rows_in_c(expected->world_from_model);
+            EXPECT_EQ(std::memcmp(&info.world_from_model, &pose, sizeof pose), 0);
+        }
+    }
+
     static constexpr double kReach_ = 2;
     std::mt19937 random_;
     std::array<AlignedBytes, 3> files_;
@@ -458,6 +480,7 @@ TEST(CScene, TheResultsAreThoseOfCpp) {
         EXPECT_GT(twins.hits, 300u);
         EXPECT_GT(twins.distances, 100u);
         EXPECT_GT(twins.events, 200u);
+        EXPECT_GT(twins.objects, 1000u);
         EXPECT_LE(twins.most_tasks(), setting.lanes);
         EXPECT_EQ(twins.most_tasks() > 1, setting.lanes > 1);
     }
@@ -466,6 +489,92 @@ TEST(CScene, TheResultsAreThoseOfCpp) {
     EXPECT_GT(without_contact_room, 0u);
     EXPECT_GT(unsearched, 0u);
     EXPECT_LT(incomplete, steps / 5);
+}
+
+// Layer by layer, beyond the last too.
+TEST(CScene, LayersAreThoseOfCpp) {
+    const Plan expected =
+        *Plan::compile({.pairs = kPairs, .limits = {.objects = 4, .pairs = 4}}).plan;
+    const CPairs given(kPairs);
+    cdprep_plan_options options;
+    cdprep_plan_options_init(&options, sizeof options);
+    options.layer_pairs = given.pairs.data();
+    options.layer_pair_count = static_cast<std::uint32_t>(given.pairs.size());
+    options.max_objects = options.max_pairs = 4;
+    cdprep_plan* plan = nullptr;
+    ASSERT_EQ(cdprep_plan_compile(&options, nullptr, nullptr, &plan, nullptr), CDPREP_OK);
+    double reach = 0;
+    for (std::uint32_t layer = 0; layer < CDPREP_LAYERS; ++layer) {
+        cdprep_layer_info info{};
+        ASSERT_EQ(cdprep_plan_layer(plan, layer, &info, nullptr), CDPREP_OK);
+        EXPECT_EQ(info.ask, static_cast<std::uint32_t>(expected.asks_of(layer)));
+        EXPECT_EQ(info.filter.layers, expected.filter_of(layer).layers);
+        EXPECT_EQ(info.filter.accepts, expected.filter_of(layer).accepts);
+        EXPECT_EQ(info.reach, expected.reach_of(layer));
+        reach += info.reach;
+    }
+    EXPECT_GT(reach, 0.5);
+    cdprep_plan_end(plan);
+}
+
+std::uint64_t c_ticks = 0;
+std::uint64_t tick() {
+    return ++c_ticks;
+}
+
+// A clock that counts its calls: each query is between two of them, so it takes one tick.
+TEST(CScene, AClockOfTheCallerTimesEachEffect) {
+    const AlignedBytes file = baked(unit_cube());
+    const CModel cube(file);
+    const CWorkspace workspace;
+    const LayerPair pair = {.effects = Ask::collide | Ask::overlap | Ask::within,
+                            .tolerance = 0.5,
+                            .overlap = Overlap::proper};
+    cdprep_layer_pair pair_in_c = in_c(pair);
+    cdprep_plan_options options;
+    cdprep_plan_options_init(&options, sizeof options);
+    options.layer_pairs = &pair_in_c;
+    options.layer_pair_count = 1;
+    options.max_objects = options.max_pairs = 4;
+    options.max_triangle_pairs = 500;
+    cdprep_plan* plan = nullptr;
+    cdprep_scene* scene = nullptr;
+    ASSERT_EQ(cdprep_plan_compile(&options, nullptr, nullptr, &plan, nullptr), CDPREP_OK);
+    ASSERT_EQ(cdprep_scene_make(plan, nullptr, 0, &scene, nullptr), CDPREP_OK);
+    cdprep_plan_end(plan);
+    std::array<cdprep_object_options, 2> objects;
+    for (cdprep_object_options& object : objects) {
+        cdprep_object_options_init(&object, sizeof object);
+        object.model = cube.get();
+    }
+    objects[1].world_from_model.rows[9] = 0.5;
+    std::array<cdprep_object, 2> ids{};
+    ASSERT_EQ(cdprep_scene_add(scene, objects.data(), 2, ids.data(), nullptr), CDPREP_OK);
+    const auto counts_after = [&](cdprep_clock now) {
+        EXPECT_EQ(cdprep_scene_set_clock(scene, now, nullptr), CDPREP_OK);
+        const std::array poses = {objects[0].world_from_model, objects[1].world_from_model};
+        EXPECT_EQ(cdprep_scene_set_poses(scene, ids.data(), poses.data(), 2, nullptr), CDPREP_OK);
+        cdprep_step step;
+        EXPECT_EQ(cdprep_scene_step(scene, workspace.get(), &step, nullptr), CDPREP_OK);
+        cdprep_counts counts;
+        EXPECT_EQ(cdprep_scene_counts(scene, &counts, nullptr), CDPREP_OK);
+        return counts;
+    };
+    const cdprep_counts without = counts_after(nullptr);
+    for (std::size_t i = CDPREP_SCENE_TICKS_COLLIDE; i < 32; ++i) EXPECT_EQ(without.n[i], 0u) << i;
+    const cdprep_counts with = counts_after(tick);
+    EXPECT_EQ(with.n[CDPREP_SCENE_OVERLAP], 1u);
+    EXPECT_EQ(with.n[CDPREP_SCENE_TICKS_OVERLAP], 1u);
+    EXPECT_EQ(with.n[CDPREP_SCENE_TICKS_DISTANCE], 0u);
+    EXPECT_EQ(with.n[CDPREP_SCENE_TICKS_CONTACTS], 0u);
+    EXPECT_EQ(with.n[CDPREP_SCENE_TICKS_BOXES], 1u);
+    EXPECT_GT(with.n[CDPREP_SCENE_TICKS_QUERIES], with.n[CDPREP_SCENE_TICKS_OVERLAP]);
+    EXPECT_EQ(with.n[CDPREP_SCENE_TICKS_LISTS], 1u);
+    std::uint64_t stages = 0;
+    for (std::size_t i = CDPREP_SCENE_TICKS_BOXES; i < 32; ++i) stages += with.n[i];
+    EXPECT_EQ(stages + 1, c_ticks) << "together they are the step";
+    EXPECT_EQ(counts_after(nullptr).n[CDPREP_SCENE_TICKS_BOXES], 0u);
+    cdprep_scene_end(scene);
 }
 
 }  // namespace
