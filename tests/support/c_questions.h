@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -206,6 +207,28 @@ CAnswer hulls(const CScene& scene) {
     cdprep_error error;
     const int code = cdprep_hulls_distance(&pair, nullptr, &found, &error);
     return told(code, error, found.found == CDPREP_NO, found);
+}
+
+/// Draws triangles. The sum of their numbers does not depend on their order.
+template <std::uint32_t kWhat>
+CAnswer draw(const CScene& scene) {
+    return told_sum([&](std::uint64_t* sum, cdprep_error* error) {
+        cdprep_draw draw;
+        cdprep_draw_init(&draw, sizeof draw);
+        draw.what = kWhat;
+        draw.context = sum;
+        draw.triangle = [](void* to, const double* corners, std::uint32_t /*rgba*/) {
+            std::uint64_t bits = 0;
+            for (int i = 0; i < 9; ++i) {
+                std::uint64_t number = 0;
+                std::memcpy(&number, corners + i, sizeof number);
+                bits = bits * 31 + number;
+            }
+            return add_to(to, bits);
+        };
+        const cdprep_pose pose = pair_of(scene).pose_b;
+        return cdprep_model_draw(scene.a, &pose, &draw, error);
+    });
 }
 
 }  // namespace detail
@@ -532,6 +555,28 @@ inline const std::vector<CQuestion>& c_questions() {
              const int code = cdprep_shape_distance(&query, scene.workspace, &found, &error);
              return told(code, error, found.found == CDPREP_NO, found);
          }},
+        {"touch many", CDPREP_ASK_TOUCH,
+         [](const CScene& scene) {
+             const std::array<cdprep_shape_query, 2> queries = {shape_of(scene), shape_of(scene)};
+             std::array<std::uint32_t, 2> touches = {77, 77};
+             cdprep_error error;
+             const int code =
+                 cdprep_touch_many(queries.data(), 2, scene.workspace, touches.data(), &error);
+             return told(code, error, touches[1] == CDPREP_UNKNOWN, touches);
+         }},
+        {"shape distance many", CDPREP_ASK_TOUCH,
+         [](const CScene& scene) {
+             const cdprep_shape_query query = shape_of(scene);
+             cdprep_nearest found{};
+             found.found = 77;
+             cdprep_error error;
+             const int code =
+                 cdprep_shape_distance_many(&query, 1, scene.workspace, &found, &error);
+             return told(code, error, found.found == CDPREP_NO, found);
+         }},
+        {"model draw surface", CDPREP_ASK_CORNERS, draw<CDPREP_DRAW_SURFACE>},
+        {"model draw hulls", CDPREP_ASK_HULLS, draw<CDPREP_DRAW_HULLS>},
+        {"model draw pieces", CDPREP_ASK_PIECES | CDPREP_ASK_CORNERS, draw<CDPREP_DRAW_PIECES>},
         {"model corners", CDPREP_ASK_CORNERS,
          [](const CScene& scene) {
              const std::uint32_t triangles[2] = {3, 1};

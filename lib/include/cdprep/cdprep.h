@@ -16,6 +16,7 @@
 #include "cdprep/c/base.h"
 #include "cdprep/c/build.h"
 #include "cdprep/c/contacts.h"
+#include "cdprep/c/draw.h"
 #include "cdprep/c/live.h"
 #include "cdprep/c/model.h"
 #include "cdprep/c/motion.h"

@@ -1424,6 +1424,25 @@ TEST_F(CHostile, NoQuestionAllocates) {
         EXPECT_EQ(cdprep_crossings(&given, scratch, &crossed, nullptr), CDPREP_OK);
         EXPECT_EQ(cdprep_collide_many(&given, 1, scratch, &collision, nullptr), CDPREP_OK);
         EXPECT_EQ(cdprep_model_corners(model_.get(), &triangle, 1, &corners, nullptr), CDPREP_OK);
+        const cdprep_shape_query shape = detail::shape_of({model_.get(), nullptr, 0, nullptr});
+        const std::uint32_t what =
+            CDPREP_DRAW_SURFACE | CDPREP_DRAW_HULLS | CDPREP_DRAW_PIECES | CDPREP_DRAW_BOXES;
+        cdprep_draw draw;
+        cdprep_draw_init(&draw, sizeof draw);
+        draw.what = what;
+        draw.line = [](void*, const double*, const double*, std::uint32_t) { return 1; };
+        draw.triangle = [](void*, const double*, std::uint32_t) { return 1; };
+        cdprep_pose relative;
+        cdprep_world_box around;
+        cdprep_array bytes;
+        EXPECT_EQ(cdprep_touch_many(&shape, 1, scratch, &yes, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_shape_distance_many(&shape, 1, scratch, &nearest, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_model_draw(model_.get(), &given.pose_b, &draw, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_pose_relative(&given.pose_a, &given.pose_b, &relative, nullptr),
+                  CDPREP_OK);
+        EXPECT_EQ(cdprep_model_box(model_.get(), &given.pose_b, 1, nullptr, &around, nullptr),
+                  CDPREP_OK);
+        EXPECT_EQ(cdprep_model_bytes(model_.get(), &bytes, nullptr), CDPREP_OK);
     }
     EXPECT_EQ(allocations, before);
 }

@@ -29,6 +29,33 @@ static const char* read_mesh(const cdprep_model* cube) {
     return NULL;
 }
 
+static int count_triangle(void* count, const double corners[9], uint32_t rgba) {
+    size_t* const so_far = (size_t*)count;
+    *so_far += corners[0] >= 2 && corners[0] <= 3 && (rgba & 0xff) == 0xff;
+    return 1;
+}
+
+/* The cube is moved by 2 along x. */
+static const char* draw(const cdprep_model* cube) {
+    cdprep_draw picture;
+    cdprep_world_box around;
+    cdprep_pose pose = {{1, 0, 0, 0, 1, 0, 0, 0, 1, 2, 0, 0}}, back;
+    size_t count = 0;
+    cdprep_error error;
+    cdprep_draw_init(&picture, sizeof picture);
+    picture.what = CDPREP_DRAW_SURFACE;
+    picture.context = &count;
+    MUST(cdprep_model_draw(cube, &pose, &picture, &error) == CDPREP_BAD_ARGUMENT);
+    MUST(strcmp(error.argument, "draw.triangle") == 0 && error.why == CDPREP_WHY_NULL);
+    picture.triangle = count_triangle;
+    MUST(cdprep_model_draw(cube, &pose, &picture, NULL) == CDPREP_OK && count == 12);
+    MUST(cdprep_model_box(cube, &pose, 0.5, NULL, &around, NULL) == CDPREP_OK);
+    MUST(around.lower[0] <= 1.5F && around.lower[0] > 1.499F && around.upper[1] >= 1.5F);
+    MUST(cdprep_pose_relative(&pose, &pose, &back, NULL) == CDPREP_OK);
+    MUST(back.rows[0] == 1 && back.rows[1] == 0 && back.rows[9] == 0);
+    return NULL;
+}
+
 const char* read_geometry(const cdprep_model* cube) {
     cdprep_model_info info;
     cdprep_error error;
@@ -56,5 +83,9 @@ const char* read_geometry(const cdprep_model* cube) {
     MUST(cdprep_model_mass(cube, &mass, &error) == CDPREP_BAD_ARGUMENT);
     double bound = 9;
     MUST(cdprep_model_level_error(cube, 3, &bound, &error) == CDPREP_BAD_ARGUMENT && bound == 0);
-    return read_mesh(cube);
+    MUST(cdprep_model_bytes(cube, &array, NULL) == CDPREP_OK && array.stride == 1);
+    MUST(array.count > 1000 && array.data != NULL);
+    MUST(strcmp(cdprep_ask_name(CDPREP_ASK_CLOSEST), "closest") == 0);
+    const char* const wrong = draw(cube);
+    return wrong == NULL ? read_mesh(cube) : wrong;
 }

@@ -847,6 +847,14 @@ struct Within {
         note(cdprep_scene_events(scene, &events, &count, &error));
         note(cdprep_scene_hash(scene, &hash, &error));
         note(cdprep_scene_counts(scene, &counts, &error));
+        cdprep_object id{};
+        cdprep_object_info info{};
+        cdprep_draw draw;
+        cdprep_draw_init(&draw, sizeof draw);
+        note(cdprep_scene_object_at(scene, 0, &id, &error));
+        note(cdprep_scene_describe(scene, id, &info, &error));
+        note(cdprep_scene_set_clock(scene, nullptr, &error));
+        note(cdprep_scene_draw(scene, &draw, &error));
         cdprep_scene_end(scene);  // in use: does nothing
     }
 };

@@ -97,6 +97,16 @@ TEST(CSceneMemory, NoFunctionOfASceneAllocates) {
         ASSERT_EQ(cdprep_scene_events(scene, &events, &count, nullptr), CDPREP_OK);
         ASSERT_EQ(cdprep_scene_contacts(scene, &contacts, &contact_count, nullptr), CDPREP_OK);
         ASSERT_EQ(cdprep_scene_counts(scene, &counts, nullptr), CDPREP_OK);
+        cdprep_object_info info;
+        cdprep_draw draw;
+        cdprep_draw_init(&draw, sizeof draw);
+        draw.what = CDPREP_DRAW_SURFACE | CDPREP_DRAW_OVERLAPS | CDPREP_DRAW_CONTACTS;
+        draw.line = [](void*, const double*, const double*, std::uint32_t) { return 1; };
+        draw.triangle = [](void*, const double*, std::uint32_t) { return 1; };
+        ASSERT_EQ(cdprep_scene_describe(scene, ids[0], &info, nullptr), CDPREP_OK);
+        cdprep_object last{};
+        ASSERT_EQ(cdprep_scene_object_at(scene, 19, &last, nullptr), CDPREP_OK);
+        ASSERT_EQ(cdprep_scene_draw(scene, &draw, nullptr), CDPREP_OK);
         all += count;
         all_contacts += contact_count;
     }
