@@ -82,8 +82,9 @@ static_assert(sizeof(cdprep_overlap) == sizeof(TrianglePair) &&
 
 }  // namespace
 
-const InputType Input<cdprep_pair>::type = {"cdprep_pair", 0xcd500003U, sizeof(cdprep_pair),
-                                            sizeof(cdprep_pair), kPairFields};
+// The first version ended before `front`.
+const InputType Input<cdprep_pair>::type = {
+    "cdprep_pair", 0xcd500003U, offsetof(cdprep_pair, front), sizeof(cdprep_pair), kPairFields};
 
 cdprep_pair Input<cdprep_pair>::defaults() noexcept {
     cdprep_pair pair{};
@@ -135,6 +136,8 @@ int read_pair(Call& call, const Name& name, const PairQuestion& question, const 
         pair.degenerate == CDPREP_SKIP_DEGENERATE ? Degenerate::skip : Degenerate::keep;
     asked.options.through = structure_of(pair.through);
     asked.cache = pair.cache;
+    const bool uses_front = asked.options.through == Structure::pieces && pair.cache != nullptr;
+    asked.front = uses_front ? pair.front : nullptr;
     return CDPREP_OK;
 }
 

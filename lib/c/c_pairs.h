@@ -71,6 +71,7 @@ struct AskedPair {
     Placement placement = Placement::b_moves(Pose());
     PairOptions options;
     cdprep_cache* cache = nullptr;
+    cdprep_front* front = nullptr;  ///< null unless the query goes through pieces with a cache
 
     [[nodiscard]] Pair pair() const noexcept {
         assert(a != nullptr && b != nullptr);
@@ -81,6 +82,14 @@ struct AskedPair {
         assert(a != nullptr && b != nullptr);
         const bool uses_cache = options.through == Structure::bvh;
         return {*a, *b, placement, options, uses_cache ? words.get() : nullptr};
+    }
+    /// Returns the same with a front too, if the query goes through pieces.
+    [[nodiscard]] Pair with(PairCacheWords& words, PairFrontWords& planes) const noexcept {
+        Pair with_cache = with(words);
+        if (planes.get() == nullptr) return with_cache;
+        with_cache.cache = words.get();
+        with_cache.front = planes.get();
+        return with_cache;
     }
 };
 

@@ -87,12 +87,14 @@ std::size_t mark_overlaps(const AskedPair& asked, Workspace& workspace,
 cdprep_nearest nearest_of(const AskedPair& asked, const cdprep_distance_options& options,
                           Workspace& workspace) noexcept {
     PairCacheWords cache(asked.cache);
-    return in_c(distance(asked.with(cache), workspace, in_cpp(options)));
+    PairFrontWords front(asked.front);
+    return in_c(distance(asked.with(cache, front), workspace, in_cpp(options)));
 }
 
 bool is_pair_within(const AskedPair& asked, double tolerance, Workspace& workspace) noexcept {
     PairCacheWords cache(asked.cache);
-    return within(asked.with(cache), tolerance, workspace);
+    PairFrontWords front(asked.front);
+    return within(asked.with(cache, front), tolerance, workspace);
 }
 
 std::size_t list_pairs_within(const AskedPair& asked, double tolerance, Workspace& workspace,

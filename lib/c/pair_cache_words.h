@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "cdprep/advanced/pair_cache.h"
+#include "cdprep/advanced/pair_front.h"
 #include "cdprep/c/pairs.h"
 
 namespace cdprep::c {
@@ -23,6 +26,24 @@ public:
 private:
     cdprep_cache* words_;
     PairCache cache_;
+};
+
+/// The same for a front. Only the planes that are in use are read and written.
+class PairFrontWords {
+public:
+    /// `words` may be null.
+    explicit PairFrontWords(cdprep_front* words) noexcept;
+    PairFrontWords(const PairFrontWords&) = delete;
+    PairFrontWords& operator=(const PairFrontWords&) = delete;
+    ~PairFrontWords();
+
+    [[nodiscard]] PairFront* get() noexcept {
+        return front_ ? &*front_ : nullptr;
+    }
+
+private:
+    cdprep_front* words_;
+    std::optional<PairFront> front_;
 };
 
 }  // namespace cdprep::c

@@ -37,9 +37,9 @@ struct Mistake {
     const char* argument;
 };
 
-/// The mistakes that any input struct can have.
+/// The mistakes that any input struct can have. `first_size` is that of its first version.
 template <class T>
-std::vector<Mistake<T>> struct_mistakes(const char* argument) {
+std::vector<Mistake<T>> struct_mistakes(const char* argument, std::size_t first_size = sizeof(T)) {
     const auto sized = [](std::uint32_t size) {
         return [size](T& given) { given.head.size = size; };
     };
@@ -55,7 +55,8 @@ std::vector<Mistake<T>> struct_mistakes(const char* argument) {
         {"size 0", sized(0), kWhy, argument},
         {"size 1", sized(1), kWhy, argument},
         {"size 8", sized(8), kWhy, argument},
-        {"a smaller size than the first version's", sized(sizeof(T) - 8), kWhy, argument},
+        {"a smaller size than the first version's",
+         sized(static_cast<std::uint32_t>(first_size) - 8), kWhy, argument},
         {"a size of 4 GiB", sized(UINT32_MAX), kWhy, argument},
     };
 }

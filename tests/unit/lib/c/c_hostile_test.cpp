@@ -11,6 +11,7 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <new>
 #include <random>
 #include <string>
@@ -106,7 +107,7 @@ protected:
 
 std::vector<Mistake<cdprep_pair>> pair_mistakes() {
     using P = cdprep_pair;
-    std::vector<Mistake<P>> all = struct_mistakes<P>("pair");
+    std::vector<Mistake<P>> all = struct_mistakes<P>("pair", offsetof(P, front));
     const auto word = [&](const char* name, std::uint32_t P::*field) {
         for (const std::uint32_t value : {7U, 77U, UINT32_MAX}) {
             all.push_back({name, [=](P& p) { p.*field = value; }, CDPREP_WHY_OUT_OF_RANGE, name});
@@ -1248,6 +1249,128 @@ TEST_F(CHostile, ACacheWithAChangedBitIsANewOne) {
             cdprep_collision found{};
             ASSERT_EQ(cdprep_collide(&near, workspace_.get(), &found, nullptr), CDPREP_OK);
             ASSERT_EQ(found.hit, std::uint32_t{CDPREP_YES}) << word << ", bit " << bit;
+        }
+    }
+}
+
+// A program of the first version has no front.
+TEST_F(CHostile, APairOfTheFirstVersionIsTaken) {
+    cdprep_pair older = pair();
+    older.head.size = offsetof(cdprep_pair, front);
+    older.front = reinterpret_cast<cdprep_front*>(this);  // beyond what the caller has
+    older.through = CDPREP_THROUGH_PIECES;
+    cdprep_cache cache{};
+    older.cache = &cache;
+    cdprep_nearest nearest{};
+    EXPECT_EQ(cdprep_distance(&older, nullptr, workspace_.get(), &nearest, nullptr), CDPREP_OK);
+    EXPECT_EQ(nearest.found, std::uint32_t{CDPREP_YES});
+}
+
+/// Asks for distances along a path, with a cache and a front; counts what a workspace did.
+struct FrontPath {
+    const cdprep_model* model;
+    std::uint64_t box_pairs = 0;
+    std::vector<cdprep_nearest> nearest = {};
+    std::vector<std::uint32_t> within = {};
+
+    /// `spoil(front, step)` may change the front before each step.
+    template <class Spoil>
+    void run(cdprep_cache* cache, cdprep_front* front, Spoil&& spoil) {
+        cdprep_workspace_options options;
+        cdprep_workspace_options_init(&options, sizeof options);
+        options.counting = CDPREP_YES;
+        cdprep_workspace* workspace = nullptr;
+        ASSERT_EQ(cdprep_workspace_make(&options, nullptr, 0, &workspace, nullptr), CDPREP_OK);
+        for (int step = 0; step < 60; ++step) {
+            cdprep_pair pair;
+            cdprep_pair_init(&pair, sizeof pair);
+            pair.a = pair.b = model;
+            pair.through = CDPREP_THROUGH_PIECES;
+            pair.cache = cache;
+            pair.front = front;
+            const double angle = 0.002 * step;
+            pair.pose_b.rows[0] = pair.pose_b.rows[4] = std::cos(angle);
+            pair.pose_b.rows[3] = std::sin(angle);
+            pair.pose_b.rows[1] = -pair.pose_b.rows[3];
+            pair.pose_b.rows[9] = 2.3 + 0.001 * step;
+            spoil(front, step);
+            cdprep_nearest found{};
+            ASSERT_EQ(cdprep_distance(&pair, nullptr, workspace, &found, nullptr), CDPREP_OK);
+            nearest.push_back(found);
+            std::uint32_t is_near = 77;
+            ASSERT_EQ(cdprep_within(&pair, 0.33, workspace, &is_near, nullptr), CDPREP_OK);
+            within.push_back(is_near);
+        }
+        cdprep_counts counts;
+        ASSERT_EQ(cdprep_workspace_counts(workspace, &counts, nullptr), CDPREP_OK);
+        box_pairs = counts.n[CDPREP_COUNT_BOX_PAIRS];
+        cdprep_workspace_end(workspace);
+    }
+};
+
+// The law of fronts: any content gives the answer of none. A front saves most of the box pairs.
+TEST_F(CHostile, FrontsChangeNoAnswer) {
+    const AlignedBytes file = with_pieces(baked(icosphere(3)));
+    const CModel ball(file);
+    const auto leave = [](cdprep_front* /*front*/, int /*step*/) {};
+    FrontPath without = {ball.get()}, with_cache = {ball.get()}, with = {ball.get()};
+    cdprep_cache cache{}, other_cache{};
+    const auto front = std::make_unique<cdprep_front>();
+    without.run(nullptr, nullptr, leave);
+    with_cache.run(&other_cache, nullptr, leave);
+    with.run(&cache, front.get(), leave);
+    std::mt19937_64 random(4);
+    FrontPath hostile = {ball.get()};
+    const auto spoilt = std::make_unique<cdprep_front>();
+    hostile.run(&cache, spoilt.get(), [&](cdprep_front* words, int step) {
+        if (step % 4 == 0) words->words[random() % 3600] ^= std::uint64_t{1} << random() % 64;
+        if (step % 4 == 1) words->words[4] = random();
+        if (step % 4 == 2) std::memset(words, static_cast<int>(random() % 256), sizeof *words);
+    });
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < without.nearest.size(); ++i) {
+        for (const FrontPath* path : {&with_cache, &with, &hostile}) {
+            EXPECT_EQ(std::memcmp(&path->nearest[i], &without.nearest[i], sizeof(cdprep_nearest)),
+                      0)
+                << i;
+            EXPECT_EQ(path->within[i], without.within[i]) << i;
+        }
+        near += without.within[i] == CDPREP_YES;
+    }
+    EXPECT_GT(near, 10u);
+    EXPECT_LT(near, 50u);
+    EXPECT_LT(2 * with.box_pairs, without.box_pairs);
+    EXPECT_LT(with.box_pairs, hostile.box_pairs);
+}
+
+// Every bit of a front in use: a changed one is a new front, and no answer changes.
+TEST_F(CHostile, AFrontWithAChangedBitIsANewOne) {
+    const AlignedBytes file = with_pieces(baked(icosphere(1)));
+    const CModel ball(file);
+    cdprep_pair given = pair_of({ball.get(), ball.get(), 2.25, nullptr});
+    given.through = CDPREP_THROUGH_PIECES;
+    cdprep_cache cache{};
+    const auto front = std::make_unique<cdprep_front>();
+    given.cache = &cache;
+    given.front = front.get();
+    cdprep_nearest expected{};
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_EQ(cdprep_distance(&given, nullptr, workspace_.get(), &expected, nullptr),
+                  CDPREP_OK);
+    }
+    EXPECT_NE(front->words[3599], 0u) << "the seal";
+    EXPECT_NE(front->words[2] & 0xffffffffU, 0u) << "the number of planes";
+    const cdprep_front kept = *front;
+    const cdprep_cache kept_cache = cache;
+    for (std::size_t word = 0; word < 3600; word += word < 64 ? 1 : 13) {
+        for (const std::size_t bit : {0U, 31U, 32U, 62U}) {
+            *front = kept;
+            cache = kept_cache;
+            front->words[word] ^= std::uint64_t{1} << bit;
+            cdprep_nearest found{};
+            ASSERT_EQ(cdprep_distance(&given, nullptr, workspace_.get(), &found, nullptr),
+                      CDPREP_OK);
+            ASSERT_EQ(std::memcmp(&found, &expected, sizeof found), 0) << word << ", bit " << bit;
         }
     }
 }
