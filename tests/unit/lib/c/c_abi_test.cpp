@@ -1,423 +1,121 @@
 // SPDX-License-Identifier: MIT
-// Where every field of the C API is, on machines of 64 bits: a program that was compiled before
-// finds it there. A change that is meant is made here too, and named in CHANGELOG.md.
+// Where every field of the C API is, and what its functions take. A program that was compiled
+// before finds it there. c_abi.inc is the list. tests/check_c_api.py compares it with the headers
+// and writes it. A change that is meant is named in CHANGELOG.md.
 #include <gtest/gtest.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 #include "cdprep/cdprep.h"
 
 namespace {
 
-#if UINTPTR_MAX == UINT64_MAX
-#define SIZE(type, size) static_assert(sizeof(type) == (size))
-#define PLACE(type, field, place) static_assert(offsetof(type, field) == (place))
+struct StructEntry {
+    const char* name;
+    std::size_t size, size_64, size_32;
+};
+struct FieldEntry {
+    const char* of;
+    const char* name;
+    std::size_t place, extent, place_64, place_32;
+};
+struct ValueEntry {
+    const char* name;
+    std::int64_t value, expected;
+};
 
-SIZE(cdprep_head, 8);
-PLACE(cdprep_head, tag, 4);
-SIZE(cdprep_error, 512);
-PLACE(cdprep_error, why, 4);
-PLACE(cdprep_error, argument, 8);
-PLACE(cdprep_error, message, 64);
-SIZE(cdprep_version, 40);
-PLACE(cdprep_version, minor, 4);
-PLACE(cdprep_version, patch, 8);
-PLACE(cdprep_version, abi, 12);
-PLACE(cdprep_version, oldest_format, 16);
-PLACE(cdprep_version, newest_format, 20);
-PLACE(cdprep_version, kernels, 24);
-SIZE(cdprep_allocator, 24);
-PLACE(cdprep_allocator, release, 8);
-PLACE(cdprep_allocator, context, 16);
-SIZE(cdprep_workspace_options, 48);
-PLACE(cdprep_workspace_options, lanes, 8);
-PLACE(cdprep_workspace_options, counting, 12);
-PLACE(cdprep_workspace_options, run, 16);
-PLACE(cdprep_workspace_options, context, 24);
-PLACE(cdprep_workspace_options, allocator, 32);
-PLACE(cdprep_workspace_options, cells, 40);
-SIZE(cdprep_counts, 256);
-SIZE(cdprep_pose, 96);
-SIZE(cdprep_open_options, 32);
-PLACE(cdprep_open_options, ask, 8);
-PLACE(cdprep_open_options, mode, 12);
-PLACE(cdprep_open_options, name, 16);
-PLACE(cdprep_open_options, allocator, 24);
-SIZE(cdprep_build_options, 64);
-PLACE(cdprep_build_options, ask, 8);
-PLACE(cdprep_build_options, precision, 12);
-PLACE(cdprep_build_options, positions, 16);
-PLACE(cdprep_build_options, positions_f32, 24);
-PLACE(cdprep_build_options, triangles, 32);
-PLACE(cdprep_build_options, vertex_count, 40);
-PLACE(cdprep_build_options, triangle_count, 48);
-PLACE(cdprep_build_options, allocator, 56);
-SIZE(cdprep_model_info, 152);
-PLACE(cdprep_model_info, vertices, 4);
-PLACE(cdprep_model_info, components, 8);
-PLACE(cdprep_model_info, instances, 12);
-PLACE(cdprep_model_info, groups, 16);
-PLACE(cdprep_model_info, materials, 20);
-PLACE(cdprep_model_info, pieces, 24);
-PLACE(cdprep_model_info, hulls, 28);
-PLACE(cdprep_model_info, verdicts, 32);
-PLACE(cdprep_model_info, serves, 36);
-PLACE(cdprep_model_info, closed, 40);
-PLACE(cdprep_model_info, stores_f64, 44);
-PLACE(cdprep_model_info, lower, 48);
-PLACE(cdprep_model_info, upper, 72);
-PLACE(cdprep_model_info, metres_per_unit, 96);
-PLACE(cdprep_model_info, hash, 104);
-PLACE(cdprep_model_info, reserved, 120);
-SIZE(cdprep_corners, 112);
-PLACE(cdprep_corners, vertex, 72);
-PLACE(cdprep_corners, face, 84);
-PLACE(cdprep_corners, instance, 88);
-PLACE(cdprep_corners, group, 92);
-PLACE(cdprep_corners, material, 96);
-PLACE(cdprep_corners, component, 100);
-PLACE(cdprep_corners, degenerate, 104);
-PLACE(cdprep_corners, reserved, 108);
-SIZE(cdprep_mesh, 56);
-PLACE(cdprep_mesh, triangles, 8);
-PLACE(cdprep_mesh, vertices, 16);
-PLACE(cdprep_mesh, vertex_room, 24);
-PLACE(cdprep_mesh, triangle_room, 32);
-PLACE(cdprep_mesh, vertex_count, 40);
-PLACE(cdprep_mesh, triangle_count, 48);
-SIZE(cdprep_array, 24);
-PLACE(cdprep_array, count, 8);
-PLACE(cdprep_array, stride, 16);
-SIZE(cdprep_mass, 80);
-PLACE(cdprep_mass, centre, 8);
-PLACE(cdprep_mass, inertia, 32);
-SIZE(cdprep_verdict, 48);
-PLACE(cdprep_verdict, promises, 4);
-PLACE(cdprep_verdict, triangles, 8);
-PLACE(cdprep_verdict, first_triangle, 12);
-PLACE(cdprep_verdict, boundary_loops, 16);
-PLACE(cdprep_verdict, euler, 20);
-PLACE(cdprep_verdict, genus, 24);
-PLACE(cdprep_verdict, reserved, 28);
-PLACE(cdprep_verdict, area, 32);
-PLACE(cdprep_verdict, volume, 40);
-SIZE(cdprep_cache, 256);
-SIZE(cdprep_pair, 248);
-PLACE(cdprep_pair, a, 8);
-PLACE(cdprep_pair, b, 16);
-PLACE(cdprep_pair, cache, 24);
-PLACE(cdprep_pair, moving, 32);
-PLACE(cdprep_pair, body, 36);
-PLACE(cdprep_pair, overlap, 40);
-PLACE(cdprep_pair, degenerate, 44);
-PLACE(cdprep_pair, through, 48);
-PLACE(cdprep_pair, reserved, 52);
-PLACE(cdprep_pair, pose_a, 56);
-PLACE(cdprep_pair, pose_b, 152);
-SIZE(cdprep_collision, 24);
-PLACE(cdprep_collision, containment, 4);
-PLACE(cdprep_collision, a_inside_b, 8);
-PLACE(cdprep_collision, reserved, 12);
-PLACE(cdprep_collision, winding, 16);
-SIZE(cdprep_overlap, 8);
-PLACE(cdprep_overlap, b, 4);
-SIZE(cdprep_overlap_list, 24);
-PLACE(cdprep_overlap_list, room, 8);
-PLACE(cdprep_overlap_list, count, 16);
-SIZE(cdprep_self_query, 24);
-PLACE(cdprep_self_query, model, 8);
-PLACE(cdprep_self_query, overlap, 16);
-PLACE(cdprep_self_query, degenerate, 20);
-SIZE(cdprep_marks, 40);
-PLACE(cdprep_marks, bits_b, 8);
-PLACE(cdprep_marks, words_a, 16);
-PLACE(cdprep_marks, words_b, 24);
-PLACE(cdprep_marks, count, 32);
-SIZE(cdprep_crossing, 64);
-PLACE(cdprep_crossing, is_flat, 8);
-PLACE(cdprep_crossing, reserved, 12);
-PLACE(cdprep_crossing, ends, 16);
-SIZE(cdprep_crossing_list, 24);
-PLACE(cdprep_crossing_list, room, 8);
-PLACE(cdprep_crossing_list, count, 16);
-SIZE(cdprep_distance_options, 32);
-PLACE(cdprep_distance_options, relative_error, 8);
-PLACE(cdprep_distance_options, absolute_error, 16);
-PLACE(cdprep_distance_options, max_distance, 24);
-SIZE(cdprep_nearest, 80);
-PLACE(cdprep_nearest, triangle_a, 4);
-PLACE(cdprep_nearest, triangle_b, 8);
-PLACE(cdprep_nearest, reserved, 12);
-PLACE(cdprep_nearest, lower, 16);
-PLACE(cdprep_nearest, upper, 24);
-PLACE(cdprep_nearest, on_a, 32);
-PLACE(cdprep_nearest, on_b, 56);
-SIZE(cdprep_feature, 24);
-PLACE(cdprep_feature, edge, 4);
-PLACE(cdprep_feature, triangle, 8);
-PLACE(cdprep_feature, vertex, 12);
-SIZE(cdprep_contact_point, 64);
-PLACE(cdprep_contact_point, on_b, 24);
-PLACE(cdprep_contact_point, distance, 48);
-PLACE(cdprep_contact_point, id, 56);
-SIZE(cdprep_contact, 424);
-PLACE(cdprep_contact, piece_b, 4);
-PLACE(cdprep_contact, id, 8);
-PLACE(cdprep_contact, feature_a, 16);
-PLACE(cdprep_contact, feature_b, 40);
-PLACE(cdprep_contact, flags, 64);
-PLACE(cdprep_contact, point_count, 68);
-PLACE(cdprep_contact, members, 72);
-PLACE(cdprep_contact, reserved, 76);
-PLACE(cdprep_contact, on_a, 80);
-PLACE(cdprep_contact, on_b, 104);
-PLACE(cdprep_contact, normal, 128);
-PLACE(cdprep_contact, lower, 152);
-PLACE(cdprep_contact, upper, 160);
-PLACE(cdprep_contact, points, 168);
-SIZE(cdprep_contact_list, 56);
-PLACE(cdprep_contact_list, room, 8);
-PLACE(cdprep_contact_list, count, 16);
-PLACE(cdprep_contact_list, complete, 24);
-PLACE(cdprep_contact_list, searched, 28);
-PLACE(cdprep_contact_list, found, 32);
-PLACE(cdprep_contact_list, computed, 40);
-PLACE(cdprep_contact_list, work, 48);
-SIZE(cdprep_contact_options, 40);
-PLACE(cdprep_contact_options, tolerance, 8);
-PLACE(cdprep_contact_options, manifold, 16);
-PLACE(cdprep_contact_options, most, 20);
-PLACE(cdprep_contact_options, work, 24);
-PLACE(cdprep_contact_options, cluster_angle, 32);
-SIZE(cdprep_hull, 16);
-PLACE(cdprep_hull, scope, 8);
-PLACE(cdprep_hull, number, 12);
-SIZE(cdprep_hull_cache, 64);
-SIZE(cdprep_hull_pair, 248);
-PLACE(cdprep_hull_pair, a, 8);
-PLACE(cdprep_hull_pair, b, 24);
-PLACE(cdprep_hull_pair, cache, 40);
-PLACE(cdprep_hull_pair, moving, 48);
-PLACE(cdprep_hull_pair, reserved, 52);
-PLACE(cdprep_hull_pair, pose_a, 56);
-PLACE(cdprep_hull_pair, pose_b, 152);
-SIZE(cdprep_penetration, 96);
-PLACE(cdprep_penetration, reserved, 4);
-PLACE(cdprep_penetration, lower, 8);
-PLACE(cdprep_penetration, upper, 16);
-PLACE(cdprep_penetration, normal, 24);
-PLACE(cdprep_penetration, on_a, 48);
-PLACE(cdprep_penetration, on_b, 72);
-SIZE(cdprep_closest_features, 120);
-PLACE(cdprep_closest_features, parallel, 4);
-PLACE(cdprep_closest_features, a, 8);
-PLACE(cdprep_closest_features, b, 32);
-PLACE(cdprep_closest_features, lower, 56);
-PLACE(cdprep_closest_features, upper, 64);
-PLACE(cdprep_closest_features, on_a, 72);
-PLACE(cdprep_closest_features, on_b, 96);
-SIZE(cdprep_point_query, 48);
-PLACE(cdprep_point_query, model, 8);
-PLACE(cdprep_point_query, points, 16);
-PLACE(cdprep_point_query, count, 24);
-PLACE(cdprep_point_query, max_distance, 32);
-PLACE(cdprep_point_query, through, 40);
-PLACE(cdprep_point_query, reserved, 44);
-SIZE(cdprep_closest_point, 48);
-PLACE(cdprep_closest_point, triangle, 4);
-PLACE(cdprep_closest_point, point, 8);
-PLACE(cdprep_closest_point, lower, 32);
-PLACE(cdprep_closest_point, upper, 40);
-SIZE(cdprep_point_state, 16);
-PLACE(cdprep_point_state, on_surface, 4);
-PLACE(cdprep_point_state, winding, 8);
-SIZE(cdprep_ray, 56);
-PLACE(cdprep_ray, direction, 24);
-PLACE(cdprep_ray, max_t, 48);
-SIZE(cdprep_ray_query, 32);
-PLACE(cdprep_ray_query, model, 8);
-PLACE(cdprep_ray_query, rays, 16);
-PLACE(cdprep_ray_query, count, 24);
-SIZE(cdprep_ray_hit, 40);
-PLACE(cdprep_ray_hit, triangle, 4);
-PLACE(cdprep_ray_hit, t, 8);
-PLACE(cdprep_ray_hit, point, 16);
-SIZE(cdprep_ray_hit_list, 24);
-PLACE(cdprep_ray_hit_list, room, 8);
-PLACE(cdprep_ray_hit_list, count, 16);
-SIZE(cdprep_shape_query, 208);
-PLACE(cdprep_shape_query, model, 8);
-PLACE(cdprep_shape_query, shape, 16);
-PLACE(cdprep_shape_query, degenerate, 20);
-PLACE(cdprep_shape_query, a, 24);
-PLACE(cdprep_shape_query, b, 48);
-PLACE(cdprep_shape_query, c, 72);
-PLACE(cdprep_shape_query, radius, 96);
-PLACE(cdprep_shape_query, max_distance, 104);
-PLACE(cdprep_shape_query, world_from_model, 112);
-SIZE(cdprep_triangle_list, 24);
-PLACE(cdprep_triangle_list, room, 8);
-PLACE(cdprep_triangle_list, count, 16);
-SIZE(cdprep_layer_pair, 80);
-PLACE(cdprep_layer_pair, a, 8);
-PLACE(cdprep_layer_pair, b, 12);
-PLACE(cdprep_layer_pair, effects, 16);
-PLACE(cdprep_layer_pair, body, 20);
-PLACE(cdprep_layer_pair, overlap, 24);
-PLACE(cdprep_layer_pair, lists_stays, 28);
-PLACE(cdprep_layer_pair, tolerance, 32);
-PLACE(cdprep_layer_pair, max_distance, 40);
-PLACE(cdprep_layer_pair, contacts, 48);
-PLACE(cdprep_layer_pair, impact_tolerance, 56);
-PLACE(cdprep_layer_pair, work, 64);
-PLACE(cdprep_layer_pair, impact_steps, 72);
-PLACE(cdprep_layer_pair, reserved, 76);
-SIZE(cdprep_model_use, 32);
-PLACE(cdprep_model_use, model, 8);
-PLACE(cdprep_model_use, name, 16);
-PLACE(cdprep_model_use, serves, 24);
-PLACE(cdprep_model_use, layers, 28);
-SIZE(cdprep_plan_options, 96);
-PLACE(cdprep_plan_options, layer_pairs, 8);
-PLACE(cdprep_plan_options, models, 16);
-PLACE(cdprep_plan_options, layer_names, 24);
-PLACE(cdprep_plan_options, layer_pair_count, 32);
-PLACE(cdprep_plan_options, model_count, 36);
-PLACE(cdprep_plan_options, layer_name_count, 40);
-PLACE(cdprep_plan_options, max_objects, 44);
-PLACE(cdprep_plan_options, max_pairs, 48);
-PLACE(cdprep_plan_options, lanes, 52);
-PLACE(cdprep_plan_options, max_triangle_pairs, 56);
-PLACE(cdprep_plan_options, max_contacts, 60);
-PLACE(cdprep_plan_options, allocator, 64);
-PLACE(cdprep_plan_options, origin, 72);
-SIZE(cdprep_object, 8);
-PLACE(cdprep_object, generation, 4);
-SIZE(cdprep_object_options, 120);
-PLACE(cdprep_object_options, model, 8);
-PLACE(cdprep_object_options, layer, 16);
-PLACE(cdprep_object_options, reserved, 20);
-PLACE(cdprep_object_options, world_from_model, 24);
-SIZE(cdprep_step, 64);
-PLACE(cdprep_step, needed_triangle_pairs, 8);
-PLACE(cdprep_step, needed_contacts, 16);
-PLACE(cdprep_step, complete, 24);
-PLACE(cdprep_step, reserved, 28);
-SIZE(cdprep_scene_hit, 48);
-PLACE(cdprep_scene_hit, b, 8);
-PLACE(cdprep_scene_hit, layer_pair, 16);
-PLACE(cdprep_scene_hit, holds, 20);
-PLACE(cdprep_scene_hit, collision, 24);
-SIZE(cdprep_scene_overlap, 40);
-PLACE(cdprep_scene_overlap, b, 8);
-PLACE(cdprep_scene_overlap, layer_pair, 16);
-PLACE(cdprep_scene_overlap, reserved, 20);
-PLACE(cdprep_scene_overlap, items, 24);
-PLACE(cdprep_scene_overlap, count, 32);
-SIZE(cdprep_scene_distance, 104);
-PLACE(cdprep_scene_distance, b, 8);
-PLACE(cdprep_scene_distance, layer_pair, 16);
-PLACE(cdprep_scene_distance, reserved, 20);
-PLACE(cdprep_scene_distance, nearest, 24);
-SIZE(cdprep_scene_self_overlap, 32);
-PLACE(cdprep_scene_self_overlap, layer_pair, 8);
-PLACE(cdprep_scene_self_overlap, reserved, 12);
-PLACE(cdprep_scene_self_overlap, items, 16);
-PLACE(cdprep_scene_self_overlap, count, 24);
-SIZE(cdprep_scene_impact, 128);
-PLACE(cdprep_scene_impact, b, 8);
-PLACE(cdprep_scene_impact, layer_pair, 16);
-PLACE(cdprep_scene_impact, reserved, 20);
-PLACE(cdprep_scene_impact, impact, 24);
-SIZE(cdprep_scene_bounded, 432);
-PLACE(cdprep_scene_bounded, b, 8);
-PLACE(cdprep_scene_bounded, layer_pair, 16);
-PLACE(cdprep_scene_bounded, has_last, 20);
-PLACE(cdprep_scene_bounded, late, 24);
-PLACE(cdprep_scene_bounded, bounded, 32);
-PLACE(cdprep_scene_bounded, last, 136);
-PLACE(cdprep_scene_bounded, last_pose_a, 240);
-PLACE(cdprep_scene_bounded, last_pose_b, 336);
-SIZE(cdprep_scene_contact, 72);
-PLACE(cdprep_scene_contact, b, 8);
-PLACE(cdprep_scene_contact, layer_pair, 16);
-PLACE(cdprep_scene_contact, complete, 20);
-PLACE(cdprep_scene_contact, searched, 24);
-PLACE(cdprep_scene_contact, reserved, 28);
-PLACE(cdprep_scene_contact, items, 32);
-PLACE(cdprep_scene_contact, count, 40);
-PLACE(cdprep_scene_contact, found, 48);
-PLACE(cdprep_scene_contact, computed, 56);
-PLACE(cdprep_scene_contact, work, 64);
-SIZE(cdprep_event, 32);
-PLACE(cdprep_event, b, 8);
-PLACE(cdprep_event, layer_pair, 16);
-PLACE(cdprep_event, effect, 20);
-PLACE(cdprep_event, kind, 24);
-PLACE(cdprep_event, reason, 28);
-SIZE(cdprep_broad_phase_options, 32);
-PLACE(cdprep_broad_phase_options, max_boxes, 8);
-PLACE(cdprep_broad_phase_options, max_pairs, 12);
-PLACE(cdprep_broad_phase_options, lanes, 16);
-PLACE(cdprep_broad_phase_options, reserved, 20);
-PLACE(cdprep_broad_phase_options, allocator, 24);
-SIZE(cdprep_world_box, 24);
-PLACE(cdprep_world_box, upper, 12);
-SIZE(cdprep_box_filter, 8);
-PLACE(cdprep_box_filter, accepts, 4);
-SIZE(cdprep_box_pair, 8);
-PLACE(cdprep_box_pair, b, 4);
-SIZE(cdprep_box_update, 40);
-PLACE(cdprep_box_update, boxes, 8);
-PLACE(cdprep_box_update, filters, 16);
-PLACE(cdprep_box_update, moved, 24);
-PLACE(cdprep_box_update, count, 32);
-PLACE(cdprep_box_update, moved_count, 36);
-SIZE(cdprep_box_pairs, 40);
-PLACE(cdprep_box_pairs, count, 8);
-PLACE(cdprep_box_pairs, needed, 16);
-PLACE(cdprep_box_pairs, complete, 24);
-PLACE(cdprep_box_pairs, escaped, 28);
-PLACE(cdprep_box_pairs, kept, 32);
-PLACE(cdprep_box_pairs, reserved, 36);
-SIZE(cdprep_live_options, 32);
-PLACE(cdprep_live_options, model, 8);
-PLACE(cdprep_live_options, max_triangles, 16);
-PLACE(cdprep_live_options, max_vertices, 20);
-PLACE(cdprep_live_options, allocator, 24);
-SIZE(cdprep_live_move, 40);
-PLACE(cdprep_live_move, vertices, 8);
-PLACE(cdprep_live_move, positions, 16);
-PLACE(cdprep_live_move, positions_f32, 24);
-PLACE(cdprep_live_move, count, 32);
-SIZE(cdprep_motion, 272);
-PLACE(cdprep_motion, end, 96);
-PLACE(cdprep_motion, centre, 192);
-PLACE(cdprep_motion, shift, 216);
-PLACE(cdprep_motion, turn, 240);
-PLACE(cdprep_motion, given_by, 264);
-PLACE(cdprep_motion, reserved, 268);
-SIZE(cdprep_moving_pair, 584);
-PLACE(cdprep_moving_pair, a, 8);
-PLACE(cdprep_moving_pair, b, 16);
-PLACE(cdprep_moving_pair, body, 24);
-PLACE(cdprep_moving_pair, most_steps, 28);
-PLACE(cdprep_moving_pair, tolerance, 32);
-PLACE(cdprep_moving_pair, motion_a, 40);
-PLACE(cdprep_moving_pair, motion_b, 312);
-SIZE(cdprep_impact, 104);
-PLACE(cdprep_impact, steps, 4);
-PLACE(cdprep_impact, lower, 8);
-PLACE(cdprep_impact, upper, 16);
-PLACE(cdprep_impact, nearest, 24);
-SIZE(cdprep_live_info, 56);
-PLACE(cdprep_live_info, number_bound, 4);
-PLACE(cdprep_live_info, vertices, 8);
-PLACE(cdprep_live_info, is_torn, 12);
-PLACE(cdprep_live_info, surface_cost, 16);
-PLACE(cdprep_live_info, reserved, 24);
-#endif
+#define CDPREP_STRUCT(type, size_64, size_32)
+#define CDPREP_FIELD(type, field, place_64, place_32)
+#define CDPREP_VALUE(name, value)
+#define CDPREP_CALLBACK(name, ...) \
+    static_assert(std::is_same_v<name, std::add_pointer_t<__VA_ARGS__>>);
+#define CDPREP_FUNCTION(name, ...) static_assert(std::is_same_v<decltype(name), __VA_ARGS__>);
+#include "c_abi.inc"
+#undef CDPREP_CALLBACK
+#undef CDPREP_FUNCTION
+#define CDPREP_CALLBACK(name, ...)
+#define CDPREP_FUNCTION(name, ...)
+
+#undef CDPREP_STRUCT
+#define CDPREP_STRUCT(type, size_64, size_32) {#type, sizeof(type), size_64, size_32},
+const std::vector<StructEntry> kStructs = {
+#include "c_abi.inc"
+};
+#undef CDPREP_STRUCT
+#define CDPREP_STRUCT(type, size_64, size_32)
+
+#undef CDPREP_FIELD
+#define CDPREP_FIELD(type, field, place_64, place_32) \
+    {#type, #field, offsetof(type, field), sizeof(type::field), place_64, place_32},
+const std::vector<FieldEntry> kFields = {
+#include "c_abi.inc"
+};
+#undef CDPREP_FIELD
+#define CDPREP_FIELD(type, field, place_64, place_32)
+
+#undef CDPREP_VALUE
+#define CDPREP_VALUE(name, value) {#name, std::int64_t{name}, value},
+const std::vector<ValueEntry> kValues = {
+#include "c_abi.inc"
+};
+#undef CDPREP_VALUE
+#define CDPREP_VALUE(name, value)
+
+#undef CDPREP_FUNCTION
+#define CDPREP_FUNCTION(name, ...) reinterpret_cast<void (*)()>(&(name)),
+const std::vector<void (*)()> kFunctions = {
+#include "c_abi.inc"
+};
+
+constexpr bool kIs64 = UINTPTR_MAX == UINT64_MAX;
+struct Double {
+    char before;
+    double number;
+};
+/// On i386, doubles within structs start at multiples of 4; that is another list.
+constexpr bool kIsListed = offsetof(Double, number) == 8;
+
+TEST(CAbi, SizesAndPlacesAreWhatTheyWere) {
+    if (!kIsListed) GTEST_SKIP() << "doubles are aligned to 4 bytes here";
+    EXPECT_GT(kStructs.size(), 70u);
+    EXPECT_GT(kFields.size(), 400u);
+    for (const StructEntry& type : kStructs) {
+        EXPECT_EQ(type.size, kIs64 ? type.size_64 : type.size_32) << type.name;
+    }
+    for (const FieldEntry& field : kFields) {
+        EXPECT_EQ(field.place, kIs64 ? field.place_64 : field.place_32)
+            << field.of << "." << field.name;
+    }
+}
+
+// Where a field is not listed, there would be a hole.
+TEST(CAbi, EveryFieldIsListed) {
+    if (!kIs64) GTEST_SKIP() << "structs have padding here";
+    std::map<std::string, std::size_t> ends;
+    for (const FieldEntry& field : kFields) {
+        EXPECT_EQ(field.place, ends[field.of]) << field.of << "." << field.name;
+        ends[field.of] = field.place + field.extent;
+    }
+    for (const StructEntry& type : kStructs) EXPECT_EQ(ends[type.name], type.size) << type.name;
+}
+
+TEST(CAbi, NumbersAreWhatTheyWere) {
+    EXPECT_GT(kValues.size(), 150u);
+    for (const ValueEntry& value : kValues) EXPECT_EQ(value.value, value.expected) << value.name;
+}
+
+// The linker finds all of them, and each is one of its own.
+TEST(CAbi, EveryFunctionIsThere) {
+    EXPECT_GT(kFunctions.size(), 150u);
+    const std::set<void (*)()> distinct(kFunctions.begin(), kFunctions.end());
+    EXPECT_EQ(distinct.size(), kFunctions.size());
+}
 
 /// What an initialiser writes, read as any caller could.
 template <class T>
@@ -451,6 +149,7 @@ TEST(CAbi, TagsAreWhatTheyWere) {
     EXPECT_EQ(tag_of(cdprep_self_query_init), 0xcd500013U);
     EXPECT_EQ(tag_of(cdprep_moving_pair_init), 0xcd500014U);
     EXPECT_EQ(tag_of(cdprep_window_options_init), 0xcd500015U);
+    EXPECT_EQ(tag_of(cdprep_draw_init), 0xcd500016U);
 }
 
 }  // namespace
