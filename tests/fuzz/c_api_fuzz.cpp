@@ -103,6 +103,8 @@ private:
         p.b = models_.any(draw_);
         if (draw_.one_in(2)) p.cache = &cache_;
         draw_cache(draw_, cache_);
+        if (draw_.one_in(2)) p.front = &front_;
+        if (draw_.one_in(4)) front_.words[draw_.below(3600)] ^= draw_.word();
         draw_pose(draw_, p.pose_a);
         draw_pose(draw_, p.pose_b);
         if (draw_.one_in(2)) p.moving = draw_.below(3);
@@ -392,6 +394,32 @@ private:
         if (!is_answered(cdprep_shape_distance(&q, workspace(), &nearest, &error_)))
             MUST(nearest.found == CDPREP_NO);
         MUST(is_finite(nearest));
+        shapes_of(q);
+    }
+    /// A batch of three, of which the last is `q`.
+    void shapes_of(const cdprep_shape_query& q) {
+        std::array<cdprep_shape_query, 3> queries;
+        for (cdprep_shape_query& each : queries) {
+            cdprep_shape_query_init(&each, sizeof each);
+            each.model = models_.any(draw_);
+            each.shape = CDPREP_SPHERE;
+            each.radius = 1;
+        }
+        queries[2] = q;
+        // A size that is not the array's would be a lie about memory.
+        queries[2].head.size = sizeof q;
+        std::array<std::uint32_t, 3> touches = {9, 9, 9};
+        std::array<cdprep_nearest, 3> nearest{};
+        const bool is_touched =
+            is_answered(cdprep_touch_many(queries.data(), 3, workspace(), touches.data(), &error_));
+        for (const std::uint32_t one : touches) {
+            MUST(is_touched ? one <= CDPREP_YES : one == CDPREP_UNKNOWN);
+        }
+        if (!is_answered(cdprep_shape_distance_many(queries.data(), 3, workspace(), nearest.data(),
+                                                    &error_))) {
+            for (const auto& one : nearest) MUST(one.found == CDPREP_NO);
+        }
+        for (const auto& one : nearest) MUST(is_finite(one));
     }
     void geometry() {
         const cdprep_model* const model = models_.any(draw_);
@@ -424,6 +452,57 @@ private:
         (void)is_answered(cdprep_model_prefetch(model, draw_.word(), &error_));
         (void)is_answered(cdprep_hull_mesh(&hull, &mesh, &error_));
         (void)is_answered(cdprep_hull_find(model, hull.scope, hull.number, &hull, &error_));
+        (void)is_answered(cdprep_model_bytes(model, &array, &error_));
+        (void)cdprep_ask_name(draw_.word());
+        picture(model);
+    }
+    /// The shapes that a picture hands on are finite. It ends after at most 50 of them.
+    struct Shapes {
+        int left;
+        int take(std::span<const double> numbers) {
+            for (const double x : numbers) MUST(std::isfinite(x));
+            return left-- > 1 ? 1 : 0;
+        }
+    };
+    void picture(const cdprep_model* model) {
+        Shapes shapes = {1 + static_cast<int>(draw_.below(50))};
+        Longer<cdprep_draw> given{};
+        cdprep_draw_init(&given.value, sizeof given.value);
+        cdprep_draw& d = given.value;
+        d.what = draw_.one_in(8) ? draw_.word() : draw_.below(128) & 0x4f;
+        if (draw_.one_in(4)) d.level = draw_.word();
+        d.context = &shapes;
+        if (!draw_.one_in(20)) {
+            d.line = [](void* to, const double* start, const double* end, std::uint32_t /*rgba*/) {
+                for (const double* const point : {start, end}) {
+                    for (int i = 0; i < 3; ++i) MUST(std::isfinite(point[i]));
+                }
+                return static_cast<Shapes*>(to)->take({});
+            };
+        }
+        if (!draw_.one_in(20)) {
+            d.triangle = [](void* to, const double* corners, std::uint32_t /*rgba*/) {
+                return static_cast<Shapes*>(to)->take({corners, 9});
+            };
+        }
+        if (!draw_.one_in(20)) {
+            d.label = [](void* to, const double* at, const char* text, std::uint32_t /*rgba*/) {
+                MUST(text[0] != 0 && std::strlen(text) < 16);
+                return static_cast<Shapes*>(to)->take({at, 3});
+            };
+        }
+        given.spoil(draw_);
+        cdprep_pose pose = {{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}};
+        draw_pose(draw_, pose);
+        (void)is_answered(cdprep_model_draw(model, &pose, &d, &error_));
+        const std::array<double, 3> origin = {draw_.number(), 0, 0};
+        cdprep_world_box box{};
+        if (!is_answered(cdprep_model_box(model, &pose, draw_.number(),
+                                          draw_.one_in(2) ? origin.data() : nullptr, &box,
+                                          &error_))) {
+            MUST(box.lower[0] > box.upper[0]);
+        }
+        for (int i = 0; i < 3; ++i) MUST(!std::isnan(box.lower[i]) && !std::isnan(box.upper[i]));
     }
     void batch() {
         std::array<cdprep_pair, 3> pairs;
@@ -433,6 +512,7 @@ private:
             // A size that is not the array's would be a lie about memory.
             p.head.size = sizeof p;
             p.cache = nullptr;
+            p.front = nullptr;
         }
         std::array<cdprep_collision, 3> found{};
         std::array<cdprep_nearest, 3> nearest{};
@@ -463,6 +543,11 @@ private:
         (void)is_answered(cdprep_pose_compose(&pose, &other, &made, &error_));
         MUST(is_finite(made.rows));
         (void)is_answered(cdprep_pose_inverse(&pose, &made, &error_));
+        MUST(is_finite(made.rows));
+        if (is_answered(cdprep_pose_relative(&pose, &other, &made, &error_))) {
+            MUST(is_answered(cdprep_pose_relative(&made, &made, &made, &error_)) ||
+                 error_.why == CDPREP_WHY_NOT_RIGID);
+        }
         MUST(is_finite(made.rows));
         std::array<double, 3> point = {draw_.number(), draw_.number(), draw_.number()};
         if (is_answered(cdprep_pose_move(&pose, point.data(), 1, point.data(), &error_)))
@@ -594,6 +679,7 @@ private:
     Longer<cdprep_pair> pair_{};
     Longer<cdprep_distance_options> distance_{};
     cdprep_cache cache_{};
+    cdprep_front front_{};
     cdprep_hull_cache hull_cache_{};
     std::array<cdprep_overlap, kRoom> overlaps_{};
     std::array<cdprep_crossing, kRoom> crossings_{};

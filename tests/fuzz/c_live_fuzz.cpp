@@ -158,11 +158,13 @@ private:
     }
 
     void change() {
-        switch (draw_.below(4)) {
+        switch (draw_.below(5)) {
             case 0:
                 return append();
             case 1:
                 return remove();
+            case 2:
+                return read();
             default:
                 return move();
         }
@@ -179,6 +181,32 @@ private:
         given.value.count = draw_.below(7);
         given.spoil(draw_);
         (void)is_answered(cdprep_live_refit(live_, &given.value, lanes_.get(), &error_), error_);
+    }
+    /// What the live model lists and stores of itself.
+    void read() {
+        std::array<cdprep_live_triangle, 8> items{};
+        cdprep_live_triangle_list list = {items.data(), draw_.below(9), 99};
+        if (is_answered(cdprep_live_triangles(live_, &list, &error_), error_)) {
+            MUST(tears_);
+            cdprep_live_info info{};
+            MUST(cdprep_live_describe(live_, &info, &error_) == CDPREP_OK);
+            MUST(list.count == info.triangles);
+            for (std::size_t i = 0; i < std::min(list.count, list.room); ++i) {
+                MUST(items[i].number < info.number_bound && items[i].vertex[2] < kMostVertices);
+                MUST(i == 0 || items[i - 1].number < items[i].number);
+            }
+        } else {
+            MUST(!tears_ && list.count == 0);
+        }
+        cdprep_array image{};
+        MUST(is_answered(cdprep_live_image(live_, &image, &error_), error_) == !tears_);
+        if (tears_) return;
+        AlignedBytes copy(image.count);
+        std::memcpy(copy.span().data(), image.data, image.count);
+        cdprep_model* model = nullptr;
+        MUST(cdprep_model_open_memory(copy.span().data(), image.count, nullptr, &model, &error_) ==
+             CDPREP_OK);
+        cdprep_model_close(model);
     }
     void append() {
         std::array<std::uint32_t, 9> triangles{};

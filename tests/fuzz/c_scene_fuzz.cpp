@@ -234,11 +234,52 @@ public:
         cdprep_counts counts;
         MUST(is_answered(cdprep_scene_counts(scene_, &counts, &error_), error_));
         MUST(counts.n[CDPREP_SCENE_OBJECTS] == objects_.size());
+        describe();
     }
 
 private:
     [[nodiscard]] std::uint32_t max_objects() const {
         return input_.get()->max_objects;
+    }
+    /// What the scene says of an object, and a picture of all.
+    void describe() {
+        const cdprep_object id = any_id();
+        cdprep_object_info info{};
+        cdprep_object found = {77, 77};
+        if (is_answered(cdprep_scene_describe(scene_, id, &info, &error_), error_)) {
+            const auto& object = objects_.at(id.slot);
+            MUST(exists(id) && info.model == object.model && info.layer == object.layer);
+            MUST(std::memcmp(&info.world_from_model, &object.pose, sizeof object.pose) == 0);
+        } else {
+            MUST(!exists(id) && info.model == nullptr);
+        }
+        if (is_answered(cdprep_scene_object_at(scene_, id.slot, &found, &error_), error_)) {
+            MUST((found.generation != 0) == objects_.contains(id.slot));
+            MUST(found.generation == 0 || exists(found));
+        } else {
+            MUST(found.generation == 0 && id.slot >= max_objects());
+        }
+        std::size_t shapes = 0;
+        Longer<cdprep_draw> given{};
+        cdprep_draw_init(&given.value, sizeof given.value);
+        cdprep_draw& d = given.value;
+        d.what = draw_.one_in(8) ? draw_.word() : draw_.below(128);
+        d.context = &shapes;
+        d.line = [](void* to, const double* start, const double* /*end*/, std::uint32_t /*rgba*/) {
+            MUST(std::isfinite(start[0]));
+            return ++*static_cast<std::size_t*>(to) < 500 ? 1 : 0;
+        };
+        d.triangle = [](void* to, const double* corners, std::uint32_t /*rgba*/) {
+            MUST(std::isfinite(corners[8]));
+            return ++*static_cast<std::size_t*>(to) < 500 ? 1 : 0;
+        };
+        d.label = [](void* to, const double* at, const char* /*text*/, std::uint32_t /*rgba*/) {
+            MUST(std::isfinite(at[2]));
+            return ++*static_cast<std::size_t*>(to) < 500 ? 1 : 0;
+        };
+        given.spoil(draw_);
+        if (!is_answered(cdprep_scene_draw(scene_, &d, &error_), error_)) MUST(shapes == 0);
+        MUST(shapes <= 500);
     }
     /// An id that exists, or any.
     cdprep_object any_id() {
