@@ -8,6 +8,7 @@
 #include <span>
 
 #include "support/aligned_bytes.h"
+#include "support/aligned_heap.h"
 #include "support/meshes.h"
 
 #include "cdprep/cdprep.h"
@@ -64,11 +65,11 @@ struct Blocks {
         auto* const self = static_cast<Blocks*>(blocks);
         if (self->is_empty) return nullptr;
         ++self->given;
-        return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+        return aligned_heap(size, alignment);
     }
     static void take(void* blocks, void* memory, std::size_t /*size*/) {
         ++static_cast<Blocks*>(blocks)->taken;
-        std::free(memory);
+        free_aligned(memory);
     }
     cdprep_allocator allocator = {give, take, this};
 };

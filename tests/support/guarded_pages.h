@@ -2,8 +2,14 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#ifdef _WIN32
+#define WIN32_LEAN_AND_MEAN
+#define NOMINMAX
+#include <windows.h>
+#else
 #include <sys/mman.h>
 #include <unistd.h>
+#endif
 
 #include <cstddef>
 #include <cstring>
@@ -20,12 +26,11 @@ namespace cdprep::test {
 class GuardedPages {
 public:
     GuardedPages(std::span<const std::byte> file, format::SectionSet wanted) {
-        const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+        const std::size_t page = page_size();
         size_ = (file.size() + page - 1) / page * page;
-        start_ = static_cast<std::byte*>(
-            ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+        start_ = static_cast<std::byte*>(allocate(size_));
         std::memcpy(start_, file.data(), file.size());
-        ::mprotect(start_, size_, PROT_READ);
+        protect(start_, size_, true);
         bytes_ = {start_, file.size()};
         for_each_section([&](const format::SectionEntry& entry) {
             if (wanted.contains(entry.id) || entry.count == 0) return;
@@ -34,7 +39,7 @@ public:
         });
     }
     ~GuardedPages() {
-        ::munmap(start_, size_);
+        release(start_, size_);
     }
     GuardedPages(const GuardedPages&) = delete;
     GuardedPages& operator=(const GuardedPages&) = delete;
@@ -52,6 +57,36 @@ public:
     }
 
 private:
+#ifdef _WIN32
+    static std::size_t page_size() {
+        SYSTEM_INFO info{};
+        ::GetSystemInfo(&info);
+        return info.dwPageSize;
+    }
+    static void* allocate(std::size_t size) {
+        return ::VirtualAlloc(nullptr, size, MEM_COMMIT | MEM_RESERVE, PAGE_READWRITE);
+    }
+    static void protect(std::byte* start, std::size_t size, bool is_readable) {
+        DWORD before = 0;
+        ::VirtualProtect(start, size, is_readable ? PAGE_READONLY : PAGE_NOACCESS, &before);
+    }
+    static void release(std::byte* start, std::size_t /*size*/) {
+        ::VirtualFree(start, 0, MEM_RELEASE);
+    }
+#else
+    static std::size_t page_size() {
+        return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    }
+    static void* allocate(std::size_t size) {
+        return ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    }
+    static void protect(std::byte* start, std::size_t size, bool is_readable) {
+        ::mprotect(start, size, is_readable ? PROT_READ : PROT_NONE);
+    }
+    static void release(std::byte* start, std::size_t size) {
+        ::munmap(start, size);
+    }
+#endif
     template <class Visit>
     void for_each_section(const Visit& visit) {
         const format::FileHeader header = format::read_header(bytes_);
@@ -63,7 +98,7 @@ private:
         }
     }
     void close(const format::SectionEntry& entry) {
-        ::mprotect(start_ + entry.offset, entry.count * entry.element_size, PROT_NONE);
+        protect(start_ + entry.offset, entry.count * entry.element_size, false);
         ++guarded_;
     }
 

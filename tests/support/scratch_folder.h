@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace cdprep::test {
 
@@ -17,12 +19,16 @@ namespace cdprep::test {
 class ScratchFolder {
 public:
     ScratchFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "cdprep_XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) {
-            std::perror(name.c_str());
-            std::abort();
+        std::random_device random;
+        for (int i = 0; i < 100; ++i) {
+            const std::string name =
+                "cdprep_" + std::to_string(random()) + std::to_string(random());
+            path_ = std::filesystem::temp_directory_path() / name;
+            std::error_code failed;
+            if (std::filesystem::create_directory(path_, failed)) return;  // false: it was there
         }
-        path_ = name;
+        std::fprintf(stderr, "%s: cannot be made.\n", path_.string().c_str());
+        std::abort();
     }
     ScratchFolder(const ScratchFolder&) = delete;
     ScratchFolder& operator=(const ScratchFolder&) = delete;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cdprep/cdprep.h"
+#include "support/aligned_heap.h"
 #include "support/c_lanes.h"
 #include "support/c_models.h"
 #include "support/c_questions.h"
@@ -209,13 +210,13 @@ struct OneBlock {
         auto* const self = static_cast<OneBlock*>(blocks);
         ++self->given;
         self->bytes = size;
-        return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+        return test::aligned_heap(size, alignment);
     }
     static void take(void* blocks, void* memory, std::size_t size) {
         auto* const self = static_cast<OneBlock*>(blocks);
         ++self->taken;
         EXPECT_EQ(size, self->bytes);
-        std::free(memory);
+        test::free_aligned(memory);
     }
 };
 
