@@ -41,7 +41,7 @@ Result<Assembly> Assembly::open(const std::filesystem::path& path, const ImportO
         content->scene.emplace(std::move(scene).value());
         content->nodes = content->scene->mesh_nodes();
         if (content->nodes.empty()) return content->file.unreadable("has no node with triangles");
-        Result<mesh::TriangleSoup> notes = content->scene->flatten_node({}, {}, options);
+        Result<mesh::TriangleSoup> notes = content->scene->flatten_nodes({}, options);
         if (!notes) return notes.error();
         if (const auto error = note_files(content->file, path, options, *notes)) return *error;
         content->notes = std::move(notes).value();
@@ -67,10 +67,9 @@ std::span<const mesh::InputFile> Assembly::other_files() const noexcept {
     return content_->notes.other_files;
 }
 
-Result<mesh::TriangleSoup> Assembly::triangles(const MeshNode& node,
-                                               const Affine& model_from_mesh) const {
+Result<mesh::TriangleSoup> Assembly::triangles(std::span<const PlacedNode> nodes) const {
     const ImportOptions& options = content_->options;
-    Result<mesh::TriangleSoup> soup = content_->scene->flatten_node(node, model_from_mesh, options);
+    Result<mesh::TriangleSoup> soup = content_->scene->flatten_nodes(nodes, options);
     if (!soup) return soup;
     soup->source_hash = content_->notes.source_hash;
     soup->other_files = content_->notes.other_files;

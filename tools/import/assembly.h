@@ -27,10 +27,9 @@ public:
     [[nodiscard]] std::span<const Affine> world_from_nodes() const noexcept;
     /// The files that it refers to and that were read, by name.
     [[nodiscard]] std::span<const mesh::InputFile> other_files() const noexcept;
-    /// Returns the triangles of a node's meshes, moved by `model_from_mesh` instead of the node's
-    /// own transform. Invalid numbers are data, as in import_file().
-    [[nodiscard]] Result<mesh::TriangleSoup> triangles(const MeshNode& node,
-                                                       const Affine& model_from_mesh) const;
+    /// Returns the triangles of some nodes, one node after the other. Invalid numbers are data, as
+    /// in import_file().
+    [[nodiscard]] Result<mesh::TriangleSoup> triangles(std::span<const PlacedNode> nodes) const;
 
 private:
     struct Content;

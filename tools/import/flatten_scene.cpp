@@ -383,12 +383,13 @@ Result<mesh::TriangleSoup> PlacedScene::flatten(const ImportOptions& options) co
     return content_->flatten(content_->uses(), options);
 }
 
-Result<mesh::TriangleSoup> PlacedScene::flatten_node(const MeshNode& node,
-                                                     const Affine& model_from_mesh,
-                                                     const ImportOptions& options) const {
+Result<mesh::TriangleSoup> PlacedScene::flatten_nodes(std::span<const PlacedNode> nodes,
+                                                      const ImportOptions& options) const {
     std::vector<Use> uses;
-    for (const std::uint32_t mesh : node.meshes) {
-        uses.push_back({mesh, node.number, model_from_mesh});
+    for (const PlacedNode& placed : nodes) {
+        for (const std::uint32_t mesh : placed.node->meshes) {
+            uses.push_back({mesh, placed.node->number, placed.model_from_mesh});
+        }
     }
     return content_->flatten(uses, options);
 }

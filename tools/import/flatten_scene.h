@@ -26,6 +26,12 @@ struct MeshNode {
     Affine world_from_node{};
 };
 
+/// A use of a node's meshes, moved by `model_from_mesh` instead of the node's own transform.
+struct PlacedNode {
+    const MeshNode* node = nullptr;
+    Affine model_from_mesh{};
+};
+
 /// A child's result whose every count and reference was checked.
 class PlacedScene {
 public:
@@ -42,10 +48,9 @@ public:
     /// single precision if every used transform is the identity and every used mesh is single
     /// precision.
     [[nodiscard]] Result<mesh::TriangleSoup> flatten(const ImportOptions& options) const;
-    /// Does the same for the meshes of one node, with another transform.
-    [[nodiscard]] Result<mesh::TriangleSoup> flatten_node(const MeshNode& node,
-                                                          const Affine& model_from_mesh,
-                                                          const ImportOptions& options) const;
+    /// Does the same for the meshes of some nodes, with other transforms.
+    [[nodiscard]] Result<mesh::TriangleSoup> flatten_nodes(std::span<const PlacedNode> nodes,
+                                                           const ImportOptions& options) const;
     /// Returns the nodes that have triangles, depth first.
     [[nodiscard]] std::vector<MeshNode> mesh_nodes() const;
     /// The world transforms of all nodes, depth first: element MeshNode::number is of that node.

@@ -99,8 +99,9 @@ std::string_view json_of(std::string_view bytes) {
 struct Place {
     std::uint32_t node = 0;        ///< in GltfPhysics::nodes
     std::uint32_t mover = kNone;   ///< the nearest place with a motion, itself or above it
-    std::uint32_t object = kNone;  ///< in the objects of the assembly
+    std::uint32_t object = kNone;  ///< in the objects of the assembly, and its nodes()
     std::uint32_t new_object = kNone;
+    std::uint32_t depth = 0;  ///< parents above it
 };
 
 /// What the objects of a layer have in common.
@@ -166,10 +167,10 @@ private:
     std::optional<Error> place_nodes() {
         const std::size_t count = assembly_.file.world_from_nodes().size();
         struct Pending {
-            std::uint32_t node, mover;
+            std::uint32_t node, mover, depth;
         };
         std::vector<Pending> pending;
-        for (const std::uint32_t root : physics_.roots) pending.push_back({root, kNone});
+        for (const std::uint32_t root : physics_.roots) pending.push_back({root, kNone, 0});
         std::ranges::reverse(pending);
         while (!pending.empty() && places_.size() <= count) {
             const Pending top = pending.back();
@@ -177,9 +178,9 @@ private:
             const auto number = static_cast<std::uint32_t>(places_.size());
             const GltfNode& node = physics_.nodes[top.node];
             const std::uint32_t mover = node.motion ? number : top.mover;
-            places_.push_back({.node = top.node, .mover = mover});
+            places_.push_back({.node = top.node, .mover = mover, .depth = top.depth});
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
-                pending.push_back({*child, mover});
+                pending.push_back({*child, mover, top.depth + 1});
             }
         }
         bool fits = places_.size() == count;
@@ -278,14 +279,85 @@ private:
             findings_.not_taken("a motion without a collider or trigger that is taken", place);
         } else if (motion.is_kinematic) {
             for (const std::uint32_t member : members) move_steadily(member, velocities, mover);
-        } else if (colliders > 1) {
-            findings_.not_taken("a body of several colliders; they stay where they are", place);
+        } else if (colliders > 1 && !join(mover, members)) {
+            findings_.not_taken(
+                "a body of several colliders that differ in filter or material, or "
+                "whose node is sheared, mirrored or flat; they stay where they are",
+                place);
         } else if (colliders == 0) {
             findings_.not_taken("a body without a collider; its triggers stay where they are",
                                 place);
         } else {
             for (const std::uint32_t member : members) make_body(member, velocities, motion);
         }
+    }
+
+    // --- Bodies of several colliders -------------------------------------------------
+
+    /// Makes one object of all colliders of a body, in the frame of its node: that of the first
+    /// collider. Returns false if they cannot be one object.
+    bool join(std::uint32_t mover, const std::vector<std::uint32_t>& members) {
+        std::vector<std::uint32_t> joined;
+        for (const std::uint32_t member : members) {
+            if (node_of(places_[member]).collider) joined.push_back(member);
+        }
+        const GltfSurface& first = *node_of(places_[joined[0]]).collider;
+        const bool are_equal = std::ranges::all_of(joined, [&](std::uint32_t member) {
+            const GltfNode& node = node_of(places_[member]);
+            return node.collider->filter == first.filter &&
+                   node.collider->material == first.material && !node.trigger;
+        });
+        const Affine& world = world_from(mover);
+        const auto rotation = rotation_of(world);
+        if (!are_equal || !rotation) return false;
+        const Affine& r = *rotation;
+        const Result<Pose> pose = nearest_pose({r[0], r[1], r[2], world[3], r[4], r[5], r[6],
+                                                world[7], r[8], r[9], r[10], world[11], 0, 0, 0, 1},
+                                               kFloatRounding);
+        if (!pose) return false;
+        AssemblyModel model;
+        for (const std::uint32_t member : joined) {
+            model.push_back({places_[member].object, in_frame(*pose, world_from(member))});
+            if (member != joined[0]) places_[member].new_object = kNone;
+        }
+        keep_joined(mover, joined[0], *pose, std::move(model));
+        findings_.assumed("colliders of a body do not overlap: its mass is the sum of theirs");
+        return true;
+    }
+
+    void keep_joined(std::uint32_t mover, std::uint32_t first, const Pose& pose,
+                     AssemblyModel model) {
+        FileObject& object = scene().objects[places_[first].new_object];
+        for (std::uint32_t up = places_[first].depth - places_[mover].depth; up > 0; --up) {
+            object.name.erase(std::min(object.name.rfind('/'), object.name.size()));
+        }
+        const auto is_taken = [&](const FileObject& other) {
+            return &other != &object && other.name == object.name;
+        };
+        while (std::ranges::any_of(scene().objects, is_taken)) object.name += "#body";
+        object.model = static_cast<std::uint32_t>(assembly_.models.size());
+        assembly_.models.push_back(std::move(model));
+        scene().models.push_back(fs::path(scene().name) / object.name);
+        scene().motions[object.motion] = Motion::fixed(pose);
+    }
+
+    /// Returns a transform as seen from a frame.
+    static Affine in_frame(const Pose& world_from_frame, const Affine& world) {
+        const auto& r = world_from_frame.rotation();
+        const Double3& t = world_from_frame.translation();
+        const std::array<double, 3> origin = {t.x, t.y, t.z};
+        Affine local{};
+        for (std::size_t row = 0; row < 3; ++row) {
+            for (std::size_t column = 0; column < 4; ++column) {
+                double sum = 0;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const double entry = world[4 * k + column] - (column == 3 ? origin[k] : 0);
+                    sum += r[3 * k + row] * entry;
+                }
+                local[4 * row + column] = sum;
+            }
+        }
+        return local;
     }
 
     void move_steadily(std::uint32_t place, const Velocities& velocities, std::uint32_t mover) {
@@ -312,6 +384,7 @@ private:
     }
 
     void make_body(std::uint32_t place, const Velocities& velocities, const GltfMotion& motion) {
+        if (places_[place].new_object == kNone) return;  // joined with another collider
         if (!node_of(places_[place]).collider) {
             findings_.not_taken("a trigger that moves with a body; it stays where it is",
                                 pointer_of(places_[place], "trigger"));
@@ -439,13 +512,20 @@ private:
 
     // --- The rest --------------------------------------------------------------------
 
-    /// Drops the models, motions and bodies that no object has.
+    /// Drops the objects that were joined with others, and the models, motions and bodies that no
+    /// object has.
     void keep_used() {
         std::vector<std::uint32_t> numbers(assembly_.models.size(), kNone);
         std::vector<AssemblyModel> models;
         std::vector<fs::path> paths;
         std::vector<Motion> motions;
         std::vector<BodyMotion> bodies;
+        std::vector<FileObject> objects;
+        for (const Place& place : places_) {
+            if (place.new_object == kNone) continue;
+            objects.push_back(std::move(scene().objects[place.new_object]));
+        }
+        scene().objects = std::move(objects);
         for (FileObject& object : scene().objects) {
             std::uint32_t& number = numbers[object.model];
             if (number == kNone) {

@@ -43,15 +43,20 @@ Result<cli::BakeOptions> bake_options_for(Ask asks, const import::ImportOptions&
     return options;
 }
 
-/// Makes a bake read a model of an assembly. Equal words name equal parts of one file.
-void read_part(const AssemblyScene& assembly, const AssemblyModel& model, cli::BakeOptions& bake) {
-    const import::MeshNode& node = assembly.file.nodes()[model.node];
-    bake.part = "meshes";
-    for (const std::uint32_t mesh : node.meshes) bake.part += " " + std::to_string(mesh);
-    bake.part += " transform";
-    for (const double x : model.model_from_mesh) bake.part += " " + report::number_text(x);
-    bake.read = [&](const fs::path& /*input*/, const import::ImportOptions& /*options*/) {
-        return assembly.file.triangles(node, model.model_from_mesh);
+/// Makes a bake read a model of an assembly. Equal words name equal models of one file.
+void read_model(const AssemblyScene& assembly, const AssemblyModel& model, cli::BakeOptions& bake) {
+    std::vector<import::PlacedNode> parts;
+    for (const AssemblyPart& part : model) {
+        const import::MeshNode& node = assembly.file.nodes()[part.node];
+        parts.push_back({&node, part.model_from_mesh});
+        bake.part += bake.part.empty() ? "meshes" : " meshes";
+        for (const std::uint32_t mesh : node.meshes) bake.part += " " + std::to_string(mesh);
+        bake.part += " transform";
+        for (const double x : part.model_from_mesh) bake.part += " " + report::number_text(x);
+    }
+    bake.read = [&assembly, parts](const fs::path& /*input*/,
+                                   const import::ImportOptions& /*options*/) {
+        return assembly.file.triangles(parts);
     };
 }
 
@@ -86,7 +91,7 @@ private:
         }
         Result<cli::BakeOptions> bake = bake_options_for(loaded.needs.wanted(), options_.import);
         if (!bake) return bake.error();
-        if (assembly != nullptr) read_part(*assembly, assembly->models[done_], *bake);
+        if (assembly != nullptr) read_model(*assembly, assembly->models[done_], *bake);
         const auto begins = [&](const char* stage) {
             options_.begins(done_, path.filename().string() + ": " + stage);
         };

@@ -168,7 +168,7 @@ private:
     }
 
     void add_model(std::uint32_t node, const Affine& model_from_mesh) {
-        read_.models.push_back({node, model_from_mesh});
+        read_.models.push_back({AssemblyPart{node, model_from_mesh}});
         read_.scene.models.emplace_back(path_.string() + "/" + read_.file.nodes()[node].path);
     }
 

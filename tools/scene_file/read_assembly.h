@@ -11,12 +11,15 @@
 
 namespace cdprep::scenes {
 
-/// A model of an assembly: the meshes of a node, and what is done to them before the bake.
-struct AssemblyModel {
+/// The meshes of a node, and what is done to them before the bake.
+struct AssemblyPart {
     std::uint32_t node = 0;  ///< its number in Assembly::nodes(): the first that uses the model
-    /// The identity, a uniform scale, or all that a pose cannot express.
+    /// Of a part that is alone: the identity, a uniform scale, or all that a pose cannot express.
     import::Affine model_from_mesh{};
 };
+
+/// A model of an assembly: one part, or several that move as one.
+using AssemblyModel = std::vector<AssemblyPart>;
 
 /// A mesh file with nodes as a scene: each node with triangles is an object.
 struct AssemblyScene {

@@ -163,12 +163,13 @@ TEST(PlacedScene, MeshNodesStayApart) {
     EXPECT_EQ(nodes[1].meshes, nodes[0].meshes);
     EXPECT_EQ(nodes[1].world_from_node, (Affine{2, 0, 0, 10, 0, 1, 0, 20, 0, 0, 1, 30}));
     const Affine none = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    const auto plain = scene->flatten_node(nodes[1], none, {});
+    const auto plain = scene->flatten_nodes(std::array{PlacedNode{&nodes[1], none}}, {});
     ASSERT_TRUE(plain);
     EXPECT_EQ(plain->positions, (std::vector<Double3>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
     EXPECT_TRUE(plain->single_precision);
     EXPECT_EQ(plain->instance_names, std::vector<std::string>{"root/arm/hand"});
-    const auto mirrored = scene->flatten_node(nodes[1], {-3, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, {});
+    const auto mirrored = scene->flatten_nodes(
+        std::array{PlacedNode{&nodes[1], {-3, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}}, {});
     ASSERT_TRUE(mirrored);
     EXPECT_EQ(mirrored->positions, (std::vector<Double3>{{-3, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
     EXPECT_EQ(mirrored->triangles, (std::vector<Triangle>{{{0, 2, 1}}}));

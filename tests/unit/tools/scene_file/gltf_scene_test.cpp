@@ -119,7 +119,7 @@ TEST(GltfScene, FiltersBecomeLayers) {
                             "trigger (/nodes/5)."));
     ASSERT_EQ(scene.models.size(), 1u);
     EXPECT_EQ(reading.assembly->models.size(), 1u);
-    EXPECT_EQ(reading.assembly->models[0].node, 0u);
+    EXPECT_EQ(reading.assembly->models[0][0].node, 0u);
 }
 
 TEST(GltfScene, ASurfaceMayBeColliderAndTrigger) {
@@ -217,8 +217,9 @@ TEST(GltfScene, TheColliderOfABodyMayBeBelowItsMotion) {
 TEST(GltfScene, SomeBodiesAreNotTaken) {
     const std::string at = "/extensions/KHR_physics_rigid_bodies/";
     const GltfReading reading =
-        read_nodes(node(R"("children":[1,2],)", kMotion + kCollider) + "," + node("", kCollider) +
-                   "," + node("", kMotion + kCollider) + "," + node("", kMotion + kTrigger) +
+        read_nodes(node(R"("children":[1,2],)", kMotion + kCollider) + "," +
+                   node("", kCollider + "," + kTrigger) + "," + node("", kMotion + kCollider) +
+                   "," + node("", kMotion + kTrigger) +
                    R"(,{"extensions":{"KHR_physics_rigid_bodies":{"motion":{}}}},)" +
                    node(R"("children":[6],)", kMotion + kCollider) + "," + node("", kTrigger) +
                    "," + node(R"("scale":[0,0,0],)", kCollider));
@@ -228,8 +229,9 @@ TEST(GltfScene, SomeBodiesAreNotTaken) {
     for (const FileObject& object : scene.objects) are_bodies.push_back(object.body != kNoBody);
     EXPECT_EQ(are_bodies, (std::vector<bool>{false, false, true, false, true, false}));
     EXPECT_TRUE(has_finding(reading,
-                            "not taken: a body of several colliders; they stay where they are "
-                            "(/nodes/0" +
+                            "not taken: a body of several colliders that differ in filter or "
+                            "material, or whose node is sheared, mirrored or flat; they stay where "
+                            "they are (/nodes/0" +
                                 at + "motion)."));
     EXPECT_TRUE(
         has_finding(reading,
@@ -245,6 +247,46 @@ TEST(GltfScene, SomeBodiesAreNotTaken) {
     EXPECT_TRUE(has_finding(
         reading, "not taken: a collider of scale 0, which the draft disables (/nodes/7" + at +
                      "collider)."));
+}
+
+// By hand: a quarter turn about z maps x to y, so what is at x = 5 of the node is at y = 5 beside
+// it.
+TEST(GltfScene, CollidersOfABodyBecomeOneObject) {
+    const std::string turned =
+        R"("name":"car","rotation":[0,0,0.7071067811865476,0.7071067811865476],)"
+        R"("translation":[1,2,3],"children":[1,2],)";
+    const GltfReading reading = read_nodes(
+        node(turned, kMotion + kCollider) + "," +
+        node(R"("name":"wheel","translation":[5,0,0],"scale":[2,2,2],)", kCollider) + "," +
+        node(R"("name":"lamp",)", kTrigger) + "," + node(R"("name":"road",)", kCollider));
+    const AssemblyScene& assembly = *reading.assembly;
+    const SceneFile& scene = assembly.scene;
+    ASSERT_EQ(scene.objects.size(), 3u);
+    const FileObject& car = scene.objects[0];
+    EXPECT_EQ(car.name, "car");
+    EXPECT_NE(car.body, kNoBody);
+    EXPECT_EQ(scene.objects[1].name, "car/lamp");
+    EXPECT_EQ(scene.objects[2].name, "road");
+    const AssemblyModel& model = assembly.models.at(car.model);
+    ASSERT_EQ(model.size(), 2u);
+    const import::Affine& wheel = model[1].model_from_mesh;
+    EXPECT_EQ(assembly.file.nodes()[model[1].node].path, "car/wheel");
+    EXPECT_NEAR(wheel[0], 2, 1e-15);
+    EXPECT_NEAR(wheel[1], 0, 1e-15);
+    EXPECT_NEAR(wheel[3], 5, 1e-15);
+    EXPECT_NEAR(wheel[7], 0, 1e-15);
+    const Pose pose = pose_of(scene, car, 0).value();
+    EXPECT_NEAR(transform_point(pose, {5, 0, 0}).x, 1, 1e-14);
+    EXPECT_NEAR(transform_point(pose, {5, 0, 0}).y, 7, 1e-14);
+    std::vector<import::PlacedNode> parts;
+    for (const AssemblyPart& part : model) {
+        parts.push_back({&assembly.file.nodes()[part.node], part.model_from_mesh});
+    }
+    const auto one = assembly.file.triangles(std::span(parts).first(1));
+    const auto both = assembly.file.triangles(parts);
+    ASSERT_TRUE(one && both);
+    EXPECT_EQ(both->triangles.size(), 2 * one->triangles.size());
+    EXPECT_TRUE(has_finding(reading, "assumed: colliders of a body do not overlap"));
 }
 
 TEST(GltfScene, ABodyThatNothingPushesStays) {
@@ -326,7 +368,7 @@ TEST(GltfScene, ModelsOfNodesThatAreLeftOutAreDropped) {
     EXPECT_EQ(scene.objects[0].model, 0u);
     EXPECT_EQ(scene.objects[1].model, 0u);
     EXPECT_EQ(scene.objects[2].model, 1u);
-    EXPECT_EQ(assembly.file.nodes()[assembly.models[0].node].path, "node_0/node_1");
+    EXPECT_EQ(assembly.file.nodes()[assembly.models[0][0].node].path, "node_0/node_1");
     EXPECT_EQ(pose_of_object(reading, 1, 0).translation(), (Double3{5, 0, 0}));
 }
 

@@ -72,9 +72,10 @@ TEST(ReadAssembly, RigidTransformsArePoses) {
     EXPECT_EQ(pose_at(scene, 1).translation(), (Double3{1, 2, 3}));
     EXPECT_EQ(pose_at(scene, 2).rotation(), (std::array<double, 9>{0, -1, 0, 1, 0, 0, 0, 0, 1}));
     EXPECT_EQ(pose_at(scene, 2).translation(), (Double3{7, 8, 9}));
-    EXPECT_EQ(read.models[0].model_from_mesh, kNone);
+    EXPECT_EQ(read.models[0][0].model_from_mesh, kNone);
     EXPECT_EQ(read.rounding, 0);
-    const auto soup = read.file.triangles(read.file.nodes()[1], kNone);
+    const auto soup =
+        read.file.triangles(std::array{import::PlacedNode{&read.file.nodes()[1], kNone}});
     ASSERT_TRUE(soup);
     EXPECT_EQ(soup->positions[2], (Double3{0, 0, 1}));
     EXPECT_TRUE(soup->single_precision);
@@ -96,7 +97,7 @@ TEST(ReadAssembly, TheRoundingOfFloatsIsNoScale) {
     EXPECT_NEAR(r[4], 0.28, 1e-7);
     EXPECT_NEAR(r[7], 0.96, 1e-7);
     EXPECT_NEAR(pose_at(read.scene, 2).rotation()[0], 1, 1e-15);
-    EXPECT_NEAR(read.models[1].model_from_mesh[0], 1.00001, 1e-12);
+    EXPECT_NEAR(read.models[1][0].model_from_mesh[0], 1.00001, 1e-12);
 }
 
 // A parent's scale moves its children too.
@@ -106,7 +107,7 @@ TEST(ReadAssembly, AUniformScaleIsInTheModel) {
         R"({"children":[1,2],"scale":[0.001,0.001,0.001]},{"mesh":0,"translation":[1000,0,0]},)"
         R"({"mesh":0,"matrix":[0,1,0,0,-1,0,0,0,0,0,1,0,0,2000,0,1]})");
     EXPECT_EQ(models_of(read.scene), (std::vector<std::uint32_t>{0, 0}));
-    EXPECT_NEAR(read.models[0].model_from_mesh[0], 0.001, 1e-18);
+    EXPECT_NEAR(read.models[0][0].model_from_mesh[0], 0.001, 1e-18);
     EXPECT_EQ(pose_at(read.scene, 0).translation(), (Double3{1, 0, 0}));
     EXPECT_NEAR(pose_at(read.scene, 1).rotation()[3], 1, 1e-15);
     EXPECT_EQ(pose_at(read.scene, 1).translation(), (Double3{0, 2, 0}));
@@ -122,8 +123,9 @@ TEST(ReadAssembly, OtherTransformsAreInTheModelWhole) {
     EXPECT_EQ(models_of(read.scene), (std::vector<std::uint32_t>{0, 0, 1, 2, 3, 4, 5}));
     EXPECT_EQ(pose_at(read.scene, 1).translation(), (Double3{5, 0, 0}));
     EXPECT_EQ(pose_at(read.scene, 1).rotation(), Pose().rotation());
-    EXPECT_EQ(read.models[4].model_from_mesh, (Affine{1, 0.5, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}));
-    const auto mirrored = read.file.triangles(read.file.nodes()[0], read.models[0].model_from_mesh);
+    EXPECT_EQ(read.models[4][0].model_from_mesh, (Affine{1, 0.5, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}));
+    const auto mirrored = read.file.triangles(
+        std::array{import::PlacedNode{&read.file.nodes()[0], read.models[0][0].model_from_mesh}});
     ASSERT_TRUE(mirrored);
     EXPECT_EQ(mirrored->positions[1], (Double3{-1, 0, 0}));
     EXPECT_EQ(mirrored->triangles[0], (mesh::Triangle{{0, 2, 1}}));
