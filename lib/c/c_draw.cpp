@@ -338,8 +338,8 @@ int check_scene(Call& call, const cdprep_scene& scene, std::uint32_t what) {
         Call one(&error);
         if (check_drawn(one, {"scene"}, model, of) == CDPREP_OK) return true;
         std::array<char, sizeof error.message> text{};
-        std::snprintf(text.data(), text.size(), "The object in slot %u cannot be drawn. %s", slot,
-                      error.message);
+        std::snprintf(text.data(), text.size(), "The object in slot %u cannot be drawn. %.400s",
+                      slot, error.message);
         refused = call.refuse_with(error.why, {"scene"}, text.data());
         return false;
     };

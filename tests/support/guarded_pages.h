@@ -2,14 +2,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#ifdef _WIN32
-#define WIN32_LEAN_AND_MEAN
-#define NOMINMAX
-#include <windows.h>
-#else
-#include <sys/mman.h>
-#include <unistd.h>
-#endif
 
 #include <cstddef>
 #include <cstring>
@@ -18,6 +10,7 @@
 #include "cdprep/format/file_header.h"
 #include "cdprep/format/section_set.h"
 #include "cdprep/format/sections.h"
+#include "support/pages.h"
 
 namespace cdprep::test {
 
@@ -28,9 +21,9 @@ public:
     GuardedPages(std::span<const std::byte> file, format::SectionSet wanted) {
         const std::size_t page = page_size();
         size_ = (file.size() + page - 1) / page * page;
-        start_ = static_cast<std::byte*>(allocate(size_));
+        start_ = allocate_pages(size_);
         std::memcpy(start_, file.data(), file.size());
-        protect(start_, size_, true);
+        protect_pages(start_, size_, PageAccess::read);
         bytes_ = {start_, file.size()};
         for_each_section([&](const format::SectionEntry& entry) {
             if (wanted.contains(entry.id) || entry.count == 0) return;
@@ -39,7 +32,7 @@ public:
         });
     }
     ~GuardedPages() {
-        release(start_, size_);
+        release_pages(start_, size_);
     }
     GuardedPages(const GuardedPages&) = delete;
     GuardedPages& operator=(const GuardedPages&) = delete;
@@ -57,36 +50,6 @@ public:
     }
 
 private:
-#ifdef _WIN32
-    static std::size_t page_size() {
-        SYSTEM_INFO info{};
-        ::GetSystemInfo(&info);
-        return info.dwPageSize;
-    }
-    static void* allocate(std::size_t size) {
-        return ::VirtualAlloc(nullptr, size, MEM_COMMIT | MEM_RESERVE, PAGE_READWRITE);
-    }
-    static void protect(std::byte* start, std::size_t size, bool is_readable) {
-        DWORD before = 0;
-        ::VirtualProtect(start, size, is_readable ? PAGE_READONLY : PAGE_NOACCESS, &before);
-    }
-    static void release(std::byte* start, std::size_t /*size*/) {
-        ::VirtualFree(start, 0, MEM_RELEASE);
-    }
-#else
-    static std::size_t page_size() {
-        return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-    }
-    static void* allocate(std::size_t size) {
-        return ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    }
-    static void protect(std::byte* start, std::size_t size, bool is_readable) {
-        ::mprotect(start, size, is_readable ? PROT_READ : PROT_NONE);
-    }
-    static void release(std::byte* start, std::size_t size) {
-        ::munmap(start, size);
-    }
-#endif
     template <class Visit>
     void for_each_section(const Visit& visit) {
         const format::FileHeader header = format::read_header(bytes_);
@@ -98,7 +61,7 @@ private:
         }
     }
     void close(const format::SectionEntry& entry) {
-        protect(start_ + entry.offset, entry.count * entry.element_size, false);
+        protect_pages(start_ + entry.offset, entry.count * entry.element_size, PageAccess::none);
         ++guarded_;
     }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Prints what two models answer in each pose of a file: the number of pairs of triangles that
  * overlap, a hash of them in their order, and the bits of the distance. The same on every machine.
- * A pose is a line of 12 numbers, R row by row, then T. Usage: pose_answers A B POSES */
+ * A pose is a line of 12 numbers, R row by row, then T. Usage: cross_answers A B POSES */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -10,7 +10,7 @@
 static cdprep_error error;
 
 static int fail(const char* what) {
-    fprintf(stderr, "pose_answers: %s\n", what);
+    fprintf(stderr, "cross_answers: %s\n", what);
     return error.code ? error.code : CDPREP_BAD_ARGUMENT;
 }
 
@@ -51,7 +51,7 @@ int main(int count, char** arguments) {
     cdprep_pair pair;
     FILE* poses;
     unsigned number = 0;
-    if (count != 4) return fail("Usage: pose_answers A B POSES");
+    if (count != 4) return fail("Usage: cross_answers A B POSES");
     if (cdprep_model_open(arguments[1], NULL, &a, &error) ||
         cdprep_model_open(arguments[2], NULL, &b, &error) ||
         cdprep_workspace_make(NULL, NULL, 0, &workspace, &error)) {

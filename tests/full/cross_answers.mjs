@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// As pose_answers.c, by cdprep.wasm in node. Usage: node pose_answers.mjs MODULE_FOLDER A B POSES
+// As cross_answers.c, by cdprep.wasm in node. Usage: node cross_answers.mjs MODULE_FOLDER A B POSES
 import { readFile } from "node:fs/promises";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -32,7 +32,7 @@ async function opened(file) {
     return cdprep.open(await readFile(file), basename(file));
   } catch (error) {
     if (!(error instanceof CdprepError)) throw error;
-    console.error(`pose_answers: ${error.message}`);
+    console.error(`cross_answers: ${error.message}`);
     process.exit(error.code);
   }
 }
