@@ -10,7 +10,11 @@ endif()
 function(cdprep_compile_options target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    if(MSVC)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "MSVC")
+        if(MSVC_VERSION LESS 1930)
+            message(FATAL_ERROR "cdprep needs Visual Studio 2022: earlier compilers fuse a * b + c, "
+                "which changes answers.")
+        endif()
         # Never tried. Attributes of GCC are without effect (5030).
         target_compile_options(${target} PRIVATE
             /W4 /wd5030 /permissive- /utf-8 /Zc:__cplusplus /fp:precise)

@@ -113,7 +113,8 @@ check_listed(tools "${tools_rooms}")
 
 # Public headers include public headers; those of format and samples even fewer.
 function(allow_only folder pattern)
-    file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp)
+    file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp
+        ${ROOT}/${folder}/*.c)
     foreach(file IN LISTS files)
         file(STRINGS ${file} hits REGEX "^ *# *include *\"")
         foreach(hit IN LISTS hits)
@@ -127,6 +128,7 @@ endfunction()
 allow_only(lib/include "cdprep/")
 allow_only(format/include "cdprep/format/")
 allow_only(format/src "cdprep/format/|[a-z_]+\\.h\"")
+allow_only(lib/bindings "cdprep/")
 allow_only(samples "cdprep/|bullet_manifold\\.h\"")
 
 # A kernel knows nothing of ours but what kernels share, and what compilers offer in different ways.

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#ifndef __wasi__
 #include <filesystem>
 #include <fstream>
+#endif
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,7 +15,9 @@
 #include <utility>
 
 #include "cdprep/format/sections.h"
+#ifndef __wasi__
 #include "core/mapped_file.h"
+#endif
 
 namespace cdprep::c {
 namespace {
@@ -119,6 +123,12 @@ int fail_reading(Call& call, const std::string& path, const char* why) {
     return call.fail(CDPREP_UNREADABLE, path + ": " + why);
 }
 
+#ifdef __wasi__
+int open_path(Call& call, const Asked& /*asked*/, const char* utf8, cdprep_model** /*to*/) {
+    return call.fail(CDPREP_UNREADABLE,
+                     std::string(utf8) + ": this build reads no files, only bytes in memory.");
+}
+#else
 /// Reads the file, without mapping it.
 int open_copy(Call& call, const Asked& asked, const std::filesystem::path& path,
               cdprep_model** to) {
@@ -151,18 +161,17 @@ int open_trusted(Call& call, const Asked& asked, const std::filesystem::path& pa
     return make_model(call, asked, std::move(opened).value(), {}, to);
 }
 
-int open_path(Call& call, const Asked& asked, const std::filesystem::path& path,
-              cdprep_model** to) {
+int open_path(Call& call, const Asked& asked, const char* utf8, cdprep_model** to) {
+    const std::optional<std::filesystem::path> named = path_from_utf8(utf8);
+    if (!named) return call.fail(CDPREP_UNREADABLE, std::string(utf8) + ": is not UTF-8.");
+    const std::filesystem::path& path = *named;
     if (asked.options.mode == CDPREP_COPY) return open_copy(call, asked, path, to);
     if (asked.options.mode == CDPREP_MAP_TRUSTED) return open_trusted(call, asked, path, to);
     Result<Model> opened = Model::open(path, asked.open);
     if (!opened) return fail_opening(call, opened.error(), asked);
     return make_model(call, asked, std::move(opened).value(), {}, to);
 }
-
-std::filesystem::path path_of(const char* utf8) {
-    return std::filesystem::path(std::u8string_view(reinterpret_cast<const char8_t*>(utf8)));
-}
+#endif
 
 std::span<const std::byte> file_of(const Model& model) noexcept {
     const format::FileHeader& header = model.header();
@@ -257,7 +266,7 @@ int cdprep_model_open(const char* utf8_path, const cdprep_open_options* options,
             return call.refuse(CDPREP_WHY_NO_MEANING, Name{"options"}.of("name"),
                                "is set, but messages name a file by its path.");
         }
-        return cdprep::c::open_path(call, asked, cdprep::c::path_of(utf8_path), model);
+        return cdprep::c::open_path(call, asked, utf8_path, model);
     });
 }
 

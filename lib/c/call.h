@@ -65,6 +65,7 @@ private:
 template <class Body>
 int guarded(cdprep_error* error, Body&& body) noexcept {
     Call call(error);
+#if defined(__cpp_exceptions)
     try {
         return body(call);
     } catch (const std::bad_alloc&) {
@@ -74,6 +75,9 @@ int guarded(cdprep_error* error, Body&& body) noexcept {
     } catch (...) {
         return call.fail(CDPREP_INTERNAL, "An unknown exception was thrown.");
     }
+#else  // without memory, the program ends
+    return body(call);
+#endif
 }
 
 }  // namespace cdprep::c

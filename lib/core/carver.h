@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <type_traits>
 
@@ -19,9 +21,8 @@ public:
     template <class T>
     T* take(std::size_t count) noexcept {
         static_assert(alignof(T) <= kCarveAlignment && std::is_trivially_destructible_v<T>);
-        static_assert(sizeof(std::size_t) >= 8);  // no size below overflows
         T* const begin = memory_ ? reinterpret_cast<T*>(memory_ + used_) : nullptr;
-        used_ += rounded(count * sizeof(T));
+        add(std::uint64_t{count} * sizeof(T));
         if (begin) std::uninitialized_value_construct_n(begin, count);
         return begin;
     }
@@ -30,7 +31,7 @@ public:
     T* take_room() noexcept {
         static_assert(alignof(T) <= kCarveAlignment);
         T* const room = memory_ ? reinterpret_cast<T*>(memory_ + used_) : nullptr;
-        used_ += rounded(sizeof(T));
+        add(sizeof(T));
         return room;
     }
     [[nodiscard]] std::size_t used() const noexcept {
@@ -38,8 +39,12 @@ public:
     }
 
 private:
-    static std::size_t rounded(std::size_t size) noexcept {
-        return (size + kCarveAlignment - 1) / kCarveAlignment * kCarveAlignment;
+    /// With 64 bits no size overflows. With 32 it stays at the largest, which nothing provides.
+    void add(std::uint64_t size) noexcept {
+        const std::uint64_t whole =
+            (size + kCarveAlignment - 1) / kCarveAlignment * kCarveAlignment;
+        constexpr std::uint64_t kMost = SIZE_MAX / kCarveAlignment * kCarveAlignment;
+        used_ = static_cast<std::size_t>(std::min(used_ + whole, kMost));
     }
 
     std::byte* memory_;

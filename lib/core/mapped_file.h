@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -10,11 +11,11 @@
 
 namespace cdprep {
 
-/// Returns a path as text in UTF-8, for messages.
-[[nodiscard]] inline std::string path_text(const std::filesystem::path& path) {
-    const std::u8string text = path.u8string();
-    return {text.begin(), text.end()};
-}
+/// Returns a path as text in UTF-8, for messages. What is no Unicode becomes question marks.
+[[nodiscard]] std::string path_text(const std::filesystem::path& path);
+
+/// Returns the path that a text in UTF-8 names, or nothing if the system takes no such text.
+[[nodiscard]] std::optional<std::filesystem::path> path_from_utf8(const char* text);
 
 /// The bytes of a file, mapped or copied, read-only. The only part of the library that depends on
 /// the operating system. Move-only; releases the memory on destruction.

@@ -75,6 +75,14 @@ std::ptrdiff_t read_whole(int descriptor, std::span<std::byte> bytes) {
 
 }  // namespace
 
+std::string path_text(const std::filesystem::path& path) {
+    return path.native();
+}
+
+std::optional<std::filesystem::path> path_from_utf8(const char* text) {
+    return std::filesystem::path(std::string(text));
+}
+
 Result<MappedFile> MappedFile::map(const std::filesystem::path& path) {
     const OpenFile file(path);
     if (file.error) return *file.error;

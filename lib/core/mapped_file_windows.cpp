@@ -20,9 +20,10 @@ Error unreadable(const std::filesystem::path& path, const std::string& why) {
     return {ErrorCode::unreadable, path_text(path) + ": " + why};
 }
 
-/// Names the last error of this thread. The system's own text has no fixed language.
-Error failure(const std::filesystem::path& path, const std::string& what) {
-    return unreadable(path, what + ": error " + std::to_string(::GetLastError()) + " of Windows.");
+/// Names an error by its number. The system's own text has no fixed language.
+Error failure(const std::filesystem::path& path, const std::string& what,
+              DWORD error = ::GetLastError()) {
+    return unreadable(path, what + ": error " + std::to_string(error) + " of Windows.");
 }
 
 /// A handle that closes itself.
@@ -54,12 +55,13 @@ struct OpenFile {
     explicit OpenFile(const std::filesystem::path& path)
         : handle(::CreateFileW(path.c_str(), GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_DELETE,
                                nullptr, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL, nullptr)) {
+        const DWORD reason = ::GetLastError();
         LARGE_INTEGER bytes{};
         std::error_code unknown;
-        if (std::filesystem::is_directory(path, unknown)) {
-            error = unreadable(path, "is not a regular file.");
-        } else if (!handle.is_open()) {
-            error = failure(path, "cannot be opened");
+        if (!handle.is_open()) {
+            error = std::filesystem::is_directory(path, unknown)
+                        ? unreadable(path, "is not a regular file.")
+                        : failure(path, "cannot be opened", reason);
         } else if (::GetFileType(handle.get()) != FILE_TYPE_DISK) {
             error = unreadable(path, "is not a regular file.");
         } else if (::GetFileSizeEx(handle.get(), &bytes) == 0) {
@@ -98,6 +100,25 @@ void release(std::span<const std::byte> bytes) noexcept {
 }
 
 }  // namespace
+
+std::string path_text(const std::filesystem::path& path) {
+    const std::wstring& wide = path.native();
+    const auto size = static_cast<int>(std::min<std::size_t>(wide.size(), 1U << 20));
+    const int bytes =
+        ::WideCharToMultiByte(CP_UTF8, 0, wide.data(), size, nullptr, 0, nullptr, nullptr);
+    std::string text(static_cast<std::size_t>(std::max(bytes, 0)), '\0');
+    ::WideCharToMultiByte(CP_UTF8, 0, wide.data(), size, text.data(), bytes, nullptr, nullptr);
+    return text;
+}
+
+std::optional<std::filesystem::path> path_from_utf8(const char* text) {
+    const int size = ::MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, text, -1, nullptr, 0);
+    if (size <= 0) return std::nullopt;
+    std::wstring wide(static_cast<std::size_t>(size), L'\0');
+    ::MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, text, -1, wide.data(), size);
+    wide.pop_back();  // the zero at the end
+    return std::filesystem::path(wide);
+}
 
 Result<MappedFile> MappedFile::map(const std::filesystem::path& path) {
     const OpenFile file(path);

@@ -8,7 +8,9 @@
 
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
+#ifndef __wasi__
 #include "core/mapped_file.h"
+#endif
 #include "core/refusal_sentence.h"
 
 namespace cdprep {
@@ -27,7 +29,9 @@ const CellViews kNoCells;
 }  // namespace
 
 struct Model::State {
+#ifndef __wasi__
     MappedFile mapping;  ///< or a copy; empty when the caller keeps the bytes
+#endif
     std::string name;    ///< of the file, for messages
     std::span<const std::byte> file;
     const format::FileHeader* header = nullptr;
@@ -127,6 +131,7 @@ Model& Model::operator=(Model&& other) noexcept {
 }
 Model::~Model() = default;
 
+#ifndef __wasi__
 Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
     const bool is_copied = options.mode == OpenMode::copy;
     Result<MappedFile> mapped = is_copied ? MappedFile::copy(path) : MappedFile::map(path);
@@ -146,6 +151,7 @@ Result<Model> Model::open(const std::filesystem::path& path, Ask asks) {
 Result<Model> Model::open(const std::filesystem::path& path, SectionSet wanted) {
     return open(path, OpenOptions{.sections = wanted});
 }
+#endif
 
 Result<Model> Model::open(std::span<const std::byte> bytes, const OpenOptions& options) {
     return from_bytes(bytes, options);
@@ -180,6 +186,7 @@ Result<Model> Model::from_bytes(std::span<const std::byte> bytes, const OpenOpti
     return model;
 }
 
+#ifndef __wasi__
 Result<Model> Model::open_trusted(const std::filesystem::path& path) {
     Result<MappedFile> mapped = MappedFile::map(path);
     if (!mapped) return mapped.error();
@@ -193,6 +200,7 @@ Result<Model> Model::open_trusted(const std::filesystem::path& path) {
     state->find_sections(SectionSet::all());
     return Model(std::move(state));
 }
+#endif
 
 std::optional<Refusal> Model::refusal(Ask asks) const {
     if (serves(asks)) return std::nullopt;

@@ -10,7 +10,7 @@
 namespace cdprep::kernels {
 
 /// The most blocks: the number of a point has 32 bits.
-inline constexpr std::size_t kMostBlocks = (std::size_t{1} << 32) / kLanes;
+inline constexpr std::size_t kMostBlocks = std::size_t{1} << 29;  ///< for 2^32 points
 
 namespace {
 

@@ -13,8 +13,8 @@ namespace cdprep::kernels {
 
 /// What an x86-64 processor and its operating system offer.
 struct Processor {
-    bool avx2 = false;    ///< and FMA
-    bool avx512 = false;  ///< F, VL and DQ
+    bool avx2 = false;    ///< and what compilers use with it: FMA, BMI 1 and 2, LZCNT
+    bool avx512 = false;  ///< F, CD, BW, DQ and VL
     bool bmi2 = false;
     bool is_intel = false;
     bool is_amd = false;
@@ -62,12 +62,14 @@ struct CpuidWords {
     processor.bmi2 = has(seventh.b, 1U << 8);
     constexpr std::uint64_t kSse = 2, kAvx = 4, kMasks = 0x20, kUpper = 0xc0;
     const std::uint64_t kept = has(first.c, 1U << 27) ? kept_registers() : 0;
-    constexpr unsigned kFma = 1U << 12, kAvxInstructions = 1U << 28;
-    processor.avx2 =
-        has(kept, kSse | kAvx) && has(first.c, kFma | kAvxInstructions) && has(seventh.b, 1U << 5);
-    constexpr unsigned kF = 1U << 16, kDq = 1U << 17, kVl = 1U << 31;
+    constexpr unsigned kFma = 1U << 12, kAvxInstructions = 1U << 28, kLzcnt = 1U << 5;
+    constexpr unsigned kBmi1 = 1U << 3, kAvx2Bit = 1U << 5, kBmi2 = 1U << 8;
+    processor.avx2 = has(kept, kSse | kAvx) && has(first.c, kFma | kAvxInstructions) &&
+                     has(seventh.b, kBmi1 | kAvx2Bit | kBmi2) && has(cpuid(0x80000001).c, kLzcnt);
+    constexpr unsigned kF = 1U << 16, kDq = 1U << 17, kCd = 1U << 28, kBw = 1U << 30,
+                       kVl = 1U << 31;
     processor.avx512 =
-        processor.avx2 && has(kept, kMasks | kUpper) && has(seventh.b, kF | kDq | kVl);
+        processor.avx2 && has(kept, kMasks | kUpper) && has(seventh.b, kF | kDq | kCd | kBw | kVl);
     return processor;
 }
 

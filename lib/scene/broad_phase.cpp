@@ -439,7 +439,7 @@ BroadPhaseUpdate BroadPhase::State::find_without_kept(ParallelFor run) noexcept 
     const std::uint64_t pairs = find_all(run);
     if (pairs > limits.pairs) return {.complete = false, .needed = pairs};
     sort(pages, pairs, found);
-    return {.pairs = {found, pairs}};
+    return {.pairs = {found, static_cast<std::size_t>(pairs)}};
 }
 
 // Kept pairs --------------------------------------------------------------------------------------

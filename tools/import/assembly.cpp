@@ -63,6 +63,10 @@ std::span<const Affine> Assembly::world_from_nodes() const noexcept {
     return content_->scene->world_from_nodes();
 }
 
+std::string Assembly::path_of(std::uint32_t number) const {
+    return content_->scene->path_of(number);
+}
+
 std::span<const mesh::InputFile> Assembly::other_files() const noexcept {
     return content_->notes.other_files;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "import/flatten_scene.h"
 #include "import/import_file.h"
@@ -25,6 +26,8 @@ public:
     [[nodiscard]] std::span<const MeshNode> nodes() const noexcept;
     /// The world transforms of all nodes, depth first: element MeshNode::number is of that node.
     [[nodiscard]] std::span<const Affine> world_from_nodes() const noexcept;
+    /// Returns the path of a node, by its number: "root/arm".
+    [[nodiscard]] std::string path_of(std::uint32_t number) const;
     /// The files that it refers to and that were read, by name.
     [[nodiscard]] std::span<const mesh::InputFile> other_files() const noexcept;
     /// Returns the triangles of some nodes, one node after the other. Invalid numbers are data, as

@@ -394,6 +394,10 @@ Result<mesh::TriangleSoup> PlacedScene::flatten_nodes(std::span<const PlacedNode
     return content_->flatten(uses, options);
 }
 
+std::string PlacedScene::path_of(std::uint32_t number) const {
+    return content_->path_of(number);
+}
+
 std::vector<MeshNode> PlacedScene::mesh_nodes() const {
     std::vector<MeshNode> nodes;
     for (const Use& use : content_->uses()) {

@@ -53,6 +53,8 @@ public:
                                                            const ImportOptions& options) const;
     /// Returns the nodes that have triangles, depth first.
     [[nodiscard]] std::vector<MeshNode> mesh_nodes() const;
+    /// Returns the path of a node, by MeshNode::number: "root/arm/hand".
+    [[nodiscard]] std::string path_of(std::uint32_t number) const;
     /// The world transforms of all nodes, depth first: element MeshNode::number is of that node.
     [[nodiscard]] std::span<const Affine> world_from_nodes() const noexcept;
 

@@ -101,7 +101,6 @@ struct Place {
     std::uint32_t mover = kNone;   ///< the nearest place with a motion, itself or above it
     std::uint32_t object = kNone;  ///< in the objects of the assembly, and its nodes()
     std::uint32_t new_object = kNone;
-    std::uint32_t depth = 0;  ///< parents above it
 };
 
 /// What the objects of a layer have in common.
@@ -167,10 +166,10 @@ private:
     std::optional<Error> place_nodes() {
         const std::size_t count = assembly_.file.world_from_nodes().size();
         struct Pending {
-            std::uint32_t node, mover, depth;
+            std::uint32_t node, mover;
         };
         std::vector<Pending> pending;
-        for (const std::uint32_t root : physics_.roots) pending.push_back({root, kNone, 0});
+        for (const std::uint32_t root : physics_.roots) pending.push_back({root, kNone});
         std::ranges::reverse(pending);
         while (!pending.empty() && places_.size() <= count) {
             const Pending top = pending.back();
@@ -178,9 +177,9 @@ private:
             const auto number = static_cast<std::uint32_t>(places_.size());
             const GltfNode& node = physics_.nodes[top.node];
             const std::uint32_t mover = node.motion ? number : top.mover;
-            places_.push_back({.node = top.node, .mover = mover, .depth = top.depth});
+            places_.push_back({.node = top.node, .mover = mover});
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
-                pending.push_back({*child, mover, top.depth + 1});
+                pending.push_back({*child, mover});
             }
         }
         bool fits = places_.size() == count;
@@ -321,23 +320,24 @@ private:
             if (member != joined[0]) places_[member].new_object = kNone;
         }
         keep_joined(mover, joined[0], *pose, std::move(model));
-        findings_.assumed("colliders of a body do not overlap: its mass is the sum of theirs");
+        findings_.assumed(
+            node_of(places_[mover]).motion->mass
+                ? "colliders of a body do not overlap: its inertia is that of all"
+                : "colliders of a body do not overlap: its mass is the sum of theirs");
         return true;
     }
 
     void keep_joined(std::uint32_t mover, std::uint32_t first, const Pose& pose,
                      AssemblyModel model) {
         FileObject& object = scene().objects[places_[first].new_object];
-        for (std::uint32_t up = places_[first].depth - places_[mover].depth; up > 0; --up) {
-            object.name.erase(std::min(object.name.rfind('/'), object.name.size()));
-        }
+        object.name = assembly_.file.path_of(mover);
         const auto is_taken = [&](const FileObject& other) {
             return &other != &object && other.name == object.name;
         };
         while (std::ranges::any_of(scene().objects, is_taken)) object.name += "#body";
         object.model = static_cast<std::uint32_t>(assembly_.models.size());
         assembly_.models.push_back(std::move(model));
-        scene().models.push_back(fs::path(scene().name) / object.name);
+        scene().models.emplace_back(scene().name + "/" + object.name);
         scene().motions[object.motion] = Motion::fixed(pose);
     }
 

@@ -69,11 +69,11 @@ class Cdprep {
     const source = bytes instanceof Uint8Array ? bytes : new Uint8Array(bytes);
     const copy = this.#put(source);
     const title = this.#put(new TextEncoder().encode(`${name}\0`));
-    const model = wasm.web_open(copy, source.length, title);
+    const model = this.#address("web_open", copy, source.length, title);
     wasm.web_release(title);
     if (model === 0) {
       wasm.web_release(copy);
-      throw new CdprepError(3, this.#text(wasm.web_message()));
+      throw new CdprepError(wasm.web_code(), this.#text(wasm.web_message()));
     }
     return new Model(this, model, copy);
   }
@@ -86,14 +86,15 @@ class Cdprep {
     if (answer < 0) throw new CdprepError(-answer, this.#text(this.#exports.web_message()));
     return answer;
   }
-  /** Stores numbers for the next call. */
+  /** Stores numbers for the next call; there is room for 32. */
   give(...numbers) {
-    new Float64Array(this.#exports.memory.buffer, this.#exports.web_numbers()).set(numbers);
+    new Float64Array(this.#exports.memory.buffer, this.#address("web_numbers"), 32).set(numbers);
   }
   /** Returns a copy of what the last call stored. */
   take(count) { return this.#numbers(count); }
   pairs(count) {
-    return new Uint32Array(this.#exports.memory.buffer, this.#exports.web_pairs(), 2 * count)
+    if (count === 0) return new Uint32Array();
+    return new Uint32Array(this.#exports.memory.buffer, this.#address("web_pairs"), 2 * count)
       .slice();
   }
   /** Calls fill(addresses) with room for arrays of these types and lengths. Returns copies. */
@@ -113,8 +114,10 @@ class Cdprep {
     this.#exports.web_release(bytes);
   }
 
+  /** Addresses come as signed numbers. */
+  #address(name, ...values) { return this.#exports[name](...values) >>> 0; }
   #room(size) {
-    const place = this.#exports.web_allocate(size);
+    const place = this.#address("web_allocate", size);
     if (place === 0) throw new CdprepError(5, `There is no memory for ${size} bytes.`);
     return place;
   }
@@ -124,11 +127,11 @@ class Cdprep {
     return place;
   }
   #numbers(count) {
-    const all = new Float64Array(this.#exports.memory.buffer, this.#exports.web_numbers(), count);
-    return Array.from(all);
+    const place = this.#address("web_numbers");
+    return Array.from(new Float64Array(this.#exports.memory.buffer, place, count));
   }
   #text(address) {
-    const bytes = new Uint8Array(this.#exports.memory.buffer, address);
+    const bytes = new Uint8Array(this.#exports.memory.buffer, address >>> 0);
     return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
   }
 }
@@ -180,6 +183,9 @@ class Model {
   }
   /** The first triangle that a ray hits, or null. */
   ray(origin, direction, most = Infinity) {
+    if (origin.length !== 3 || direction.length !== 3) {
+      throw new CdprepError(2, "The origin and the direction of a ray have 3 numbers each.");
+    }
     this.#cdprep.give(...origin, ...direction, most);
     if (this.#cdprep.ask("web_ray", this.#open()) !== 1) return null;
     const [t, triangle, ...point] = this.#cdprep.take(5);
@@ -195,7 +201,9 @@ class Model {
     return this.#model;
   }
   #with(other, matrix, exact, name, ...more) {
-    if (!(other instanceof Model)) throw new CdprepError(2, "The other model is none.");
+    if (!(other instanceof Model) || other.#cdprep !== this.#cdprep) {
+      throw new CdprepError(2, "The other model is none of this module.");
+    }
     if (matrix.length !== 16) {
       throw new CdprepError(2, `The matrix has ${matrix.length} numbers; 16 are needed.`);
     }

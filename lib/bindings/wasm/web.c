@@ -16,6 +16,9 @@ static size_t room;
 const char* web_message(void) {
     return error.message;
 }
+int web_code(void) {
+    return error.code;
+}
 double* web_numbers(void) {
     return numbers;
 }
@@ -28,6 +31,7 @@ const char* web_version(void) {
 
 /* Returns memory for the bytes of a file, or null. */
 void* web_allocate(size_t size) {
+    if (size > SIZE_MAX - CDPREP_ALIGNMENT) return NULL;
     const size_t whole = (size + CDPREP_ALIGNMENT - 1) / CDPREP_ALIGNMENT * CDPREP_ALIGNMENT;
     return aligned_alloc(CDPREP_ALIGNMENT, whole > 0 ? whole : CDPREP_ALIGNMENT);
 }
@@ -106,6 +110,7 @@ double web_overlaps(const cdprep_model* a, const cdprep_model* b, double toleran
         cdprep_overlap_list found = {list, room, 0};
         if (cdprep_overlaps(&pair, workspace, &found, &error)) return -error.code;
         if (found.count <= room) return (double)found.count;
+        if (found.count > SIZE_MAX / sizeof *list) return no_memory();
         cdprep_overlap* larger = realloc(list, found.count * sizeof *list);
         if (!larger) return no_memory();
         list = larger;

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#ifndef __wasi__  // WebAssembly without files
 #include <filesystem>
+#endif
 #include <memory>
 #include <optional>
 #include <span>
@@ -84,6 +86,7 @@ struct Refusal {
 ///     std::cout << model.triangle_count() << " triangles\n";
 class Model {
 public:
+#ifndef __wasi__
     /// Maps or copies `path`, and completely checks the sections that `options` names. The others
     /// are not touched and give empty spans. Takes O(bytes of the sections) time, at memory speed.
     ///
@@ -101,6 +104,7 @@ public:
     /// The same with the sections of `wanted` that are present. The model serves whatever these
     /// allow.
     [[nodiscard]] static Result<Model> open(const std::filesystem::path& path, SectionSet wanted);
+#endif
 
     /// The same for bytes that the caller keeps, such as an archive or a network buffer. They must
     /// start at a multiple of format::kSectionAlignment and stay unchanged while the Model lives.
@@ -108,9 +112,11 @@ public:
                                             const OpenOptions& options = {});
     [[nodiscard]] static Result<Model> open(std::span<const std::byte> bytes, SectionSet wanted);
 
+#ifndef __wasi__
     /// Maps `path` and checks its first 4,144 bytes only, whatever its size. Use it for files whose
     /// hash was verified by other means: a damaged file may crash a query.
     [[nodiscard]] static Result<Model> open_trusted(const std::filesystem::path& path);
+#endif
 
     Model(Model&&) noexcept;
     Model& operator=(Model&&) noexcept;

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <limits>
 #include <type_traits>
+#if defined(_MSC_VER) && !defined(__clang__)
+#include <intrin.h>
+#endif
 
-/// What compilers offer in different ways. Nothing else here or in the library is for one compiler
-/// alone, but for kernels of an instruction set and the mapping of files.
+/// What compilers offer in different ways.
 namespace cdprep::format {
 
 /// As std::bit_cast, which older libraries lack. The types must have the same size.
@@ -24,8 +26,8 @@ template <class To, class From>
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Kernels call the next three. They are compiled with instructions of their own, and a linker could
-// keep one of several equal copies for all callers: so each source has its own.
+// Kernels call the next three. Each source has its own copies, because kernels are compiled with
+// instructions of their own. A linker could keep one of several equal copies for all callers.
 
 /// Returns the number of the lowest bit that is set. One must be. Faster than std::countr_zero(),
 /// which has an answer for 0.
@@ -33,14 +35,18 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 #if defined(__GNUC__)
     return static_cast<unsigned>(__builtin_ctz(bits));
 #else
-    return static_cast<unsigned>(std::countr_zero(bits));
+    unsigned long number = 0;
+    _BitScanForward(&number, bits);
+    return number;
 #endif
 }
 [[nodiscard]] static inline unsigned lowest_set_bit(std::uint64_t bits) noexcept {
 #if defined(__GNUC__)
     return static_cast<unsigned>(__builtin_ctzll(bits));
 #else
-    return static_cast<unsigned>(std::countr_zero(bits));
+    unsigned long number = 0;
+    _BitScanForward64(&number, bits);
+    return number;
 #endif
 }
 
@@ -49,7 +55,9 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 #if defined(__GNUC__)
     return static_cast<unsigned>(__builtin_popcount(bits));
 #else
-    return static_cast<unsigned>(std::popcount(bits));
+    bits -= bits >> 1 & 0x55555555;
+    bits = (bits & 0x33333333) + (bits >> 2 & 0x33333333);
+    return ((bits + (bits >> 4)) & 0x0f0f0f0f) * 0x01010101 >> 24;
 #endif
 }
 

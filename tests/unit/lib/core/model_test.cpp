@@ -54,6 +54,9 @@ fs::path write_cube(const ScratchFolder& scratch) {
 
 // What POSIX promises of rename: an open file stays what it was.
 TEST(Model, StaysWhatItWasWhenTheFileIsReplacedByRename) {
+#ifdef _WIN32
+    GTEST_SKIP() << "Windows refuses to replace a file that is mapped";
+#endif
     for (const OpenMode mode : {OpenMode::map, OpenMode::copy}) {
         const ScratchFolder scratch;
         const fs::path path = write_cube(scratch);

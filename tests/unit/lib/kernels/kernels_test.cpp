@@ -1159,7 +1159,9 @@ TEST(Kernels, TheProcessorIsAskedAsTheCompilerDoes) {
               is_set(__builtin_cpu_supports("avx2")) && is_set(__builtin_cpu_supports("fma")));
     EXPECT_EQ(processor.avx512, is_set(__builtin_cpu_supports("avx512f")) &&
                                     is_set(__builtin_cpu_supports("avx512vl")) &&
-                                    is_set(__builtin_cpu_supports("avx512dq")));
+                                    is_set(__builtin_cpu_supports("avx512dq")) &&
+                                    is_set(__builtin_cpu_supports("avx512cd")) &&
+                                    is_set(__builtin_cpu_supports("avx512bw")));
     EXPECT_EQ(processor.bmi2, is_set(__builtin_cpu_supports("bmi2")));
     EXPECT_EQ(processor.is_intel, is_set(__builtin_cpu_is("intel")));
     EXPECT_EQ(processor.is_amd, is_set(__builtin_cpu_is("amd")));
