@@ -13,11 +13,10 @@
 /// and a sum at once, another one after the other. So a kernel decides only with a proven margin,
 /// and the answers of the queries are the same for every table.
 ///
-/// A kernel source includes this header, the vendor's intrinsics, <cassert>, what compilers offer
-/// in different ways (portable.h), and the bodies that all share (box_overlap.h, cells_met.h,
-/// leaf_contacts.h, ...). The bodies are in an unnamed namespace. A compiler could emit an inline
-/// function with external linkage with AVX2 inside, and the linker could keep that copy for all
-/// callers.
+/// A kernel source includes this header, the vendor's intrinsics, <cassert> and portable.h. It also
+/// includes the bodies that all share (box_overlap.h, cells_met.h, leaf_contacts.h, ...). The
+/// bodies are in an unnamed namespace. A compiler could emit an inline function with external
+/// linkage with AVX2 inside, and the linker could keep that copy for all callers.
 namespace cdprep::kernels {
 
 /// The relative placement of the boxes of two hierarchies. A box centre c of B lies at

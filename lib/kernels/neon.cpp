@@ -7,7 +7,7 @@
 
 #include "set_bits.h"
 
-// Each operation gives the bits that avx2.cpp's gives, NaN and signs of zeros included: minima and
+// Each operation gives the bits that avx2.cpp's gives, NaN and signs of zeros included. Minima and
 // maxima are chosen by comparison, because NEON's own propagate NaN.
 namespace cdprep::kernels {
 namespace {

@@ -74,8 +74,8 @@ public:
     [[nodiscard]] std::span<const ObjectPair> pushing() const noexcept {
         return pushing_;
     }
-    /// What happened in the last frame: impacts in the order of their times, then bodies that sleep
-    /// or wake in the order of their objects.
+    /// What happened in the last frame. Impacts come in the order of their times, then bodies that
+    /// sleep or wake in the order of their objects.
     [[nodiscard]] std::span<const BodyEvent> events() const noexcept {
         return events_;
     }
