@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "c/c_mesh.h"
 #include "c/c_model.h"
@@ -337,10 +338,9 @@ int check_scene(Call& call, const cdprep_scene& scene, std::uint32_t what) {
         cdprep_error error;
         Call one(&error);
         if (check_drawn(one, {"scene"}, model, of) == CDPREP_OK) return true;
-        std::array<char, sizeof error.message> text{};
-        std::snprintf(text.data(), text.size(), "The object in slot %u cannot be drawn. %.400s",
-                      slot, error.message);
-        refused = call.refuse_with(error.why, {"scene"}, text.data());
+        refused = call.refuse_with(
+            error.why, {"scene"},
+            "The object in slot " + std::to_string(slot) + " cannot be drawn. " + error.message);
         return false;
     };
     each_object(scene, [&](std::uint32_t slot, const Drawn& object) {
