@@ -157,7 +157,7 @@ TEST(CDraw, HullsAndPiecesEncloseACube) {
 // Each triangle is a piece, and has a number and one of eight colours.
 TEST(CDraw, PiecesHaveNumbersAndColours) {
     const TestMesh mesh = icosphere(1);
-    const AlignedBytes file = with_pieces(bake_tiny(mesh.positions, mesh.triangles));
+    const AlignedBytes file = with_contacts(with_pieces(bake_tiny(mesh.positions, mesh.triangles)));
     const CModel ball(file);
     const Picture picture =
         picture_of(ball.get(), kStill, CDPREP_DRAW_PIECES | CDPREP_DRAW_NUMBERS);
@@ -374,7 +374,7 @@ protected:
 
     AlignedBytes file_ = baked_for_pictures(unit_cube());
     CModel cube_{file_};
-    CModel opened_for_rays_{file_, CDPREP_ASK_RAY};
+    CModel opened_for_inside_{file_, CDPREP_ASK_INSIDE};  ///< without numbers of triangles
     CWorkspace workspace_;
     cdprep_scene* scene_ = nullptr;
     std::array<cdprep_object, 3> ids_{};
@@ -442,7 +442,7 @@ TEST_F(CDrawnScene, ContactsAreLinesAndNormals) {
 
 // By hand: the object in slot 3 is of a layer that asks for nothing.
 TEST_F(CDrawnScene, AModelThatLacksWhatIsDrawnIsNamed) {
-    add(opened_for_rays_.get(), 20, 7);
+    add(opened_for_inside_.get(), 20, 7);
     Picture drawn;
     cdprep_draw draw = draw_into(drawn, CDPREP_DRAW_SURFACE);
     cdprep_error error;
@@ -454,7 +454,7 @@ TEST_F(CDrawnScene, AModelThatLacksWhatIsDrawnIsNamed) {
     EXPECT_EQ(drawn.size(), 0u);
     draw.what = CDPREP_DRAW_BOXES | CDPREP_DRAW_OVERLAPS | CDPREP_DRAW_CONTACTS;
     EXPECT_EQ(cdprep_scene_draw(scene_, &draw, &error), CDPREP_OK) << error.message;
-    EXPECT_EQ(drawn.lines.size(), 4 * 12u + 5);
+    EXPECT_EQ(drawn.lines.size(), 4 * 12 + picture(CDPREP_DRAW_CONTACTS).lines.size());
 }
 
 std::vector<Mistake<cdprep_draw>> draw_mistakes(bool is_scene) {
@@ -518,7 +518,7 @@ TEST_F(CDrawnScene, DrawnModelsAndPosesAreChecked) {
     expect(cube_.get(), &wrong, CDPREP_WHY_NOT_RIGID, "world_from_model");
     wrong.rows[8] = kInfinity;
     expect(cube_.get(), &wrong, CDPREP_WHY_NOT_FINITE, "world_from_model.rows[8]");
-    expect(opened_for_rays_.get(), &kStill, CDPREP_WHY_NOT_OPENED, "model");
+    expect(opened_for_inside_.get(), &kStill, CDPREP_WHY_NOT_OPENED, "model");
     draw.what = CDPREP_DRAW_BOXES;
     const CModel corners(file_, CDPREP_ASK_CORNERS);
     expect(corners.get(), &kStill, CDPREP_WHY_NOT_OPENED, "model");

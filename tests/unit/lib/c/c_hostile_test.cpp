@@ -31,6 +31,7 @@
 #include "support/random_pose.h"
 #include "support/scratch_folder.h"
 #include "support/tiny_baker.h"
+#include "support/tiny_pieces.h"
 
 namespace {
 std::atomic<std::size_t> allocations = 0;
@@ -1292,13 +1293,15 @@ struct FrontPath {
             pair.pose_b.rows[0] = pair.pose_b.rows[4] = std::cos(angle);
             pair.pose_b.rows[3] = std::sin(angle);
             pair.pose_b.rows[1] = -pair.pose_b.rows[3];
-            pair.pose_b.rows[9] = 2.3 + 0.001 * step;
+            pair.pose_b.rows[9] = 2.1 - 0.0005 * step;
+            pair.pose_b.rows[10] = 0.1;
+            pair.pose_b.rows[11] = 0.05;
             spoil(front, step);
             cdprep_nearest found{};
             ASSERT_EQ(cdprep_distance(&pair, nullptr, workspace, &found, nullptr), CDPREP_OK);
             nearest.push_back(found);
             std::uint32_t is_near = 77;
-            ASSERT_EQ(cdprep_within(&pair, 0.33, workspace, &is_near, nullptr), CDPREP_OK);
+            ASSERT_EQ(cdprep_within(&pair, 0.1, workspace, &is_near, nullptr), CDPREP_OK);
             within.push_back(is_near);
         }
         cdprep_counts counts;
@@ -1310,7 +1313,7 @@ struct FrontPath {
 
 // The law of fronts: any content gives the answer of none. A front saves most of the box pairs.
 TEST_F(CHostile, FrontsChangeNoAnswer) {
-    const AlignedBytes file = with_pieces(baked(icosphere(3)));
+    const AlignedBytes file = with_piece_tree(baked(icosphere(2)));
     const CModel ball(file);
     const auto leave = [](cdprep_front* /*front*/, int /*step*/) {};
     FrontPath without = {ball.get()}, with_cache = {ball.get()}, with = {ball.get()};
@@ -1345,9 +1348,9 @@ TEST_F(CHostile, FrontsChangeNoAnswer) {
 
 // Every bit of a front in use: a changed one is a new front, and no answer changes.
 TEST_F(CHostile, AFrontWithAChangedBitIsANewOne) {
-    const AlignedBytes file = with_pieces(baked(icosphere(1)));
+    const AlignedBytes file = with_piece_tree(baked(icosphere(2)));
     const CModel ball(file);
-    cdprep_pair given = pair_of({ball.get(), ball.get(), 2.25, nullptr});
+    cdprep_pair given = pair_of({ball.get(), ball.get(), 2.125, nullptr});
     given.through = CDPREP_THROUGH_PIECES;
     cdprep_cache cache{};
     const auto front = std::make_unique<cdprep_front>();
