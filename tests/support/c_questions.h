@@ -574,9 +574,9 @@ inline const std::vector<CQuestion>& c_questions() {
                  cdprep_shape_distance_many(&query, 1, scene.workspace, &found, &error);
              return told(code, error, found.found == CDPREP_NO, found);
          }},
-        {"model draw surface", CDPREP_ASK_CORNERS, draw<CDPREP_DRAW_SURFACE>},
-        {"model draw hulls", CDPREP_ASK_HULLS, draw<CDPREP_DRAW_HULLS>},
-        {"model draw pieces", CDPREP_ASK_PIECES | CDPREP_ASK_CORNERS, draw<CDPREP_DRAW_PIECES>},
+        {"model draw of surfaces", CDPREP_ASK_CORNERS, draw<CDPREP_DRAW_SURFACE>},
+        {"model draw of hulls", CDPREP_ASK_HULLS, draw<CDPREP_DRAW_HULLS>},
+        {"model draw of pieces", CDPREP_ASK_PIECES | CDPREP_ASK_CORNERS, draw<CDPREP_DRAW_PIECES>},
         {"model corners", CDPREP_ASK_CORNERS,
          [](const CScene& scene) {
              const std::uint32_t triangles[2] = {3, 1};

@@ -45,7 +45,8 @@ CDPREP_API void cdprep_draw_init(cdprep_draw* draw, size_t size);
  * and does not allocate. Returns CDPREP_OK even if a function of the caller ended the picture.
  * Errors: CDPREP_WHY_OUT_OF_RANGE for unknown bits. CDPREP_WHY_NO_MEANING for bits of scenes, or a
  * level without boxes. CDPREP_WHY_NULL for a function that is needed. CDPREP_WHY_NOT_RIGID.
- * CDPREP_WHY_NOT_BAKED or _NOT_OPENED if the model lacks what is to be drawn. */
+ * CDPREP_WHY_NOT_BAKED or _NOT_OPENED if the model lacks what is to be drawn.
+ * Needs: as CDPREP_DRAW_ says; of pieces: CDPREP_ASK_PIECES, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_model_draw(const cdprep_model* model, const cdprep_pose* world_from_model,
                                  const cdprep_draw* draw, cdprep_error* error);
 

@@ -160,7 +160,7 @@ TEST(NeedsLines, OfCppAreWhatTheQuestionsNeed) {
 TEST(NeedsLines, OfCAreWhatTheQuestionsNeed) {
     Functions functions;
     for (const char* header :
-         {"c/model.h", "c/pairs.h", "c/contacts.h", "c/motion.h", "c/points.h"}) {
+         {"c/model.h", "c/pairs.h", "c/contacts.h", "c/motion.h", "c/points.h", "c/draw.h"}) {
         read_c(header, functions);
     }
     Names asked;
