@@ -10,12 +10,14 @@
 /* What is drawn, as bits of a set. */
 enum {
     CDPREP_DRAW_SURFACE = 1,   /* all triangles. Needs CDPREP_ASK_CORNERS */
-    CDPREP_DRAW_BOXES = 2,     /* the boxes of one level of the BVH, as 12 lines each */
+    CDPREP_DRAW_BOXES = 2,     /* boxes of one level of the BVH, 12 lines each. Needs the BVH */
     CDPREP_DRAW_HULLS = 4,     /* the hulls of parts, or the whole hull. Needs CDPREP_ASK_HULLS */
     CDPREP_DRAW_PIECES = 8,    /* hulls of convex pieces. Needs CDPREP_ASK_PIECES, _CORNERS */
-    CDPREP_DRAW_CONTACTS = 16, /* of scenes: lines between contact points, and normals */
+    /* of scenes: lines between contact points, and normals. Needs the BVH */
+    CDPREP_DRAW_CONTACTS = 16,
     CDPREP_DRAW_OVERLAPS = 32, /* of scenes: triangles in lists of overlap and self */
-    /* the numbers of parts and pieces that are drawn; of scenes, the slots of objects */
+    /* The numbers of parts and pieces that are drawn; of scenes, the slots of objects. A slot is in
+     * the middle of its model's box, or without the BVH at the model's origin. */
     CDPREP_DRAW_NUMBERS = 64
 };
 

@@ -36,9 +36,8 @@ CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size
  * With null memory of size 0, the allocator makes one allocation of that size. In addition, the
  * model takes about 1 KiB of the heap. Takes O(n) time, and O(n log n) with max_triangles. No later
  * call but cdprep_live_end() and cdprep_live_image() allocates or frees memory, except to report an
- * error. Do not set
- * max_triangles far above the number that comes: triangles are spread over all places, and queries
- * get slower.
+ * error. Do not set max_triangles far above the number that comes: triangles are spread over all
+ * places, and queries get slower.
  *
  * Errors:
  * - CDPREP_WHY_NULL: no base.
@@ -166,7 +165,7 @@ CDPREP_API int cdprep_live_triangles(const cdprep_live* live, cdprep_live_triang
  * 1, and the count is the number of bytes. cdprep_model_open_memory() accepts a copy of them. The
  * address is valid as long as the live model, and the bytes are until its next change. They depend
  * only on the base, the positions and the order that cdprep_live_rebuild() made. Takes O(bytes)
- * time. Allocates.
+ * time. Allocates. Writes to the model: no query may use it meanwhile.
  * On failure, image->data is null. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made with max_triangles. Build a model of
  *   cdprep_live_triangles() instead.

@@ -521,10 +521,10 @@ CDPREP_API int cdprep_plan_layer(const cdprep_plan* plan, uint32_t layer, cdprep
 /* Stores the axis-aligned box around a model as `world_from_model` moves it, enlarged by `reach` on
  * all sides, in model units. It contains every vertex as the pose moves it. It is absent if the
  * model has no triangles. The box is relative to `origin`, 3 numbers; null is 0. All boxes of a
- * broad phase must have the same origin. Limits beyond the largest float are infinite. Far from it,
- * rounding to float widens the box: at 10^7 by about a unit on each side. If two models are at most
- * d apart, their boxes with a reach of d / 2 each meet. Takes some 100 ns. On failure the box is
- * absent.
+ * broad phase must have the same origin. Numbers beyond the largest float are rounded outwards, so
+ * that an upper limit is infinite. Far from the origin, rounding to float widens the box: at 10^7
+ * by about a unit on each side. If two models are at most d apart, their boxes with a reach of
+ * d / 2 each meet. Takes some 100 ns. On failure the box is absent.
  * Errors: CDPREP_WHY_NOT_RIGID; CDPREP_WHY_NOT_FINITE and CDPREP_WHY_OUT_OF_RANGE for numbers.
  * CDPREP_WHY_NOT_BAKED or _NOT_OPENED for a model without a BVH (section bvh_nodes). */
 CDPREP_API int cdprep_model_box(const cdprep_model* model, const cdprep_pose* world_from_model,
