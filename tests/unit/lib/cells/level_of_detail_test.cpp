@@ -153,6 +153,10 @@ TEST(LevelOfDetail, OddModels) {
     EXPECT_EQ(collide_at_level({sphere.model, flat.model, near}, 2, workspace).answer,
               Answer::unknown);
     EXPECT_EQ(level_error(empty.model, 2), 0);
+    // A triangle at the centre is below no facet, but still in the box around all.
+    EXPECT_EQ(
+        collide_at_level({sphere.model, flat.model, shifted({50, 0, 0})}, 2, workspace).answer,
+        Answer::no);
 }
 
 // Scaling by a power of two changes no answer.
