@@ -221,9 +221,10 @@ public:
     explicit BuildersThreads(const cdprep_workspace& workspace) noexcept : workspace_(workspace) {}
 
     void operator()(std::size_t count, Task task) const {
+        const CallersThreads threads(workspace_);
+#if defined(__cpp_exceptions)
         std::atomic<bool> has_failed = false;
         std::exception_ptr thrown;
-        const CallersThreads threads(workspace_);
         share_jobs(count, workspace_.lanes.size(), threads, [&](std::size_t i, std::size_t) {
             if (has_failed.load(std::memory_order_relaxed)) return;
             try {
@@ -233,6 +234,10 @@ public:
             }
         });
         if (thrown != nullptr) std::rethrow_exception(thrown);
+#else
+        share_jobs(count, workspace_.lanes.size(), threads,
+                   [&](std::size_t i, std::size_t) { task(i); });
+#endif
     }
 
 private:
