@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# Fails when a header of the C API does not compile alone as C99 and as C++17, when a struct has
-# padding, when a function has more than six parameters or no comment before it, or when an
-# identifier is a keyword of a language that calls C.
+# Fails when a header of the C API does not compile alone as C99 and as C++17, or does not declare
+# its functions extern "C" for C++. Also when a struct has padding, when a function has more than six
+# parameters, or when an identifier is a keyword of a language that calls C.
 # Run by ctest as: cmake -D ROOT=<source dir> -D CC=<cc> -D CXX=<c++> -D OUT=<dir> -P this file
 cmake_policy(SET CMP0057 NEW)
 set(offences "")
@@ -26,7 +26,8 @@ set(keywords
 foreach(header IN LISTS headers)
     file(WRITE ${OUT}/alone.c "#include \"${header}\"\nint main(void) { return 0; }\n")
     file(WRITE ${OUT}/alone.cpp "#include \"${header}\"\nint main() { return 0; }\n")
-    set(flags -pedantic -Wall -Wextra -Wpadded -Werror -I${ROOT}/lib/include -fsyntax-only)
+    set(flags -pedantic -Wall -Wextra -Wpadded -Werror -I${ROOT}/lib/include
+        -I${ROOT}/format/include -fsyntax-only)
     foreach(command "${CC};-std=c99;${OUT}/alone.c" "${CXX};-std=c++17;${OUT}/alone.cpp")
         execute_process(COMMAND ${command} ${flags} RESULT_VARIABLE failed ERROR_VARIABLE why)
         if(failed)
@@ -40,6 +41,9 @@ foreach(header IN LISTS headers)
     string(REPLACE "[" "(" code "${code}")
     string(REPLACE "]" ")" code "${code}")
     string(REGEX MATCHALL "CDPREP_API [^;]*;" functions "${code}")
+    if(functions AND NOT code MATCHES "#ifdef __cplusplus\nextern \"C\" {\n#endif\n")
+        string(APPEND offences "\n  ${header}: its functions are not extern \"C\" in C++")
+    endif()
     foreach(function IN LISTS functions)
         string(REGEX MATCHALL "," commas "${function}")
         list(LENGTH commas parameters)

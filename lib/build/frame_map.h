@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "cdprep/advanced/build_bvh.h"
+#include "cdprep/format/api.h"
 #include "cdprep/format/portable.h"
 #include "exact/powers_of_two.h"
 
@@ -44,13 +45,14 @@ struct Extent {
     bool floats;  ///< every coordinate is a float
 };
 
-[[nodiscard]] Extent extent_of(std::span<const format::Double3> positions,
-                               std::span<const format::Triangle> triangles,
-                               ParallelFor parallel_for);
+[[nodiscard]] CDPREP_API Extent extent_of(std::span<const format::Double3> positions,
+                                          std::span<const format::Triangle> triangles,
+                                          ParallelFor parallel_for);
 
 /// As above, for the vertices whose mark is not 0.
-[[nodiscard]] Extent extent_of(std::span<const format::Double3> positions,
-                               std::span<const std::uint8_t> marks, ParallelFor parallel_for);
+[[nodiscard]] CDPREP_API Extent extent_of(std::span<const format::Double3> positions,
+                                          std::span<const std::uint8_t> marks,
+                                          ParallelFor parallel_for);
 
 /// As above, for all vertices.
 [[nodiscard]] Extent extent_of(std::span<const format::Double3> positions,

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "build/lanes.h"
+#include "cdprep/format/api.h"
 #include "cdprep/format/geometry.h"
 
 namespace cdprep::build {
@@ -50,7 +51,7 @@ struct MomentLanes {
 };
 
 /// Returns the moments of eight surfaces together (Steiner).
-[[nodiscard]] Moments sum_of(const MomentLanes& lanes);
+[[nodiscard]] CDPREP_API Moments sum_of(const MomentLanes& lanes);
 
 /// Orthonormal axes rounded to float; the third is their cross product.
 struct Axes {
@@ -62,7 +63,7 @@ using NodeAxes = std::array<Axes, format::kBvhWidth>;
 
 /// Returns the axes of eight surfaces, with every part weighted by its area. The direction of least
 /// extent comes first, then that of middle extent. For a surface without area, they are x and y.
-[[nodiscard]] NodeAxes axes_of(const MomentLanes& moments);
+[[nodiscard]] CDPREP_API NodeAxes axes_of(const MomentLanes& moments);
 
 /// The extents of an object along three axes, relative to a point.
 struct Reach {
@@ -72,10 +73,10 @@ struct Reach {
 
 /// Writes the box of an object with this reach from `origin`, in frame coordinates. Its half
 /// extents are enlarged by `slack`, by 2^-17 of the largest and by the rounding of the centre.
-void write_box(const Vector& origin, const Axes& axes, const Reach& reach, double slack,
-               format::OrientedNode& node, std::size_t box);
+CDPREP_API void write_box(const Vector& origin, const Axes& axes, const Reach& reach, double slack,
+                          format::OrientedNode& node, std::size_t box);
 
 /// Marks the box as unused.
-void write_no_box(format::OrientedNode& node, std::size_t box);
+CDPREP_API void write_no_box(format::OrientedNode& node, std::size_t box);
 
 }  // namespace cdprep::build

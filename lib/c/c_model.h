@@ -10,6 +10,7 @@
 #include "c/memory.h"
 #include "cdprep/c/model.h"
 #include "cdprep/c/window.h"
+#include "cdprep/format/api.h"
 #include "cdprep/live_model.h"
 #include "cdprep/model.h"
 
@@ -68,7 +69,7 @@ int check_bvh(Call& call, const Name& name, const Model& model) noexcept;
 int check_asks(Call& call, const Name& name, std::uint32_t ask) noexcept;
 
 /// Refuses queries that a model does not serve.
-int check_serves(Call& call, const Name& name, const Model& model, Ask asks);
+CDPREP_API int check_serves(Call& call, const Name& name, const Model& model, Ask asks);
 inline int check_serves(Call& call, const Name& name, const cdprep_model& model, Ask asks) {
     return check_serves(call, name, model.model, asks);
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "cdprep/c/base.h"
+#include "cdprep/format/api.h"
 #include "cdprep/result.h"
 
 namespace cdprep::c {
@@ -35,7 +36,7 @@ struct Name {
 class Call {
 public:
     /// Sets the error to OK. `error` may be null.
-    explicit Call(cdprep_error* error) noexcept;
+    CDPREP_API explicit Call(cdprep_error* error) noexcept;
 
     /// Reports an invalid argument. The message is a format of std::snprintf; the name is put in
     /// front of it.
@@ -46,7 +47,7 @@ public:
     int refuse_with(std::int32_t why, const Name& name, std::string_view sentence) noexcept;
 
     /// Reports any other failure.
-    int fail(int code, std::string_view sentence) noexcept;
+    CDPREP_API int fail(int code, std::string_view sentence) noexcept;
 
     /// Refuses a null pointer.
     int need(const void* pointer, const Name& name) noexcept {
@@ -56,7 +57,7 @@ public:
     }
 
 private:
-    void refuse_null(const Name& name) noexcept;
+    CDPREP_API void refuse_null(const Name& name) noexcept;
 
     cdprep_error* error_;
 };

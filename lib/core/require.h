@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 
 namespace cdprep {
@@ -9,7 +10,7 @@ namespace cdprep {
 [[noreturn]] void stop_with(const char* sentence) noexcept;
 
 /// Stops the program with the sentence of Model::refusal(). Requires that there is one.
-[[noreturn]] void refuse(const Model& model, Ask asks) noexcept;
+[[noreturn]] CDPREP_API void refuse(const Model& model, Ask asks) noexcept;
 
 /// Stops the program, in every build, if the model does not serve the query. Every C++ query begins
 /// with this call. Costs one AND.

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 
+#include "cdprep/format/api.h"
 #include "cdprep/pairs.h"
 
 namespace cdprep {
@@ -14,7 +15,7 @@ using SortScratch = std::array<TrianglePair, 4096>;
 
 /// Sorts by (a, b). Takes O(n) if no triangle of A has many pairs, otherwise O(n log n). Sorts in
 /// passes through the scratch, and in parts if the scratch is smaller. Never allocates.
-void sort_pairs(std::span<TrianglePair> pairs, SortScratch& scratch) noexcept;
+CDPREP_API void sort_pairs(std::span<TrianglePair> pairs, SortScratch& scratch) noexcept;
 
 /// The parts into which pairs are divided before they are sorted. No pair of part i is greater than
 /// a pair of part i + 1.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cdprep/exact/predicates.h"
+#include "cdprep/format/api.h"
 
 namespace cdprep {
 
@@ -28,8 +29,8 @@ namespace cdprep {
                                                     const Corners& points) noexcept;
 
 /// Does the part of orient3d() where its filter cannot decide; for orient3d() only.
-[[nodiscard]] int orient3d_beyond_filter(const Double3& a, const Double3& b, const Double3& c,
-                                         const Double3& d) noexcept;
+[[nodiscard]] CDPREP_API int orient3d_beyond_filter(const Double3& a, const Double3& b,
+                                                    const Double3& c, const Double3& d) noexcept;
 
 // The filter. Let u = 2^-53, and let M be the product of the largest |difference| per axis. Each
 // rounded difference is off by a factor of 1 + u, and each product of two by 1 + 3u. Each of the

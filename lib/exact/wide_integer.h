@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "cdprep/format/api.h"
+
 namespace cdprep {
 
 /// A view of 32-bit limbs, the least first. The top limb is not zero; zero has no limbs.
@@ -24,16 +26,18 @@ struct WideSize {
 
 /// These write to `limb`, which must have enough room: a sum needs the larger size and one limb for
 /// a carry, a product both sizes.
-[[nodiscard]] WideSize wide_sum(const WideView& a, const WideView& b, std::uint32_t* limb) noexcept;
-[[nodiscard]] WideSize wide_product(const WideView& a, const WideView& b,
-                                    std::uint32_t* limb) noexcept;
-[[nodiscard]] WideSize wide_from_double(double value, int lowest, std::uint32_t* limb) noexcept;
+[[nodiscard]] CDPREP_API WideSize wide_sum(const WideView& a, const WideView& b,
+                                           std::uint32_t* limb) noexcept;
+[[nodiscard]] CDPREP_API WideSize wide_product(const WideView& a, const WideView& b,
+                                               std::uint32_t* limb) noexcept;
+[[nodiscard]] CDPREP_API WideSize wide_from_double(double value, int lowest,
+                                                   std::uint32_t* limb) noexcept;
 
 /// The exponent of the least subnormal double.
 inline constexpr int kLowestExponent = -1074;
 
 /// Returns the exponent of the lowest bit that is set; kLowestExponent + 3000 for 0.
-[[nodiscard]] int lowest_bit(double value) noexcept;
+[[nodiscard]] CDPREP_API int lowest_bit(double value) noexcept;
 
 /// The number of limbs of a double, or of a difference of two, as a multiple of 2^-1074. They hold
 /// 2,099 bits, and some to add up a few. A product of k factors needs k times as many.

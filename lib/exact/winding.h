@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cdprep/exact/winding.h"
+#include "cdprep/format/api.h"
 
 namespace cdprep {
 
@@ -10,14 +11,14 @@ namespace cdprep {
 /// o + (e, e^2, e^3), e infinitely small, so no ray meets an edge or a vertex. Over a closed
 /// surface the terms add up to the winding number for any o. Degenerate triangles add nothing. `o`
 /// must differ from q. (Feito and Torres 1997, with another rule for vertices.)
-[[nodiscard]] WindingTerm winding_term(const Double3& o, const Double3& q,
-                                       const Corners& t) noexcept;
+[[nodiscard]] CDPREP_API WindingTerm winding_term(const Double3& o, const Double3& q,
+                                                  const Corners& t) noexcept;
 
 /// Returns an `o` for winding_term() whose ray runs from q along +x: a point at least `reach`
 /// before q. `reach` is about the model's size. With a much smaller step, the predicates' filter
 /// would decide few triangles, and every triangle would be slow. Differs from q unless |q.x| is
 /// near the largest double.
-[[nodiscard]] Double3 before_along_x(const Double3& q, double reach) noexcept;
+[[nodiscard]] CDPREP_API Double3 before_along_x(const Double3& q, double reach) noexcept;
 
 /// Returns the signed solid angle of the triangle seen from q, in [-2 pi, 2 pi], rounded. Positive
 /// when q is behind the triangle (van Oosterom and Strackee 1983).

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "cdprep/format/api.h"
+
 /// Places along the Z-order curve, the middle part of an octree's keys (format/octree.h).
 ///
 /// One call makes one code. With BMI2, three instructions distribute the bits of three numbers.
@@ -38,6 +40,6 @@ struct AvailableCurves {
 /// Returns the curve in use: BMI2 if the processor has it and it is fast, otherwise the reference.
 /// AMD's BMI2 is fast from Zen 3 on; before, an instruction takes as long as it has bits. If
 /// CDPREP_KERNELS is "scalar" at the first call of the process, returns the reference.
-[[nodiscard]] const Curve& active_curve() noexcept;
+[[nodiscard]] CDPREP_API const Curve& active_curve() noexcept;
 
 }  // namespace cdprep::kernels

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "cdprep/format/api.h"
 #include "cdprep/format/portable.h"
 
 /// The innermost loops, once per instruction set.
@@ -400,6 +401,6 @@ struct Available {
 
 /// Returns the table that queries use. It is the one that the environment variable CDPREP_KERNELS
 /// names at the first call of the process. Otherwise it is the last available one.
-[[nodiscard]] const Table& active() noexcept;
+[[nodiscard]] CDPREP_API const Table& active() noexcept;
 
 }  // namespace cdprep::kernels

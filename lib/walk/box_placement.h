@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 #include "cdprep/pose.h"
 #include "exact/powers_of_two.h"
@@ -34,8 +35,8 @@ struct PlacedBoxes {
 [[nodiscard]] double double_slack(const Model& a, const Model& b,
                                   const Placement& placement) noexcept;
 
-[[nodiscard]] PlacedBoxes place_boxes(const Model& a, const Model& b,
-                                      const Placement& placement) noexcept;
+[[nodiscard]] CDPREP_API PlacedBoxes place_boxes(const Model& a, const Model& b,
+                                                 const Placement& placement) noexcept;
 /// The same for the frames of two headers.
 [[nodiscard]] PlacedBoxes place_boxes(const format::FileHeader& a, const format::FileHeader& b,
                                       const Placement& placement) noexcept;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "cdprep/format/api.h"
 #include "cdprep/pairs.h"
 #include "cdprep/points.h"
 
@@ -31,6 +32,6 @@ struct CellSearches {
 };
 
 /// Returns the searches that the workspace was created with; stops the program if it has none.
-[[nodiscard]] const CellSearches& require_cells(Workspace& workspace) noexcept;
+[[nodiscard]] CDPREP_API const CellSearches& require_cells(Workspace& workspace) noexcept;
 
 }  // namespace cdprep

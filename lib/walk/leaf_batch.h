@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cdprep/advanced/build_bvh.h"
+#include "cdprep/format/api.h"
 #include "core/moved_model.h"
 #include "core/prefetch.h"
 #include "walk/box_placement.h"
@@ -21,8 +22,8 @@ struct LeafLanes {
 };
 
 /// Returns the relative placement of the leaves of two models.
-[[nodiscard]] kernels::LeafPlacement place_leaves(const Model& a, const Model& b,
-                                                  const PlacedBoxes& placed) noexcept;
+[[nodiscard]] CDPREP_API kernels::LeafPlacement place_leaves(const Model& a, const Model& b,
+                                                             const PlacedBoxes& placed) noexcept;
 
 /// Returns the placement of the leaves of a tree relative to themselves.
 [[nodiscard]] kernels::LeafPlacement place_leaves(const build::Bvh& tree,

@@ -6,6 +6,7 @@
 #include <span>
 #include <string_view>
 
+#include "cdprep/format/api.h"
 #include "cdprep/format/section_set.h"
 
 namespace cdprep {
@@ -76,28 +77,28 @@ struct Needs {
 /// Returns the table of needs: a row for each bit of Ask. Model::serves(), `bake --effects`,
 /// `info`, `query` and the C API read it. It is the only place that knows the sections of each
 /// query.
-[[nodiscard]] std::span<const Needs> needs() noexcept;
+[[nodiscard]] CDPREP_API std::span<const Needs> needs() noexcept;
 
 /// Returns the row of one bit, or null for a set of bits or an unknown bit.
-[[nodiscard]] const Needs* find_needs(Ask one) noexcept;
+[[nodiscard]] CDPREP_API const Needs* find_needs(Ask one) noexcept;
 
 /// Returns the row with this name, or null.
-[[nodiscard]] const Needs* find_needs(std::string_view name) noexcept;
+[[nodiscard]] CDPREP_API const Needs* find_needs(std::string_view name) noexcept;
 
 /// Returns the bits that this version knows.
-[[nodiscard]] Ask known_asks() noexcept;
+[[nodiscard]] CDPREP_API Ask known_asks() noexcept;
 
 /// Returns the sections to open or to bake for all of `asks`: those that are needed or used. The
 /// result includes positions_f32 and positions_f64, although a file has only one of them.
-[[nodiscard]] format::SectionSet sections_for(Ask asks) noexcept;
+[[nodiscard]] CDPREP_API format::SectionSet sections_for(Ask asks) noexcept;
 
 /// Returns the bits that a file with these sections serves. `has_exact_leaves` means that its
 /// leaves hold model coordinates without loss (format::model_exact_leaves).
-[[nodiscard]] Ask served_by(format::SectionSet sections, bool has_exact_leaves) noexcept;
+[[nodiscard]] CDPREP_API Ask served_by(format::SectionSet sections, bool has_exact_leaves) noexcept;
 
 /// Returns the sections that `ask` needs and `sections` lacks. `ask` is one bit. If both kinds of
 /// positions are missing, the result contains positions_f32 only.
-[[nodiscard]] format::SectionSet missing_sections(Ask ask, format::SectionSet sections,
-                                                  bool has_exact_leaves) noexcept;
+[[nodiscard]] CDPREP_API format::SectionSet missing_sections(Ask ask, format::SectionSet sections,
+                                                             bool has_exact_leaves) noexcept;
 
 }  // namespace cdprep

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "cdprep/format/api.h"
 #include "cdprep/pairs.h"
 
 namespace cdprep {
@@ -39,7 +40,7 @@ struct LastDistance {
     std::uint64_t late = 0;    ///< late answers since then
 
     /// Notes an answer, as bounded_distance() does with DistanceBudget::last.
-    void note(const Placement& at, const BoundedDistance& found) noexcept;
+    CDPREP_API void note(const Placement& at, const BoundedDistance& found) noexcept;
 };
 
 /// The limits of the work of one query.
@@ -74,8 +75,8 @@ struct DistanceBudget {
 ///     cdprep::LastDistance last;
 ///     const auto found = bounded_distance(pair, workspace, {}, {.work = 3000, .last = &last});
 ///     if (found.lower > safe) return;  // proven, also if it is late
-[[nodiscard]] BoundedDistance bounded_distance(const Pair& pair, Workspace& workspace,
-                                               const DistanceOptions& options = {},
-                                               const DistanceBudget& budget = {}) noexcept;
+[[nodiscard]] CDPREP_API BoundedDistance
+bounded_distance(const Pair& pair, Workspace& workspace, const DistanceOptions& options = {},
+                 const DistanceBudget& budget = {}) noexcept;
 
 }  // namespace cdprep

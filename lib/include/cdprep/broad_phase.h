@@ -9,6 +9,7 @@
 #include <span>
 
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/format/api.h"
 
 namespace cdprep {
 
@@ -83,36 +84,35 @@ class BroadPhase {
 public:
     /// Allocates memory once; updates never allocate. Stops the program if the limits are not
     /// possible.
-    explicit BroadPhase(const BroadPhaseLimits& limits);
+    CDPREP_API explicit BroadPhase(const BroadPhaseLimits& limits);
 
     /// Makes a broad phase in the caller's memory, which must outlive it. Allocates nothing.
     /// Returns nothing if the memory is smaller than size() or not aligned to alignment(), or the
     /// limits are not possible.
-    [[nodiscard]] static std::optional<BroadPhase> in_memory(
+    [[nodiscard]] CDPREP_API static std::optional<BroadPhase> in_memory(
         std::span<std::byte> memory, const BroadPhaseLimits& limits) noexcept;
     /// Returns the bytes that it takes: about 150 for each box and 24 for each pair. Each thread
     /// but the first adds 4 for each box.
-    [[nodiscard]] static std::size_t size(const BroadPhaseLimits& limits) noexcept;
-    [[nodiscard]] static std::size_t alignment() noexcept;  ///< bytes, a power of two
+    [[nodiscard]] CDPREP_API static std::size_t size(const BroadPhaseLimits& limits) noexcept;
+    [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two
 
-    BroadPhase(BroadPhase&&) noexcept;
-    BroadPhase& operator=(BroadPhase&&) noexcept;
-    ~BroadPhase();
+    CDPREP_API BroadPhase(BroadPhase&&) noexcept;
+    CDPREP_API BroadPhase& operator=(BroadPhase&&) noexcept;
+    CDPREP_API ~BroadPhase();
 
     /// Returns the pairs of boxes that meet. Any box may have moved since the last update. There
     /// are at most limits.boxes boxes, and as many filters, or none: then all boxes form pairs.
     /// Calls `parallel_for` at most twice, each time for at most limits.threads tasks.
-    [[nodiscard]] BroadPhaseUpdate update(std::span<const WorldBox> boxes,
-                                          std::span<const BoxFilter> filters = {},
-                                          ParallelFor parallel_for = serial_for) noexcept;
+    [[nodiscard]] CDPREP_API BroadPhaseUpdate
+    update(std::span<const WorldBox> boxes, std::span<const BoxFilter> filters = {},
+           ParallelFor parallel_for = serial_for) noexcept;
 
     /// The same if only the boxes with these numbers have changed, or their filters. The number of
     /// boxes must be that of the last update. The numbers may be in any order, and repeat. This
     /// takes less time if few boxes move.
-    [[nodiscard]] BroadPhaseUpdate update_moved(std::span<const WorldBox> boxes,
-                                                std::span<const BoxFilter> filters,
-                                                std::span<const std::uint32_t> moved,
-                                                ParallelFor parallel_for = serial_for) noexcept;
+    [[nodiscard]] CDPREP_API BroadPhaseUpdate update_moved(
+        std::span<const WorldBox> boxes, std::span<const BoxFilter> filters,
+        std::span<const std::uint32_t> moved, ParallelFor parallel_for = serial_for) noexcept;
 
 private:
     struct State;

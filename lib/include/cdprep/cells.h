@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cdprep/format/api.h"
+
 namespace cdprep {
 
 struct CellSearches;
@@ -11,6 +13,6 @@ struct CellSearches;
 ///     cdprep::Workspace workspace(cdprep::cells());
 ///     pair.options.through = cdprep::Structure::octree;
 ///     bool hit = collide(pair, workspace).hit == cdprep::Answer::yes;
-[[nodiscard]] const CellSearches& cells() noexcept;
+[[nodiscard]] CDPREP_API const CellSearches& cells() noexcept;
 
 }  // namespace cdprep

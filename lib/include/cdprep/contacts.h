@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cdprep/advanced/closest_features.h"
+#include "cdprep/format/api.h"
 #include "cdprep/pairs.h"
 
 namespace cdprep {
@@ -189,9 +190,9 @@ struct ContactsVerdict {
 /// deep contact reads hulls if the models serve Ask::hulls. Takes the time of pairs_within(), plus
 /// 5 to 10 microseconds per contact and 1 more with a manifold (tests/bench/results, contacts.csv).
 /// Body::solid adds the time of containment(). Never allocates.
-[[nodiscard]] ContactsVerdict contacts(const Pair& pair, Workspace& workspace,
-                                       std::span<Contact> room,
-                                       const ContactOptions& options = {}) noexcept;
+[[nodiscard]] CDPREP_API ContactsVerdict contacts(const Pair& pair, Workspace& workspace,
+                                                  std::span<Contact> room,
+                                                  const ContactOptions& options = {}) noexcept;
 
 using ContactVisitor = Visitor<Contact>;
 
@@ -199,7 +200,7 @@ using ContactVisitor = Visitor<Contact>;
 /// options.cluster_angle. The order is the same: by pieces, then those of enclosed components.
 /// Returns false if `visit` or options.work ended the search. Needs Ask::contacts of
 /// both models; Body::solid also Ask::solid, and options.through its ask_of().
-bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
-                    const ContactOptions& options = {}) noexcept;
+CDPREP_API bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
+                               const ContactOptions& options = {}) noexcept;
 
 }  // namespace cdprep

@@ -8,6 +8,7 @@
 #include "cdprep/advanced/convex_distance.h"
 #include "cdprep/advanced/convex_penetration.h"
 #include "cdprep/advanced/convex_points.h"
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 
 namespace cdprep {
@@ -16,23 +17,26 @@ namespace cdprep {
 /// instance or a part. Returns nothing if the model has no such hull. `number` is 0 for the whole.
 /// Parts are the last hulls, numbered from 0; together they contain every point of the model. Needs
 /// Ask::hulls. Takes O(log n) time.
-[[nodiscard]] std::optional<std::uint32_t> find_hull(const Model& model, format::HullScope scope,
-                                                     std::uint32_t number = 0) noexcept;
+[[nodiscard]] CDPREP_API std::optional<std::uint32_t> find_hull(const Model& model,
+                                                                format::HullScope scope,
+                                                                std::uint32_t number = 0) noexcept;
 
 /// Returns the corners of a hull, as input for queries. They refer to the file's memory and are
 /// valid as long as the model. Needs Ask::hulls. `hull` must be below model.hulls().hulls.size().
 /// The hull of an empty set has the count 0.
-[[nodiscard]] ConvexPoints convex_points(const Model& model, std::uint32_t hull) noexcept;
+[[nodiscard]] CDPREP_API ConvexPoints convex_points(const Model& model,
+                                                    std::uint32_t hull) noexcept;
 
 /// Returns the corners of a convex piece's hull, as input for queries. They refer to the file's
 /// memory and are valid as long as the model. They are the vertices that pieces().vertices lists
 /// for the piece, in that order. `piece` must be below model.pieces().pieces.size(). Needs
 /// Ask::pieces. Takes O(1) time.
-[[nodiscard]] ConvexPoints piece_points(const Model& model, std::uint32_t piece) noexcept;
+[[nodiscard]] CDPREP_API ConvexPoints piece_points(const Model& model,
+                                                   std::uint32_t piece) noexcept;
 
 /// Returns the hull of a convex piece with its facets, for closest_features(). Its points are those
 /// of piece_points(). Its facets and their corners are numbered within the piece. Needs
 /// Ask::contacts. Takes O(1) time.
-[[nodiscard]] FeatureHull feature_hull(const Model& model, std::uint32_t piece) noexcept;
+[[nodiscard]] CDPREP_API FeatureHull feature_hull(const Model& model, std::uint32_t piece) noexcept;
 
 }  // namespace cdprep

@@ -10,6 +10,7 @@
 
 #include "cdprep/advanced/build_model.h"
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 #include "cdprep/result.h"
 
@@ -68,10 +69,10 @@ public:
     /// Returns the number of bytes that in() takes: those of the base's sections, and about 40 per
     /// triangle. With limits, it is about 200 per triangle of the limit. Takes as long as in(), and
     /// as much memory while it runs. Fails if in() rejects `base` or `limits`.
-    [[nodiscard]] static Result<std::size_t> bytes(const build::ModelArrays& base,
-                                                   const LiveLimits& limits = {});
-    [[nodiscard]] static Result<std::size_t> bytes(const Model& base,
-                                                   const LiveLimits& limits = {});
+    [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const build::ModelArrays& base,
+                                                              const LiveLimits& limits = {});
+    [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const Model& base,
+                                                              const LiveLimits& limits = {});
 
     /// Makes a live model from arrays or from another model, such as a baked one. `memory` must
     /// start at a multiple of format::kSectionAlignment and stay in place while the live model
@@ -86,23 +87,24 @@ public:
     /// Without the section components, the live model does not serve Ask::solid. Fails if limits
     /// are lower than the counts of the base, or only vertices are limited. Also fails if there
     /// would be more than 1,431,655,764 places. With limits, a ninth of the places stays free.
-    [[nodiscard]] static Result<LiveModel> in(std::span<std::byte> memory,
-                                              const build::ModelArrays& base,
-                                              const LiveLimits& limits = {});
-    [[nodiscard]] static Result<LiveModel> in(std::span<std::byte> memory, const Model& base,
-                                              const LiveLimits& limits = {});
+    [[nodiscard]] CDPREP_API static Result<LiveModel> in(std::span<std::byte> memory,
+                                                         const build::ModelArrays& base,
+                                                         const LiveLimits& limits = {});
+    [[nodiscard]] CDPREP_API static Result<LiveModel> in(std::span<std::byte> memory,
+                                                         const Model& base,
+                                                         const LiveLimits& limits = {});
 
-    LiveModel(LiveModel&&) noexcept;
-    LiveModel& operator=(LiveModel&&) noexcept;
-    ~LiveModel();
+    CDPREP_API LiveModel(LiveModel&&) noexcept;
+    CDPREP_API LiveModel& operator=(LiveModel&&) noexcept;
+    CDPREP_API ~LiveModel();
 
     /// Returns the model to query. It is the same object after each refit(): spans and references
     /// into it stay valid.
-    [[nodiscard]] const Model& model() const noexcept;
+    [[nodiscard]] CDPREP_API const Model& model() const noexcept;
 
     /// Returns one more than the largest number of a vertex with a position. At first, it counts
     /// the vertices of the mesh from which the base was made, without unused ones at its end.
-    [[nodiscard]] std::size_t position_count() const noexcept;
+    [[nodiscard]] CDPREP_API std::size_t position_count() const noexcept;
 
     /// Moves all vertices. `positions` are numbered as in the mesh from which the base was made,
     /// and are in model units. Positions that no triangle uses, and those of vertices that the bake
@@ -120,10 +122,10 @@ public:
     /// A PairCache of this model stays valid. The content_hash of the header changes with the
     /// positions, so gaps proven before the refit are ignored. Takes O(n) time. Allocates only on
     /// failure.
-    Result<Done> refit(std::span<const format::Double3> positions,
-                       ParallelFor parallel_for = serial_for);
-    Result<Done> refit(std::span<const format::Float3> positions,
-                       ParallelFor parallel_for = serial_for);
+    CDPREP_API Result<Done> refit(std::span<const format::Double3> positions,
+                                  ParallelFor parallel_for = serial_for);
+    CDPREP_API Result<Done> refit(std::span<const format::Float3> positions,
+                                  ParallelFor parallel_for = serial_for);
 
     /// Moves some vertices: positions[i] is that of vertex number vertices[i]. If a vertex is
     /// listed twice, the last position counts. The model is then the same, byte for byte, as after
@@ -138,12 +140,12 @@ public:
     /// Takes O(n) in three cases. A vertex leaves the frame of the boxes, a cube that was at least
     /// twice the model's size when chosen. Or the model has become much smaller than this cube. Or
     /// the first coordinate that is not a float comes, or the last one goes.
-    Result<Done> refit(std::span<const std::uint32_t> vertices,
-                       std::span<const format::Double3> positions,
-                       ParallelFor parallel_for = serial_for);
-    Result<Done> refit(std::span<const std::uint32_t> vertices,
-                       std::span<const format::Float3> positions,
-                       ParallelFor parallel_for = serial_for);
+    CDPREP_API Result<Done> refit(std::span<const std::uint32_t> vertices,
+                                  std::span<const format::Double3> positions,
+                                  ParallelFor parallel_for = serial_for);
+    CDPREP_API Result<Done> refit(std::span<const std::uint32_t> vertices,
+                                  std::span<const format::Float3> positions,
+                                  ParallelFor parallel_for = serial_for);
 
     /// Adds triangles, whose vertices have numbers as in refit(). Returns the number of the first;
     /// the others get the next numbers. Answers name a triangle by its number, which is never used
@@ -154,23 +156,24 @@ public:
     /// position. Fails if numbers would exceed 2^31 - 1, or `triangles` are those of model(). Takes
     /// O(m log^2 n) time for m triangles, amortised. Takes O(n) more if a vertex lies outside the
     /// frame of the boxes. Allocates only on failure.
-    Result<std::uint32_t> append(std::span<const format::Triangle> triangles);
+    CDPREP_API Result<std::uint32_t> append(std::span<const format::Triangle> triangles);
 
     /// Removes triangles by their numbers. A number that is listed twice counts once. Fails with
     /// `bad_argument`, and then changes nothing, if the model cannot tear or lacks a triangle.
     /// Takes O(m log n) time. Allocates only on failure.
-    Result<Done> remove(std::span<const std::uint32_t> numbers);
+    CDPREP_API Result<Done> remove(std::span<const std::uint32_t> numbers);
 
     /// Returns the number of triangles.
-    [[nodiscard]] std::uint32_t triangle_count() const noexcept;
+    [[nodiscard]] CDPREP_API std::uint32_t triangle_count() const noexcept;
 
     /// Returns the place of a triangle of a model that can tear in the views of model(). Returns
     /// nothing if there is no triangle of this number, or the model cannot tear. O(1).
-    [[nodiscard]] std::optional<std::uint32_t> place_of(std::uint32_t number) const noexcept;
+    [[nodiscard]] CDPREP_API std::optional<std::uint32_t> place_of(
+        std::uint32_t number) const noexcept;
 
     /// Stores the triangles of a model that can tear by rising number, as many as `room` holds.
     /// Returns how many there are; 0 for a model that cannot tear. Takes O(n log n) time.
-    std::size_t triangles(std::span<LiveTriangle> room) const noexcept;
+    CDPREP_API std::size_t triangles(std::span<LiveTriangle> room) const noexcept;
 
     /// Rebuilds subtrees whose boxes have grown, so that queries stay fast. A call takes up to
     /// `most_triangles` triangles and returns how many it took. It takes whole subtrees of up to
@@ -181,11 +184,11 @@ public:
     /// Answers stay the same. Does not help if far triangles have come near each other: then
     /// surface_cost() stays high, and a new model helps. Takes O(nodes) time, and 100 ns or so for
     /// each triangle taken. Never allocates.
-    std::uint32_t rebuild(std::uint32_t most_triangles) noexcept;
+    CDPREP_API std::uint32_t rebuild(std::uint32_t most_triangles) noexcept;
 
     /// Returns build::surface_cost() of the BVH. When it has grown by half in spite of rebuild(),
     /// build a new model. Takes O(n) time.
-    [[nodiscard]] double surface_cost() const noexcept;
+    [[nodiscard]] CDPREP_API double surface_cost() const noexcept;
 
     /// Returns the bytes of the model, to store or to send. After a refit(), checksums and the
     /// volumes of components are out of date; no query reads them. This function updates both, so
@@ -193,7 +196,7 @@ public:
     /// positions and the order that rebuild() made. Takes O(bytes) time. Allocates.
     ///
     /// Fails with `bad_argument` if the model can tear: build a model of its triangles() instead.
-    [[nodiscard]] Result<std::span<const std::byte>> image();
+    [[nodiscard]] CDPREP_API Result<std::span<const std::byte>> image();
 
 private:
     struct State;

@@ -14,6 +14,7 @@
 
 #include "cdprep/advanced/model_views.h"
 #include "cdprep/ask.h"
+#include "cdprep/format/api.h"
 #include "cdprep/format/file_header.h"
 #include "cdprep/format/section_set.h"
 #include "cdprep/result.h"
@@ -93,58 +94,60 @@ public:
     /// Fails with `unreadable` if the file cannot be read, is not a finished bake, or is damaged.
     /// The same holds if an incompatible version wrote it, or another tool rewrote it. Fails with
     /// `bad_argument` if it lacks sections that options.asks needs.
-    [[nodiscard]] static Result<Model> open(const std::filesystem::path& path,
-                                            const OpenOptions& options = {});
+    [[nodiscard]] CDPREP_API static Result<Model> open(const std::filesystem::path& path,
+                                                       const OpenOptions& options = {});
 
     /// The same with options.asks = asks: opens only the sections that `asks` needs or uses.
     ///
     ///     auto arm = cdprep::Model::open("arm.cdp.h5", cdprep::Ask::collide);
-    [[nodiscard]] static Result<Model> open(const std::filesystem::path& path, Ask asks);
+    [[nodiscard]] CDPREP_API static Result<Model> open(const std::filesystem::path& path, Ask asks);
 
     /// The same with the sections of `wanted` that are present. The model serves whatever these
     /// allow.
-    [[nodiscard]] static Result<Model> open(const std::filesystem::path& path, SectionSet wanted);
+    [[nodiscard]] CDPREP_API static Result<Model> open(const std::filesystem::path& path,
+                                                       SectionSet wanted);
 #endif
 
     /// The same for bytes that the caller keeps, such as an archive or a network buffer. They must
     /// start at a multiple of format::kSectionAlignment and stay unchanged while the Model lives.
-    [[nodiscard]] static Result<Model> open(std::span<const std::byte> bytes,
-                                            const OpenOptions& options = {});
-    [[nodiscard]] static Result<Model> open(std::span<const std::byte> bytes, SectionSet wanted);
+    [[nodiscard]] CDPREP_API static Result<Model> open(std::span<const std::byte> bytes,
+                                                       const OpenOptions& options = {});
+    [[nodiscard]] CDPREP_API static Result<Model> open(std::span<const std::byte> bytes,
+                                                       SectionSet wanted);
 
 #ifndef __wasi__
     /// Maps `path` and checks its first 4,144 bytes only, whatever its size. Use it for files whose
     /// hash was verified by other means: a damaged file may crash a query.
-    [[nodiscard]] static Result<Model> open_trusted(const std::filesystem::path& path);
+    [[nodiscard]] CDPREP_API static Result<Model> open_trusted(const std::filesystem::path& path);
 #endif
 
-    Model(Model&&) noexcept;
-    Model& operator=(Model&&) noexcept;
-    ~Model();
+    CDPREP_API Model(Model&&) noexcept;
+    CDPREP_API Model& operator=(Model&&) noexcept;
+    CDPREP_API ~Model();
 
-    [[nodiscard]] std::uint32_t triangle_count() const noexcept;  ///< from the header
-    [[nodiscard]] std::uint32_t vertex_count() const noexcept;    ///< from the header
+    [[nodiscard]] CDPREP_API std::uint32_t triangle_count() const noexcept;  ///< from the header
+    [[nodiscard]] CDPREP_API std::uint32_t vertex_count() const noexcept;    ///< from the header
     /// Returns a number that is greater than all triangle numbers in answers. It is
     /// triangle_count(), unless the model is a Window's or a LiveModel that can tear.
-    [[nodiscard]] std::uint32_t triangle_number_bound() const noexcept;
+    [[nodiscard]] CDPREP_API std::uint32_t triangle_number_bound() const noexcept;
 
-    [[nodiscard]] const format::FileHeader& header() const noexcept;
+    [[nodiscard]] CDPREP_API const format::FileHeader& header() const noexcept;
 
     /// Returns the bytes of the file: mapped, copied or the caller's. find_deep_damage() and the
     /// functions of find_falsehood.h read them.
-    [[nodiscard]] std::span<const std::byte> bytes() const noexcept;
+    [[nodiscard]] CDPREP_API std::span<const std::byte> bytes() const noexcept;
 
     /// Returns the sections that were requested and are present.
-    [[nodiscard]] SectionSet sections() const noexcept;
+    [[nodiscard]] CDPREP_API SectionSet sections() const noexcept;
 
     /// Reads a byte of each page of the open sections of `wanted`, and returns how many bytes these
     /// sections have. Then the first query does not wait for the disk. Pages may be evicted later;
     /// the caller may lock them (mlock() on bytes()). A page has at least format::kPageAlignment
     /// bytes. Takes as long as the disk needs for pages that are not in memory, otherwise some
     /// nanoseconds a page. Needs no Ask. Never allocates.
-    std::size_t touch(SectionSet wanted = SectionSet::all()) const noexcept;
+    CDPREP_API std::size_t touch(SectionSet wanted = SectionSet::all()) const noexcept;
     /// The same for the sections that the queries of `asks` need or use.
-    std::size_t touch(Ask asks) const noexcept;
+    CDPREP_API std::size_t touch(Ask asks) const noexcept;
 
     /// Returns the features that this model serves, computed once at opening. A query that it does
     /// not serve aborts the program with a message (precondition.h).
@@ -157,34 +160,35 @@ public:
     }
     /// Returns why the model does not serve all of `asks`, or nothing if serves() is true.
     /// Allocates.
-    [[nodiscard]] std::optional<Refusal> refusal(Ask asks) const;
+    [[nodiscard]] CDPREP_API std::optional<Refusal> refusal(Ask asks) const;
 
     /// Views of the sections (advanced/model_views.h), for tools and for queries that the library
     /// lacks. O(1).
-    [[nodiscard]] const MeshView& mesh() const noexcept;
-    [[nodiscard]] const SourceView& source() const noexcept;
-    [[nodiscard]] const BvhView& bvh() const noexcept;
-    [[nodiscard]] const OctreeView& octree() const noexcept;
-    [[nodiscard]] const AdaptiveOctreeView& adaptive_octree() const noexcept;
-    [[nodiscard]] const TetraTreeView& tetra_tree() const noexcept;
-    [[nodiscard]] const HullView& hulls() const noexcept;
-    [[nodiscard]] const PieceView& pieces() const noexcept;
-    [[nodiscard]] const RecordView& record() const noexcept;
+    [[nodiscard]] CDPREP_API const MeshView& mesh() const noexcept;
+    [[nodiscard]] CDPREP_API const SourceView& source() const noexcept;
+    [[nodiscard]] CDPREP_API const BvhView& bvh() const noexcept;
+    [[nodiscard]] CDPREP_API const OctreeView& octree() const noexcept;
+    [[nodiscard]] CDPREP_API const AdaptiveOctreeView& adaptive_octree() const noexcept;
+    [[nodiscard]] CDPREP_API const TetraTreeView& tetra_tree() const noexcept;
+    [[nodiscard]] CDPREP_API const HullView& hulls() const noexcept;
+    [[nodiscard]] CDPREP_API const PieceView& pieces() const noexcept;
+    [[nodiscard]] CDPREP_API const RecordView& record() const noexcept;
 
     /// Returns name number `index` of instance_names, group_names or material_names, or an empty
     /// text if there is none. Takes O(index) time.
-    [[nodiscard]] std::string_view name(SectionId names, std::uint32_t index) const noexcept;
+    [[nodiscard]] CDPREP_API std::string_view name(SectionId names,
+                                                   std::uint32_t index) const noexcept;
 
     /// Returns whether a LiveModel has gained or lost triangles since it was made, or the model is
     /// a Window's. Queries about solids then give Answer::unknown unless boxes or the surface
     /// decide.
-    [[nodiscard]] bool is_torn() const noexcept;
+    [[nodiscard]] CDPREP_API bool is_torn() const noexcept;
 
     /// Returns whether bvh().leaves is not empty and holds model coordinates without loss.
-    [[nodiscard]] bool has_exact_leaves() const noexcept;
+    [[nodiscard]] CDPREP_API bool has_exact_leaves() const noexcept;
     /// Returns whether every edge is used equally often in both directions. Winding numbers then
     /// exist, and queries about solids have exact answers.
-    [[nodiscard]] bool is_balanced() const noexcept;
+    [[nodiscard]] CDPREP_API bool is_balanced() const noexcept;
 
 private:
     struct State;

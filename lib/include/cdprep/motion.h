@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "cdprep/format/api.h"
 #include "cdprep/pose.h"
 
 namespace cdprep {
@@ -18,7 +19,7 @@ public:
     /// No motion at all: the identity at all times.
     Motion() noexcept : Motion(Pose()) {}
     /// A model that stays where it is.
-    explicit Motion(const Pose& world_from_model) noexcept;
+    CDPREP_API explicit Motion(const Pose& world_from_model) noexcept;
 
     /// Makes the motion between two poses of the model. `centre` is a point of the model, in its
     /// own coordinates. The model turns the shorter way, by pi at most. Two turns by exactly pi
@@ -27,8 +28,8 @@ public:
     /// Fails with bad_argument if a number of `centre` is not finite. Also fails if the centre
     /// moves farther than format::kMaxCoordinate along an axis, or if a pose might exceed it.
     /// Allocates only on failure.
-    [[nodiscard]] static Result<Motion> between(const Pose& start, const Pose& end,
-                                                const Double3& centre = {});
+    [[nodiscard]] CDPREP_API static Result<Motion> between(const Pose& start, const Pose& end,
+                                                           const Double3& centre = {});
 
     /// Makes the motion from velocities, as a solver has them. `shift` is the displacement of the
     /// centre during the step, in model units. `turn` is a vector along the axis of the turn, in
@@ -36,14 +37,15 @@ public:
     /// turn around more than once.
     ///
     /// Fails as between(), and if `shift` or `turn` is not finite or too long.
-    [[nodiscard]] static Result<Motion> by_velocity(const Pose& start, const Double3& shift,
-                                                    const Double3& turn,
-                                                    const Double3& centre = {});
+    [[nodiscard]] CDPREP_API static Result<Motion> by_velocity(const Pose& start,
+                                                               const Double3& shift,
+                                                               const Double3& turn,
+                                                               const Double3& centre = {});
 
     /// Returns the pose at a time. At 0 and 1 it is the given start and end, bit for bit. Times
     /// outside [0, 1] count as the nearer end; NaN counts as 0. Uses the sine and cosine of the C
     /// library. So the last bits may differ between platforms.
-    [[nodiscard]] Pose at(double time) const noexcept;
+    [[nodiscard]] CDPREP_API Pose at(double time) const noexcept;
 
     static constexpr double kMostTurn = 1000;  ///< radians
 

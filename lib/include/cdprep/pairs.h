@@ -11,6 +11,7 @@
 
 #include "cdprep/advanced/pair_cache.h"
 #include "cdprep/advanced/structure.h"
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 #include "cdprep/pose.h"
 #include "cdprep/visitor.h"
@@ -95,7 +96,7 @@ struct Collision {
 /// Reads all options. Needs Ask::collide of both models; Body::solid also Ask::solid, and
 /// options.through its ask_of(). Takes O(log n) time for most poses. With a cache, takes O(1) time
 /// if the last hit recurs, or the models moved less than a proven gap. Never allocates.
-[[nodiscard]] Collision collide(const Pair& pair, Workspace& workspace) noexcept;
+[[nodiscard]] CDPREP_API Collision collide(const Pair& pair, Workspace& workspace) noexcept;
 
 /// Returns whether some component of one model lies inside the other. The surfaces of the two
 /// models must not touch.
@@ -110,7 +111,7 @@ struct Collision {
 /// ray with symbolic perturbation (Feito and Torres 1997). Reads no options. Needs Ask::solid of
 /// both models. Takes O(components (log n + hits)) time, or O(n) per component against an open
 /// model. Never allocates.
-[[nodiscard]] Containment containment(const Pair& pair, Workspace& workspace) noexcept;
+[[nodiscard]] CDPREP_API Containment containment(const Pair& pair, Workspace& workspace) noexcept;
 
 /// One triangle of each model, in source numbers.
 struct TrianglePair {
@@ -133,8 +134,8 @@ struct TrianglePair {
 /// options.through its ask_of(). Takes O(log n + pairs) time for typical meshes, O(n m) in the
 /// worst case. With a cache, a pose without contact takes as long as collide(). Through octrees and
 /// tetra-trees, it uses about 20 KiB of stack. Never allocates.
-[[nodiscard]] std::size_t overlaps(const Pair& pair, Workspace& workspace,
-                                   std::span<TrianglePair> room) noexcept;
+[[nodiscard]] CDPREP_API std::size_t overlaps(const Pair& pair, Workspace& workspace,
+                                              std::span<TrianglePair> room) noexcept;
 
 using PairVisitor = Visitor<TrianglePair>;
 
@@ -146,7 +147,7 @@ using PairVisitor = Visitor<TrianglePair>;
 ///     std::size_t count = 0;
 ///     const auto visit = [&](const cdprep::TrianglePair&) { return ++count < 1000; };
 ///     cdprep::visit_overlaps(pair, workspace, visit);
-bool visit_overlaps(const Pair& pair, Workspace& workspace, PairVisitor visit) noexcept;
+CDPREP_API bool visit_overlaps(const Pair& pair, Workspace& workspace, PairVisitor visit) noexcept;
 
 /// Marks the triangles of each model that overlap any triangle of the other, and returns the number
 /// of pairs. The mark of source triangle i is bit i % 64 of element i / 64. Clears `bits_a` and
@@ -154,8 +155,9 @@ bool visit_overlaps(const Pair& pair, Workspace& workspace, PairVisitor visit) n
 /// Model::triangle_number_bound(). A shorter array gets no marks. Faster than overlaps() if many
 /// pairs share few triangles. Reads options.overlap and degenerate. Needs Ask::overlap of both
 /// models.
-std::size_t mark_overlaps(const Pair& pair, Workspace& workspace, std::span<std::uint64_t> bits_a,
-                          std::span<std::uint64_t> bits_b) noexcept;
+CDPREP_API std::size_t mark_overlaps(const Pair& pair, Workspace& workspace,
+                                     std::span<std::uint64_t> bits_a,
+                                     std::span<std::uint64_t> bits_b) noexcept;
 
 /// Two triangles that overlap, and their common segment.
 struct Crossing {
@@ -179,13 +181,14 @@ struct Crossing {
 ///
 /// Reads options.overlap and degenerate. Needs Ask::overlap of both models. Takes some microseconds
 /// more per pair than overlaps(), and about 20 KiB of stack. Never allocates.
-[[nodiscard]] std::size_t crossings(const Pair& pair, Workspace& workspace,
-                                    std::span<Crossing> room) noexcept;
+[[nodiscard]] CDPREP_API std::size_t crossings(const Pair& pair, Workspace& workspace,
+                                               std::span<Crossing> room) noexcept;
 
 /// Calls `visit` once for each crossing that crossings() finds, as the search finds it. The order
 /// is that of visit_overlaps(). Returns false if `visit` ended the search. Reads options.overlap
 /// and degenerate. Needs Ask::overlap of both models.
-bool visit_crossings(const Pair& pair, Workspace& workspace, Visitor<Crossing> visit) noexcept;
+CDPREP_API bool visit_crossings(const Pair& pair, Workspace& workspace,
+                                Visitor<Crossing> visit) noexcept;
 
 /// The limits of a distance query. The search ends at either permitted error. With both 0, the
 /// result is as exact as double allows.
@@ -227,8 +230,8 @@ struct Distance {
 /// Needs Ask::distance of both models; Body::solid also Ask::solid, and options.through its
 /// ask_of(). Takes O(log n) time for typical meshes. Visits every triangle in the worst case,
 /// such as concentric spheres. Never allocates.
-[[nodiscard]] std::optional<Distance> distance(const Pair& pair, Workspace& workspace,
-                                               const DistanceOptions& options = {}) noexcept;
+[[nodiscard]] CDPREP_API std::optional<Distance> distance(
+    const Pair& pair, Workspace& workspace, const DistanceOptions& options = {}) noexcept;
 
 /// Returns whether two surfaces are at most `tolerance` apart, in model units; inclusive. A
 /// tolerance of 0 tests whether they touch. Returns false for a negative tolerance or NaN, and if a
@@ -241,7 +244,8 @@ struct Distance {
 /// Reads options.through; the only structure beside the BVH is Structure::pieces. Needs Ask::within
 /// of both models, and options.through its ask_of(). Takes as long as distance(), or less if the
 /// distance differs clearly from `tolerance`.
-[[nodiscard]] bool within(const Pair& pair, double tolerance, Workspace& workspace) noexcept;
+[[nodiscard]] CDPREP_API bool within(const Pair& pair, double tolerance,
+                                     Workspace& workspace) noexcept;
 
 /// Finds every pair of triangles that are at most `tolerance` apart, in model units; inclusive.
 ///
@@ -256,8 +260,9 @@ struct Distance {
 /// Needs Ask::within of both models, and options.through its ask_of(). Takes O(log n + pairs) time
 /// for typical meshes and tolerances that are small compared with them. Takes O(n m) in the worst
 /// case. Never allocates.
-[[nodiscard]] std::size_t pairs_within(const Pair& pair, double tolerance, Workspace& workspace,
-                                       std::span<TrianglePair> room) noexcept;
+[[nodiscard]] CDPREP_API std::size_t pairs_within(const Pair& pair, double tolerance,
+                                                  Workspace& workspace,
+                                                  std::span<TrianglePair> room) noexcept;
 
 /// Calls `visit` once for each pair that pairs_within() finds, as the search finds it. The order is
 /// that of visit_overlaps(). Returns false if `visit` ended the search. Reads the same options as
@@ -269,7 +274,7 @@ struct Distance {
 ///         return true;
 ///     };
 ///     cdprep::visit_pairs_within(pair, 0.25, workspace, visit);
-bool visit_pairs_within(const Pair& pair, double tolerance, Workspace& workspace,
-                        PairVisitor visit) noexcept;
+CDPREP_API bool visit_pairs_within(const Pair& pair, double tolerance, Workspace& workspace,
+                                   PairVisitor visit) noexcept;
 
 }  // namespace cdprep

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/format/api.h"
 #include "cdprep/pairs.h"
 
 namespace cdprep {
@@ -19,9 +20,10 @@ namespace cdprep {
 /// A task that starts late finds less work or none. If `room` is not empty but too short, one
 /// thread repeats the query to keep the smallest pairs. Reads options.overlap and degenerate. Needs
 /// Ask::overlap of both models. Never allocates.
-[[nodiscard]] std::size_t split_overlaps(const Pair& pair, std::span<Workspace> workspaces,
-                                         ParallelFor parallel_for,
-                                         std::span<TrianglePair> room) noexcept;
+[[nodiscard]] CDPREP_API std::size_t split_overlaps(const Pair& pair,
+                                                    std::span<Workspace> workspaces,
+                                                    ParallelFor parallel_for,
+                                                    std::span<TrianglePair> room) noexcept;
 
 /// Runs collide() for many pairs: stores the result for pairs[i] in answers[i]. The results are
 /// those of single calls and do not depend on the threads. Pairs may share models freely: a batch
@@ -36,22 +38,24 @@ namespace cdprep {
 ///     std::vector<cdprep::Workspace> workspaces(4);
 ///     std::vector<cdprep::Collision> answers(pairs.size());
 ///     cdprep::collide_many(pairs, workspaces, run, answers);  // run: see ParallelFor
-void collide_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
-                  ParallelFor parallel_for, std::span<Collision> answers) noexcept;
+CDPREP_API void collide_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
+                             ParallelFor parallel_for, std::span<Collision> answers) noexcept;
 
 /// Runs distance() for many pairs. Needs Ask::distance of both models of a pair.
-void distance_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
-                   ParallelFor parallel_for, std::span<std::optional<Distance>> answers,
-                   const DistanceOptions& options = {}) noexcept;
+CDPREP_API void distance_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
+                              ParallelFor parallel_for, std::span<std::optional<Distance>> answers,
+                              const DistanceOptions& options = {}) noexcept;
 
 /// Runs within() for many pairs. Needs Ask::within of both models of a pair.
-void within_many(std::span<const Pair> pairs, double tolerance, std::span<Workspace> workspaces,
-                 ParallelFor parallel_for, std::span<bool> answers) noexcept;
+CDPREP_API void within_many(std::span<const Pair> pairs, double tolerance,
+                            std::span<Workspace> workspaces, ParallelFor parallel_for,
+                            std::span<bool> answers) noexcept;
 
 /// Runs overlaps() with an empty room for many pairs, and stores the numbers of triangle pairs.
 /// Needs Ask::overlap of both models of a pair.
-void count_overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
-                         ParallelFor parallel_for, std::span<std::size_t> counts) noexcept;
+CDPREP_API void count_overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
+                                    ParallelFor parallel_for,
+                                    std::span<std::size_t> counts) noexcept;
 
 /// The overlapping triangles of one pair of models.
 struct OverlapList {
@@ -60,8 +64,8 @@ struct OverlapList {
 };
 
 /// Runs overlaps() for many pairs. Needs Ask::overlap of both models of a pair.
-void overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
-                   ParallelFor parallel_for, std::span<OverlapList> answers) noexcept;
+CDPREP_API void overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
+                              ParallelFor parallel_for, std::span<OverlapList> answers) noexcept;
 
 /// The marks that mark_overlaps() makes.
 struct OverlapMarks {
@@ -71,7 +75,8 @@ struct OverlapMarks {
 };
 
 /// Runs mark_overlaps() for many pairs. Needs Ask::overlap of both models of a pair.
-void mark_overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
-                        ParallelFor parallel_for, std::span<OverlapMarks> answers) noexcept;
+CDPREP_API void mark_overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
+                                   ParallelFor parallel_for,
+                                   std::span<OverlapMarks> answers) noexcept;
 
 }  // namespace cdprep

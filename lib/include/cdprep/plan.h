@@ -13,6 +13,7 @@
 #include "cdprep/ask.h"
 #include "cdprep/broad_phase.h"
 #include "cdprep/contacts.h"
+#include "cdprep/format/api.h"
 #include "cdprep/pairs.h"
 #include "cdprep/time_of_impact.h"
 
@@ -100,7 +101,7 @@ public:
     /// layers, a pair of layers that occurs twice, effects that are not built, and numbers out of
     /// range. Also refuses options that no effect reads, and models that do not serve an effect of
     /// their layers.
-    [[nodiscard]] static Compiled compile(const PlanOptions& options);
+    [[nodiscard]] CDPREP_API static Compiled compile(const PlanOptions& options);
 
     [[nodiscard]] const SceneLimits& limits() const noexcept {
         return limits_;
@@ -114,24 +115,24 @@ public:
     }
     /// Returns the number of the pair of two layers among pairs(), or nothing if they are not
     /// paired.
-    [[nodiscard]] std::optional<std::uint32_t> find_pair(std::uint32_t a,
-                                                         std::uint32_t b) const noexcept;
+    [[nodiscard]] CDPREP_API std::optional<std::uint32_t> find_pair(std::uint32_t a,
+                                                                    std::uint32_t b) const noexcept;
     /// Returns what the objects of a layer are asked for: open their models for this.
-    [[nodiscard]] Ask asks_of(std::uint32_t layer) const noexcept;
+    [[nodiscard]] CDPREP_API Ask asks_of(std::uint32_t layer) const noexcept;
     /// Returns the layers with which a layer is paired. A pair counts as none if it asks for no
     /// effect of two objects, but for `self`, Ask::deform or Ask::tear.
-    [[nodiscard]] BoxFilter filter_of(std::uint32_t layer) const noexcept;
+    [[nodiscard]] CDPREP_API BoxFilter filter_of(std::uint32_t layer) const noexcept;
     /// Returns the margin by which the boxes of a layer's objects are enlarged, in units of the
     /// models.
-    [[nodiscard]] double reach_of(std::uint32_t layer) const noexcept;
+    [[nodiscard]] CDPREP_API double reach_of(std::uint32_t layer) const noexcept;
     /// Returns the layers whose pairs ask for any of these effects: bit i for layer i.
-    [[nodiscard]] std::uint32_t layers_of(Ask effects) const noexcept;
+    [[nodiscard]] CDPREP_API std::uint32_t layers_of(Ask effects) const noexcept;
     /// Returns all effects of all pairs.
-    [[nodiscard]] Ask effects() const noexcept;
+    [[nodiscard]] CDPREP_API Ask effects() const noexcept;
 
     /// Returns a page of text. It lists the effects of each pair of layers and the queries that
     /// run, then what is not computed.
-    [[nodiscard]] std::string describe() const;
+    [[nodiscard]] CDPREP_API std::string describe() const;
 
 private:
     explicit Plan(const PlanOptions& options);

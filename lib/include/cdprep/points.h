@@ -9,6 +9,7 @@
 #include <span>
 #include <variant>
 
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 #include "cdprep/pairs.h"
 #include "cdprep/pose.h"
@@ -45,7 +46,7 @@ struct ClosestPoint {
 ///     if (auto near = cdprep::closest_point(model, {0, 0, 2}, workspace)) {
 ///         std::cout << "triangle " << near->triangle << " at " << near->upper << '\n';
 ///     }
-[[nodiscard]] std::optional<ClosestPoint> closest_point(
+[[nodiscard]] CDPREP_API std::optional<ClosestPoint> closest_point(
     const Model& model, const Double3& query, Workspace& workspace,
     double max_distance = std::numeric_limits<double>::infinity()) noexcept;
 
@@ -67,8 +68,9 @@ struct Inclusion {
 /// Ask::inside and ask_of() the structure. The BVH takes O(log n + hits) time, a tetra-tree O(level
 /// + triangles in one cone). An octree takes O(cells along the ray + their triangles).
 /// QueryCounts::ray_triangles counts these triangles. Never allocates.
-[[nodiscard]] Inclusion points_inside(const Model& model, const Double3& p, Workspace& workspace,
-                                      Structure through = Structure::bvh) noexcept;
+[[nodiscard]] CDPREP_API Inclusion points_inside(const Model& model, const Double3& p,
+                                                 Workspace& workspace,
+                                                 Structure through = Structure::bvh) noexcept;
 
 /// A half-line: origin + t * direction, t >= 0, in model coordinates. If the model moves, transform
 /// the ray back into its frame.
@@ -84,7 +86,7 @@ struct RayHit {
     std::uint32_t triangle;  ///< source number
 
     /// Compares by t, then by triangle.
-    friend bool operator<(const RayHit& a, const RayHit& b) noexcept;
+    CDPREP_API friend bool operator<(const RayHit& a, const RayHit& b) noexcept;
 };
 
 struct RayOptions {
@@ -105,31 +107,31 @@ struct RayOptions {
 /// never hit, and a direction of zero hits nothing.
 ///
 /// Needs Ask::ray. Takes O(log n) time for typical meshes. Never allocates.
-[[nodiscard]] std::optional<RayHit> cast_ray(const Model& model, const Ray& ray,
-                                             Workspace& workspace,
-                                             const RayOptions& options = {}) noexcept;
+[[nodiscard]] CDPREP_API std::optional<RayHit> cast_ray(const Model& model, const Ray& ray,
+                                                        Workspace& workspace,
+                                                        const RayOptions& options = {}) noexcept;
 
 /// Returns whether `ray` hits any triangle, that is, whether cast_ray() would return a hit. Exact
 /// if max_t is infinite. Stops at the first hit found: it is faster than cast_ray(), and sufficient
 /// for shadows and lines of sight. Needs Ask::ray.
-[[nodiscard]] bool ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
-                            const RayOptions& options = {}) noexcept;
+[[nodiscard]] CDPREP_API bool ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
+                                       const RayOptions& options = {}) noexcept;
 
 /// Finds every triangle that `ray` hits, each once, at its first point on the ray.
 ///
 /// Returns the number of hits. Sorts the hits by t, then by triangle, and stores as many of the
 /// first ones as fit in `hits`. With an empty span it only counts. Hits are decided exactly, as in
 /// cast_ray(). A ray through an edge or vertex hits all triangles there. Needs Ask::ray.
-[[nodiscard]] std::size_t all_ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
-                                       std::span<RayHit> hits,
-                                       const RayOptions& options = {}) noexcept;
+[[nodiscard]] CDPREP_API std::size_t all_ray_hits(const Model& model, const Ray& ray,
+                                                  Workspace& workspace, std::span<RayHit> hits,
+                                                  const RayOptions& options = {}) noexcept;
 
 using RayVisitor = Visitor<RayHit>;
 
 /// Calls `visit` with every hit that all_ray_hits() finds, as it is found, in no particular order.
 /// Returns false if `visit` ended the search. Needs Ask::ray.
-bool visit_ray_hits(const Model& model, const Ray& ray, Workspace& workspace, RayVisitor visit,
-                    const RayOptions& options = {}) noexcept;
+CDPREP_API bool visit_ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
+                               RayVisitor visit, const RayOptions& options = {}) noexcept;
 
 /// A solid box along the world axes. Limits may be infinite. With lower > upper on any axis, or a
 /// NaN, it is no box and touches nothing. Equal limits make it flat, a segment or a point.
@@ -182,24 +184,26 @@ struct ShapeOptions {
 /// world_from_model).
 ///
 /// Needs Ask::touch. Takes O(log n) time for most hits and misses. Never allocates.
-[[nodiscard]] bool touches(const Model& model, const Shape& shape, Workspace& workspace,
-                           const ShapeOptions& options = {}) noexcept;
+[[nodiscard]] CDPREP_API bool touches(const Model& model, const Shape& shape, Workspace& workspace,
+                                      const ShapeOptions& options = {}) noexcept;
 
 /// Finds every triangle of `model` that has a point in common with `shape`.
 ///
 /// Returns the number of triangles. Stores the smallest of their source numbers, sorted, in `room`.
 /// With an empty span it only counts. As exact as touches(). Needs Ask::touch.
-[[nodiscard]] std::size_t touching_triangles(const Model& model, const Shape& shape,
-                                             Workspace& workspace, std::span<std::uint32_t> room,
-                                             const ShapeOptions& options = {}) noexcept;
+[[nodiscard]] CDPREP_API std::size_t touching_triangles(const Model& model, const Shape& shape,
+                                                        Workspace& workspace,
+                                                        std::span<std::uint32_t> room,
+                                                        const ShapeOptions& options = {}) noexcept;
 
 /// Receives the source number of a triangle.
 using TriangleVisitor = Visitor<std::uint32_t>;
 
 /// Calls `visit` with every triangle that touching_triangles() finds, each once, as it is found, in
 /// no particular order. Returns false if `visit` ended the search. Needs Ask::touch.
-bool visit_touching_triangles(const Model& model, const Shape& shape, Workspace& workspace,
-                              TriangleVisitor visit, const ShapeOptions& options = {}) noexcept;
+CDPREP_API bool visit_touching_triangles(const Model& model, const Shape& shape,
+                                         Workspace& workspace, TriangleVisitor visit,
+                                         const ShapeOptions& options = {}) noexcept;
 
 /// The distance of a shape from a surface, and points where it is attained.
 struct ShapeDistance {
@@ -225,7 +229,7 @@ struct ShapeDistance {
 ///
 /// Needs Ask::touch. Visits every triangle in the worst case. A box that does not touch takes
 /// twelve triangle queries, each limited to the smallest distance found before. Never allocates.
-[[nodiscard]] std::optional<ShapeDistance> shape_distance(
+[[nodiscard]] CDPREP_API std::optional<ShapeDistance> shape_distance(
     const Model& model, const Shape& shape, Workspace& workspace,
     const ShapeOptions& options = {}) noexcept;
 

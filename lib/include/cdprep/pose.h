@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "cdprep/format/api.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/result.h"
 
@@ -21,13 +22,14 @@ public:
     /// Makes a pose from R row by row, then T, in model units. Fails with bad_argument if a number
     /// is not finite or beyond format::kMaxCoordinate; the message names that number. Also fails if
     /// an entry of |R^T R - I| exceeds kRotationTolerance, or R mirrors.
-    [[nodiscard]] static Result<Pose> from_rows(const std::array<double, 12>& rows);
+    [[nodiscard]] CDPREP_API static Result<Pose> from_rows(const std::array<double, 12>& rows);
 
     /// Makes a pose from any quaternion w + xi + yj + zk except zero; its length does not matter.
     /// Fails with bad_argument if a number is not finite, all four are zero, or the translation is
     /// beyond format::kMaxCoordinate. Each entry of R is within kQuaternionError of the exact one.
-    [[nodiscard]] static Result<Pose> from_quaternion(double w, double x, double y, double z,
-                                                      const Double3& translation);
+    [[nodiscard]] CDPREP_API static Result<Pose> from_quaternion(double w, double x, double y,
+                                                                 double z,
+                                                                 const Double3& translation);
 
     /// Returns R row by row.
     [[nodiscard]] constexpr const std::array<double, 9>& rotation() const noexcept {
@@ -50,22 +52,24 @@ private:
     std::array<double, 9> rotation_ = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     Double3 translation_ = {0, 0, 0};
 
-    friend Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept;
+    CDPREP_API friend Pose relative_pose(const Pose& world_from_a,
+                                         const Pose& world_from_b) noexcept;
 };
 
 /// Returns a_from_b = world_from_a^-1 world_from_b. Computes R = Ra^T Rb and T = Ra^T (Tb - Ta) in
 /// double, each sum from left to right. The relative rounding error is about 1e-16. If parts of one
 /// turned assembly must still touch, use Placement::world.
-[[nodiscard]] Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept;
+[[nodiscard]] CDPREP_API Pose relative_pose(const Pose& world_from_a,
+                                            const Pose& world_from_b) noexcept;
 
 /// Returns the pose that moves by `b_from_c` first and then by `a_from_b`, by one fixed formula in
 /// double. If an entry of |R^T R - I| exceeds 1e-13, R is replaced by the nearest rotation. So
 /// chains of any length stay rigid. Fails with bad_argument if the translation exceeds
 /// format::kMaxCoordinate.
-[[nodiscard]] Result<Pose> composed_pose(const Pose& a_from_b, const Pose& b_from_c);
+[[nodiscard]] CDPREP_API Result<Pose> composed_pose(const Pose& a_from_b, const Pose& b_from_c);
 
 /// Returns the inverse pose: R^T and -(R^T T), computed and corrected as in composed_pose().
-[[nodiscard]] Result<Pose> inverse_pose(const Pose& a_from_b);
+[[nodiscard]] CDPREP_API Result<Pose> inverse_pose(const Pose& a_from_b);
 
 /// The order of the sixteen numbers of a matrix.
 enum class MatrixLayout : std::uint8_t {
@@ -87,14 +91,15 @@ inline constexpr double kGreatestPoseTolerance = 0.25;
 /// Fails with bad_argument, and states the reason, if the matrix scales, shears, mirrors or
 /// projects by more than that. Also fails if a number is not finite or beyond
 /// format::kMaxCoordinate, or the tolerance is out of range.
-[[nodiscard]] Result<Pose> nearest_pose(const std::array<double, 16>& matrix, double tolerance,
-                                        MatrixLayout layout = MatrixLayout::rows);
+[[nodiscard]] CDPREP_API Result<Pose> nearest_pose(const std::array<double, 16>& matrix,
+                                                   double tolerance,
+                                                   MatrixLayout layout = MatrixLayout::rows);
 
 /// Returns the point p moved by `pose`. Its coordinates are ((R00 x + R01 y) + R02 z) + T0 and so
 /// on, in double without contraction. Queries are exact for the points that this function returns
 /// (level E1 of GLOSSARY.md). Neither compiler options nor the caller's floating-point environment
 /// change them.
-[[nodiscard]] Double3 transform_point(const Pose& pose, const Double3& p) noexcept;
+[[nodiscard]] CDPREP_API Double3 transform_point(const Pose& pose, const Double3& p) noexcept;
 
 /// The poses of two models, and which of the models moves.
 ///

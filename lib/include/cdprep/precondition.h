@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cdprep/format/api.h"
+
 namespace cdprep {
 
 /// Receives one sentence when a C++ query is called but the model or the workspace cannot serve it.
@@ -11,6 +13,6 @@ using PreconditionHandler = void (*)(const char* sentence);
 /// Sets the process-wide handler and returns the previous one. Null sets the default, which prints
 /// the sentence to standard error. Any thread may call it. This handler is the library's only
 /// mutable global. The C API never calls it, but returns CDPREP_BAD_ARGUMENT.
-PreconditionHandler set_precondition_handler(PreconditionHandler handler) noexcept;
+CDPREP_API PreconditionHandler set_precondition_handler(PreconditionHandler handler) noexcept;
 
 }  // namespace cdprep

@@ -12,6 +12,7 @@
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/bounded_distance.h"
 #include "cdprep/contacts.h"
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 #include "cdprep/pairs.h"
 #include "cdprep/plan.h"
@@ -157,7 +158,7 @@ struct SceneCounts {
     std::uint64_t list_ticks = 0;   ///< of lists and events
 
     /// Returns the calls of one effect; 0 if it is none of kSceneEffects.
-    [[nodiscard]] std::uint64_t calls_of(Ask effect) const noexcept;
+    [[nodiscard]] CDPREP_API std::uint64_t calls_of(Ask effect) const noexcept;
 };
 
 /// The result of Scene::step(). If it is not complete, nothing has changed, and the limits that
@@ -183,84 +184,87 @@ struct SceneStep {
 class Scene {
 public:
     /// Allocates the memory for plan.limits(). The plan must outlive the scene, unchanged.
-    explicit Scene(const Plan& plan);
+    CDPREP_API explicit Scene(const Plan& plan);
     explicit Scene(Plan&& plan) = delete;
 
     /// Makes a scene in the caller's memory. The memory and the plan must outlive it. Returns
     /// nothing if the memory is smaller than size() or not aligned to alignment().
-    [[nodiscard]] static std::optional<Scene> in_memory(std::span<std::byte> memory,
-                                                        const Plan& plan) noexcept;
+    [[nodiscard]] CDPREP_API static std::optional<Scene> in_memory(std::span<std::byte> memory,
+                                                                   const Plan& plan) noexcept;
     static std::optional<Scene> in_memory(std::span<std::byte> memory, Plan&& plan) = delete;
-    [[nodiscard]] static std::size_t size(const Plan& plan) noexcept;  ///< bytes
-    [[nodiscard]] static std::size_t alignment() noexcept;             ///< bytes, a power of two
+    [[nodiscard]] CDPREP_API static std::size_t size(const Plan& plan) noexcept;  ///< bytes
+    [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two
 
-    Scene(Scene&&) noexcept;
-    Scene& operator=(Scene&&) noexcept;
-    ~Scene();
+    CDPREP_API Scene(Scene&&) noexcept;
+    CDPREP_API Scene& operator=(Scene&&) noexcept;
+    CDPREP_API ~Scene();
 
     /// Adds an object to the lowest free slot. Returns nothing if the scene is full. Stops the
     /// program if the layer is unknown, or the model does not serve what the layer asks for.
-    std::optional<ObjectId> add(const SceneObject& object) noexcept;
+    CDPREP_API std::optional<ObjectId> add(const SceneObject& object) noexcept;
     /// Removes an object. The next step ends its events. Returns false if there is none with this
     /// id.
-    bool remove(ObjectId object) noexcept;
+    CDPREP_API bool remove(ObjectId object) noexcept;
     /// Moves an object. Returns false if there is none with this id. For `continuous`, its way
     /// begins at its pose in the last complete step. After put(), it begins where put() left it.
     /// It moves as Motion::between() says. The centre is that of the model's box.
-    bool set_pose(ObjectId object, const Pose& world_from_model) noexcept;
+    CDPREP_API bool set_pose(ObjectId object, const Pose& world_from_model) noexcept;
     /// Puts an object at a pose, without a way for `continuous`. Returns false if there is none
     /// with this id.
-    bool put(ObjectId object, const Pose& world_from_model) noexcept;
+    CDPREP_API bool put(ObjectId object, const Pose& world_from_model) noexcept;
     /// Changes the layer of an object. Returns false if there is none with this id. Stops the
     /// program as add() does.
-    bool set_layer(ObjectId object, std::uint32_t layer) noexcept;
+    CDPREP_API bool set_layer(ObjectId object, std::uint32_t layer) noexcept;
 
     /// Pauses these effects from the next step on, and resumes all others. Paused effects are not
     /// computed, and their events end. Effects that the plan does not ask for stay as they are.
-    void set_paused(Ask effects) noexcept;
+    CDPREP_API void set_paused(Ask effects) noexcept;
 
     /// Sets the clock for the ticks of SceneCounts. Null, as at first: no clock is read.
-    void set_clock(SceneClock clock) noexcept;
+    CDPREP_API void set_clock(SceneClock clock) noexcept;
 
     /// Computes the effects of all objects as they are now. Uses as many workspaces as
     /// limits.threads allows; there must be at least one. Calls `parallel_for` at most five times.
-    SceneStep step(std::span<Workspace> workspaces, ParallelFor parallel_for = serial_for) noexcept;
+    CDPREP_API SceneStep step(std::span<Workspace> workspaces,
+                              ParallelFor parallel_for = serial_for) noexcept;
     /// Does the same with pairs of slots that the caller's own broad phase found. The pairs may
     /// have any order, and so may the two slots of a pair. They must contain all pairs whose boxes
     /// meet; a pair that is missing is ignored. Pairs of free slots, of layers that are not paired
     /// and of boxes that do not meet are ignored. If pairs are listed twice, needed_pairs may be
     /// larger than is needed.
-    SceneStep step_with(std::span<const BoxPair> candidates, std::span<Workspace> workspaces,
-                        ParallelFor parallel_for = serial_for) noexcept;
+    CDPREP_API SceneStep step_with(std::span<const BoxPair> candidates,
+                                   std::span<Workspace> workspaces,
+                                   ParallelFor parallel_for = serial_for) noexcept;
     /// Returns the box of each slot in the next step, for such a broad phase, relative to the
     /// plan's origin. With `continuous`, a box contains the whole way. Free slots have absent
     /// boxes.
-    [[nodiscard]] std::span<const WorldBox> boxes() noexcept;
+    [[nodiscard]] CDPREP_API std::span<const WorldBox> boxes() noexcept;
 
-    [[nodiscard]] std::span<const SceneHit> hits() const noexcept;
-    [[nodiscard]] std::span<const SceneOverlaps> overlaps() const noexcept;
-    [[nodiscard]] std::span<const SceneDistance> distances() const noexcept;
-    [[nodiscard]] std::span<const SceneSelfOverlaps> self_overlaps() const noexcept;
-    [[nodiscard]] std::span<const SceneImpact> impacts() const noexcept;
-    [[nodiscard]] std::span<const SceneBoundedDistance> bounded_distances() const noexcept;
+    [[nodiscard]] CDPREP_API std::span<const SceneHit> hits() const noexcept;
+    [[nodiscard]] CDPREP_API std::span<const SceneOverlaps> overlaps() const noexcept;
+    [[nodiscard]] CDPREP_API std::span<const SceneDistance> distances() const noexcept;
+    [[nodiscard]] CDPREP_API std::span<const SceneSelfOverlaps> self_overlaps() const noexcept;
+    [[nodiscard]] CDPREP_API std::span<const SceneImpact> impacts() const noexcept;
+    [[nodiscard]] CDPREP_API std::span<const SceneBoundedDistance> bounded_distances()
+        const noexcept;
     /// If options.work ended the search for two objects, they are listed without contacts.
-    [[nodiscard]] std::span<const SceneContacts> contacts() const noexcept;
+    [[nodiscard]] CDPREP_API std::span<const SceneContacts> contacts() const noexcept;
     /// The events of the last step that was complete, in the order of hits. For the same objects,
     /// first what ends, then what stays, then what begins.
-    [[nodiscard]] std::span<const SceneEvent> events() const noexcept;
-    [[nodiscard]] const SceneCounts& counts() const noexcept;
-    [[nodiscard]] std::uint32_t object_count() const noexcept;
+    [[nodiscard]] CDPREP_API std::span<const SceneEvent> events() const noexcept;
+    [[nodiscard]] CDPREP_API const SceneCounts& counts() const noexcept;
+    [[nodiscard]] CDPREP_API std::uint32_t object_count() const noexcept;
     /// Returns the model of an object, or null if there is none with this id.
-    [[nodiscard]] const Model* model_of(ObjectId object) const noexcept;
+    [[nodiscard]] CDPREP_API const Model* model_of(ObjectId object) const noexcept;
     /// Returns an object as it is now, or nothing if there is none with this id.
-    [[nodiscard]] std::optional<SceneObject> find(ObjectId object) const noexcept;
+    [[nodiscard]] CDPREP_API std::optional<SceneObject> find(ObjectId object) const noexcept;
     /// Returns the object in a slot, or the id of no object if there is none.
-    [[nodiscard]] ObjectId object_at(std::uint32_t slot) const noexcept;
+    [[nodiscard]] CDPREP_API ObjectId object_at(std::uint32_t slot) const noexcept;
     /// Returns a hash of all hits, lists, distances, impacts and events. It leaves out witness
     /// points, features, the points of manifolds and the bounds of impacts. It is equal for any
     /// number of threads and any instruction set. Exceptions are answers of `haptic` and impacts
     /// that are `near`: they may differ between instruction sets.
-    [[nodiscard]] std::uint64_t state_hash() const noexcept;
+    [[nodiscard]] CDPREP_API std::uint64_t state_hash() const noexcept;
 
 private:
     struct State;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "cdprep/format/api.h"
 #include "cdprep/pairs.h"
 
 namespace cdprep {
@@ -32,15 +33,15 @@ struct SelfOptions {
 /// Reads both options. Needs Ask::overlap and Ask::corners. A file baked for overlap alone may lack
 /// the numbers of vertices. Takes O(n + pairs) time for typical meshes, O(n^2) in the worst case.
 /// Never allocates.
-[[nodiscard]] std::size_t self_overlaps(const Model& model, Workspace& workspace,
-                                        std::span<TrianglePair> room,
-                                        const SelfOptions& options = {}) noexcept;
+[[nodiscard]] CDPREP_API std::size_t self_overlaps(const Model& model, Workspace& workspace,
+                                                   std::span<TrianglePair> room,
+                                                   const SelfOptions& options = {}) noexcept;
 
 /// Calls `visit` once for each pair that self_overlaps() finds, as the search finds it. Stores and
 /// sorts nothing. The order is the same for equal input on equal processors, otherwise unspecified.
 /// Returns false if `visit` ended the search. Reads both options. Needs Ask::overlap and
 /// Ask::corners. Never allocates.
-bool visit_self_overlaps(const Model& model, Workspace& workspace, PairVisitor visit,
-                         const SelfOptions& options = {}) noexcept;
+CDPREP_API bool visit_self_overlaps(const Model& model, Workspace& workspace, PairVisitor visit,
+                                    const SelfOptions& options = {}) noexcept;
 
 }  // namespace cdprep

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "cdprep/format/api.h"
 #include "cdprep/motion.h"
 #include "cdprep/pairs.h"
 
@@ -28,22 +29,22 @@ namespace cdprep {
 class Sweep {
 public:
     /// Returns the number of bytes that in() takes: 24 per vertex and about 4 per triangle.
-    [[nodiscard]] static std::size_t bytes(const Model& model) noexcept;
+    [[nodiscard]] CDPREP_API static std::size_t bytes(const Model& model) noexcept;
 
     /// Makes the sweep of a model that deforms in place, such as that of a LiveModel. The model
     /// must outlive it. `memory` must start at a multiple of format::kSectionAlignment. Returns
     /// nothing if it is too small or misaligned. Needs Ask::within and Ask::corners of the model.
     /// At first, nothing moves.
-    [[nodiscard]] static std::optional<Sweep> in(std::span<std::byte> memory,
-                                                 const Model& model) noexcept;
+    [[nodiscard]] CDPREP_API static std::optional<Sweep> in(std::span<std::byte> memory,
+                                                            const Model& model) noexcept;
 
     /// Begins a step: the positions of the model are those at time 0. Takes O(vertices) time.
-    void begin() noexcept;
+    CDPREP_API void begin() noexcept;
 
     /// Ends the step: the positions of the model are those at time 1. A triangle that was appended
     /// within the step starts at its vertices' positions at time 0. Vertices that had none start at
     /// the origin. Takes O(n) time.
-    void end() noexcept;
+    CDPREP_API void end() noexcept;
 
     [[nodiscard]] const Model& model() const noexcept {
         return *model_;
@@ -73,16 +74,17 @@ private:
 ///
 /// Needs Ask::within of B. Takes as long as within() with a tolerance of half of B's motion. Each
 /// pair of triangles near each other takes about 1 us more for each part. Never allocates.
-[[nodiscard]] bool may_touch(const Sweep& sweep, const Model& b, const Motion& motion,
-                             Workspace& workspace) noexcept;
+[[nodiscard]] CDPREP_API bool may_touch(const Sweep& sweep, const Model& b, const Motion& motion,
+                                        Workspace& workspace) noexcept;
 
 /// Finds every pair of triangles that may touch during the step, as may_touch(). Returns the number
 /// of pairs and stores the first of them in `room`, as overlaps() does. Triangle `a` is of the
 /// deforming model.
 ///
 /// Needs Ask::within of B.
-[[nodiscard]] std::size_t pairs_that_may_touch(const Sweep& sweep, const Model& b,
-                                               const Motion& motion, Workspace& workspace,
-                                               std::span<TrianglePair> room) noexcept;
+[[nodiscard]] CDPREP_API std::size_t pairs_that_may_touch(const Sweep& sweep, const Model& b,
+                                                          const Motion& motion,
+                                                          Workspace& workspace,
+                                                          std::span<TrianglePair> room) noexcept;
 
 }  // namespace cdprep

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "cdprep/format/api.h"
 #include "cdprep/motion.h"
 #include "cdprep/pairs.h"
 
@@ -72,7 +73,7 @@ struct Impact {
 /// step, most of them with a PairCache, and one for the nearest points. Near a contact it also
 /// takes some collide() queries. A pair that passes without coming near takes 2 or 3 steps, an
 /// impact 10 or so. Never allocates.
-[[nodiscard]] Impact time_of_impact(const MovingPair& pair, Workspace& workspace,
-                                    const ImpactOptions& options = {}) noexcept;
+[[nodiscard]] CDPREP_API Impact time_of_impact(const MovingPair& pair, Workspace& workspace,
+                                               const ImpactOptions& options = {}) noexcept;
 
 }  // namespace cdprep

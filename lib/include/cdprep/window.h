@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cdprep/bounded_distance.h"
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 #include "cdprep/pairs.h"
 #include "cdprep/result.h"
@@ -61,17 +62,18 @@ class Window {
 public:
     /// Returns the number of bytes that in() takes: about 1,100 for each leaf. Fails as in().
     /// Allocates as much while it runs.
-    [[nodiscard]] static Result<std::size_t> bytes(const WindowLimits& limits);
+    [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const WindowLimits& limits);
 
     /// Makes an empty window. `memory` must start at a multiple of format::kSectionAlignment and
     /// stay in place while the window lives. Writes all of it, so that no later fill is the first
     /// to touch a page. Allocates. Fails with `bad_argument` if `memory` is too small or
     /// misaligned, or if there are no leaves, or more than kMostWindowLeaves.
-    [[nodiscard]] static Result<Window> in(std::span<std::byte> memory, const WindowLimits& limits);
+    [[nodiscard]] CDPREP_API static Result<Window> in(std::span<std::byte> memory,
+                                                      const WindowLimits& limits);
 
-    Window(Window&&) noexcept;
-    Window& operator=(Window&&) noexcept;
-    ~Window();
+    CDPREP_API Window(Window&&) noexcept;
+    CDPREP_API Window& operator=(Window&&) noexcept;
+    CDPREP_API ~Window();
 
     /// Fills the window with the leaves of pair.a that may be at most `radius` from pair.b, in
     /// model units. If they do not fit, halves the radius until they do, then tries four radii
@@ -81,13 +83,13 @@ public:
     ///
     /// Needs Ask::distance of both models. Takes O(log n + leaves log m) time for n triangles of A
     /// and m of B. Never allocates.
-    WindowFill fill(const Pair& pair, double radius) noexcept;
+    CDPREP_API WindowFill fill(const Pair& pair, double radius) noexcept;
 
     /// Returns what the last fill() returned.
-    [[nodiscard]] WindowFill filled() const noexcept;
+    [[nodiscard]] CDPREP_API WindowFill filled() const noexcept;
 
     /// Returns the model to query. It is the same object after each fill().
-    [[nodiscard]] const Model& model() const noexcept;
+    [[nodiscard]] CDPREP_API const Model& model() const noexcept;
 
     /// Returns the distance from the probe within which the window has everything of A, in model
     /// units. It is the radius, minus the largest displacement of a point of the probe's box since
@@ -96,7 +98,8 @@ public:
     ///
     /// Negative if the probe has moved too far. Minus infinity for another probe, or one that has
     /// deformed since. Infinity if A or the probe is empty. O(1).
-    [[nodiscard]] double margin(const Model& probe, const Placement& placement) const noexcept;
+    [[nodiscard]] CDPREP_API double margin(const Model& probe,
+                                           const Placement& placement) const noexcept;
 
     /// Returns the distance of A, as it was when the window was filled, and pair.b. Requires that
     /// pair.a is model(): otherwise the program stops with a message.
@@ -107,9 +110,9 @@ public:
     /// errors are permitted. Otherwise the bounds are those of the window, with `lower` at most
     /// margin(). Reads the same options, and needs the same Ask. Takes as long as
     /// bounded_distance() of the window. Never allocates.
-    [[nodiscard]] BoundedDistance distance(const Pair& pair, Workspace& workspace,
-                                           const DistanceOptions& options = {},
-                                           const DistanceBudget& budget = {}) const noexcept;
+    [[nodiscard]] CDPREP_API BoundedDistance
+    distance(const Pair& pair, Workspace& workspace, const DistanceOptions& options = {},
+             const DistanceBudget& budget = {}) const noexcept;
 
 private:
     struct State;

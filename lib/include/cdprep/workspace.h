@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 
+#include "cdprep/format/api.h"
+
 namespace cdprep {
 
 struct CellSearches;
@@ -18,29 +20,30 @@ struct QueryCounts;
 class Workspace {
 public:
     /// Makes a workspace for every query except those through octrees and tetra-trees.
-    Workspace();
+    CDPREP_API Workspace();
 
     /// Makes a workspace that also serves queries through octrees and tetra-trees. It takes 360 KiB
     /// more. `cells` is cells() of <cdprep/cells.h>.
     ///
     ///     cdprep::Workspace workspace(cdprep::cells());
-    explicit Workspace(const CellSearches& cells);
+    CDPREP_API explicit Workspace(const CellSearches& cells);
 
     /// Makes a workspace in the caller's memory, which must outlive it. Allocates nothing. Returns
     /// nothing if the memory is smaller than size() or not aligned to alignment(). With null cells,
     /// it serves the same queries as Workspace().
-    [[nodiscard]] static std::optional<Workspace> in_memory(
+    [[nodiscard]] CDPREP_API static std::optional<Workspace> in_memory(
         std::span<std::byte> memory, const CellSearches* cells = nullptr) noexcept;
-    [[nodiscard]] static std::size_t size(const CellSearches* cells = nullptr) noexcept;  ///< bytes
-    [[nodiscard]] static std::size_t alignment() noexcept;  ///< bytes, a power of two
+    /// Bytes.
+    [[nodiscard]] CDPREP_API static std::size_t size(const CellSearches* cells = nullptr) noexcept;
+    [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two
 
-    Workspace(Workspace&&) noexcept;
-    Workspace& operator=(Workspace&&) noexcept;
-    ~Workspace();
+    CDPREP_API Workspace(Workspace&&) noexcept;
+    CDPREP_API Workspace& operator=(Workspace&&) noexcept;
+    CDPREP_API ~Workspace();
 
     /// Adds the work of later queries with this workspace to `*counts` (query_counts.h); null turns
     /// counting off. While counting is off, it costs 0.2 % of a query's instructions.
-    void count_into(QueryCounts* counts) noexcept;
+    CDPREP_API void count_into(QueryCounts* counts) noexcept;
 
     struct Storage;  ///< private to the library
     [[nodiscard]] Storage& storage() noexcept {

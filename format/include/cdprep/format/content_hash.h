@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "cdprep/format/api.h"
 #include "cdprep/format/file_header.h"
 
 namespace cdprep::format {
@@ -12,12 +13,12 @@ namespace cdprep::format {
 /// Returns the hash of a model's content. It covers the header's facts: counts, flags, units, frame
 /// and normalisation. It also covers each section's id, element size, count and checksum, in the
 /// order of ids. It does not cover offsets, the file size or the HDF5 part.
-[[nodiscard]] std::uint64_t content_hash(const FileHeader& header,
-                                         std::span<const SectionEntry> sections) noexcept;
+[[nodiscard]] CDPREP_API std::uint64_t content_hash(
+    const FileHeader& header, std::span<const SectionEntry> sections) noexcept;
 
 /// Returns the checksum of a user block as if its field header_checksum were zero. `user_block`
 /// holds kUserBlockSize bytes.
-[[nodiscard]] std::uint64_t header_checksum(
+[[nodiscard]] CDPREP_API std::uint64_t header_checksum(
     std::span<const std::byte, kUserBlockSize> user_block) noexcept;
 
 }  // namespace cdprep::format

@@ -5,16 +5,18 @@
 #include <cstdint>
 #include <span>
 
+#include "cdprep/format/api.h"
+
 namespace cdprep::format {
 
 /// The number types of section elements; little-endian, IEEE 754.
 enum class Scalar : std::uint8_t { u8, u32, i32, u64, f32, f64 };
 
 /// Returns the size in bytes of one number of this type.
-[[nodiscard]] std::uint32_t scalar_size(Scalar scalar) noexcept;
+[[nodiscard]] CDPREP_API std::uint32_t scalar_size(Scalar scalar) noexcept;
 
 /// Returns the name in FORMAT.md: "u8", "f64" and so on.
-[[nodiscard]] const char* scalar_name(Scalar scalar) noexcept;
+[[nodiscard]] CDPREP_API const char* scalar_name(Scalar scalar) noexcept;
 
 /// A member of an on-disk struct: one number, or an array of up to three dimensions.
 struct Field {

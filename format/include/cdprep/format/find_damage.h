@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "cdprep/format/api.h"
 #include "cdprep/format/section_set.h"
 
 namespace cdprep::format {
@@ -47,19 +48,20 @@ struct Damage {
 
 /// Returns the damage for an element that contradicts the geometry: DamageKind::bad_fact at element
 /// `index` of a section.
-[[nodiscard]] Damage wrong_fact(std::span<const std::byte> file, SectionId section,
-                                std::uint64_t index, std::uint64_t found,
-                                std::uint64_t expected) noexcept;
+[[nodiscard]] CDPREP_API Damage wrong_fact(std::span<const std::byte> file, SectionId section,
+                                           std::uint64_t index, std::uint64_t found,
+                                           std::uint64_t expected) noexcept;
 
 /// Returns a sentence for people: the file, the damage, the number found, the number allowed, and
 /// the next step.
-[[nodiscard]] std::string damage_sentence(std::string_view file, const Damage& damage);
+[[nodiscard]] CDPREP_API std::string damage_sentence(std::string_view file, const Damage& damage);
 
 /// Checks only the header, the section table and the 40 superblock bytes that the header repeats.
 /// Every section must lie inside the file and overlap no other. Returns nothing if no damage is
 /// found. Reads 4,144 bytes. This check is sufficient if the file is trusted. Never allocates,
 /// never throws.
-[[nodiscard]] std::optional<Damage> find_header_damage(std::span<const std::byte> file) noexcept;
+[[nodiscard]] CDPREP_API std::optional<Damage> find_header_damage(
+    std::span<const std::byte> file) noexcept;
 
 /// Proves that a file is safe to query. Runs find_header_damage(). Then checks each present section
 /// in `wanted`: its checksum, its element count, every index and every coordinate. Coordinates must
@@ -71,13 +73,13 @@ struct Damage {
 ///
 /// Safe means that no query reads outside the file or runs forever. find_deep_damage() proves that
 /// the content is *right*. Reads each byte once, in O(bytes) time. Never allocates.
-[[nodiscard]] std::optional<Damage> find_damage(std::span<const std::byte> file,
-                                                SectionSet wanted = SectionSet::all()) noexcept;
+[[nodiscard]] CDPREP_API std::optional<Damage> find_damage(
+    std::span<const std::byte> file, SectionSet wanted = SectionSet::all()) noexcept;
 
 /// Proves more than find_damage(): boxes contain what lies below them, in exact arithmetic. The
 /// tree order is a permutation of the source triangles. Degenerate bits match the geometry's
 /// repeated corners. Returns nothing if no damage is found. Copies the sections that it compares.
 /// Takes O(bytes) time.
-[[nodiscard]] std::optional<Damage> find_deep_damage(std::span<const std::byte> file);
+[[nodiscard]] CDPREP_API std::optional<Damage> find_deep_damage(std::span<const std::byte> file);
 
 }  // namespace cdprep::format

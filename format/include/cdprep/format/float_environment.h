@@ -9,6 +9,8 @@
 #include <intrin.h>
 #endif
 
+#include "cdprep/format/api.h"
+
 namespace cdprep::format {
 
 /// Returns the control register of the floating-point unit: MXCSR on x86-64, FPCR on ARM64. Returns
@@ -41,10 +43,10 @@ namespace cdprep::format {
 
 /// Sets a value that float_control() returned. Never inlined, so the compiler moves no arithmetic
 /// across the call.
-void set_float_control(std::uint64_t control) noexcept;
+CDPREP_API void set_float_control(std::uint64_t control) noexcept;
 
 /// Sets the default value of the register; see is_default_float_control().
-void set_default_float_control() noexcept;
+CDPREP_API void set_default_float_control() noexcept;
 
 /// Sets the default floating-point environment of this thread for its own lifetime, and then
 /// restores the caller's. Usually the caller's is already the default. The guard then costs a read

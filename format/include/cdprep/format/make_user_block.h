@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "cdprep/format/api.h"
 #include "cdprep/format/file_header.h"
 
 namespace cdprep::format {
@@ -21,9 +22,9 @@ using UserBlock = std::array<std::byte, kUserBlockSize>;
 /// Fills in the others: magic, version, marks, sizes and hashes. `sections` has at most
 /// kMaxSections entries, complete with checksums and sorted by id. `superblock` holds the file's
 /// bytes 4,104 to 4,143.
-[[nodiscard]] UserBlock make_user_block(const FileHeader& facts,
-                                        std::span<const SectionEntry> sections,
-                                        std::span<const std::byte, 40> superblock,
-                                        std::uint64_t file_size) noexcept;
+[[nodiscard]] CDPREP_API UserBlock make_user_block(const FileHeader& facts,
+                                                   std::span<const SectionEntry> sections,
+                                                   std::span<const std::byte, 40> superblock,
+                                                   std::uint64_t file_size) noexcept;
 
 }  // namespace cdprep::format

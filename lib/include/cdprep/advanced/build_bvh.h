@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/format/api.h"
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/file_header.h"
 #include "cdprep/format/geometry.h"
@@ -92,20 +93,21 @@ struct BvhOptions {
 ///
 /// Takes O(n log n) time and 64 bytes of scratch memory per triangle, or 32 with Quality::fast.
 /// tests/bench/build_bvh_bench measures both.
-[[nodiscard]] Bvh build_bvh(std::span<const format::Double3> positions,
-                            std::span<const format::Triangle> triangles,
-                            const BvhOptions& options = {});
+[[nodiscard]] CDPREP_API Bvh build_bvh(std::span<const format::Double3> positions,
+                                       std::span<const format::Triangle> triangles,
+                                       const BvhOptions& options = {});
 
 /// Builds the same BVH in the arrays of `bvh`. Arrays that are large enough are not allocated
 /// again. This saves a tenth of the time of a fast build, and more of a build on several threads.
-void rebuild_bvh(Bvh& bvh, std::span<const format::Double3> positions,
-                 std::span<const format::Triangle> triangles, const BvhOptions& options = {});
+CDPREP_API void rebuild_bvh(Bvh& bvh, std::span<const format::Double3> positions,
+                            std::span<const format::Triangle> triangles,
+                            const BvhOptions& options = {});
 
 /// Returns the cost of a BVH by the surface-area heuristic. It is the sum of the areas of all used
 /// boxes, divided by the area of the box around everything. It equals the expected number of boxes
 /// that a random line through that box crosses. Returns 0 if there are no triangles or all lie on a
 /// line. Less is better. Compare only BVHs over the same triangles. Takes O(nodes) time.
-[[nodiscard]] double surface_cost(const Bvh& bvh) noexcept;
-[[nodiscard]] double surface_cost(std::span<const format::BvhNode> nodes) noexcept;
+[[nodiscard]] CDPREP_API double surface_cost(const Bvh& bvh) noexcept;
+[[nodiscard]] CDPREP_API double surface_cost(std::span<const format::BvhNode> nodes) noexcept;
 
 }  // namespace cdprep::build

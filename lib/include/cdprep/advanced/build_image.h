@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "cdprep/format/api.h"
 #include "cdprep/format/file_header.h"
 #include "cdprep/format/limits.h"
 #include "cdprep/result.h"
@@ -34,10 +35,10 @@ struct SectionTable {
 /// unknown or occurs twice. Also fails if the bytes of a section are not a whole number of
 /// elements. Does not read the bytes of the sections. Takes O(n log n) time in the number of
 /// sections. Allocates only on failure.
-[[nodiscard]] Result<SectionTable> make_section_table(std::span<const Section> sections);
+[[nodiscard]] CDPREP_API Result<SectionTable> make_section_table(std::span<const Section> sections);
 
 /// Sets the checksums in a table. Reads every byte of the sections once.
-void add_checksums(SectionTable& table) noexcept;
+CDPREP_API void add_checksums(SectionTable& table) noexcept;
 
 inline constexpr std::uint64_t kLargestAlignment = std::uint64_t{1} << 30;
 
@@ -51,8 +52,8 @@ struct ImageOptions {
 /// Returns the number of bytes that build_image() fills, a multiple of format::kSectionAlignment.
 /// Fails if build_image() fails on these sections or options. Does not read the bytes of the
 /// sections. Allocates only on failure.
-[[nodiscard]] Result<std::size_t> image_size(std::span<const Section> sections,
-                                             const ImageOptions& options = {});
+[[nodiscard]] CDPREP_API Result<std::size_t> image_size(std::span<const Section> sections,
+                                                        const ImageOptions& options = {});
 
 /// Writes a model into memory: header, section table with checksums, sections, and zeros between
 /// them. The result is like the file of `cdprep bake`, but without HDF5: the superblock is zero.
@@ -76,9 +77,9 @@ struct ImageOptions {
 ///     const auto image = build::build_image(facts, sections, room);
 ///     if (!image) return image.error();
 ///     const auto model = Model::open(image.value());
-[[nodiscard]] Result<std::span<std::byte>> build_image(const format::FileHeader& facts,
-                                                       std::span<const Section> sections,
-                                                       std::span<std::byte> memory,
-                                                       const ImageOptions& options = {});
+[[nodiscard]] CDPREP_API Result<std::span<std::byte>> build_image(const format::FileHeader& facts,
+                                                                  std::span<const Section> sections,
+                                                                  std::span<std::byte> memory,
+                                                                  const ImageOptions& options = {});
 
 }  // namespace cdprep::build

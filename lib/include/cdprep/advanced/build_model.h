@@ -8,6 +8,7 @@
 #include "cdprep/advanced/build_bvh.h"
 #include "cdprep/advanced/mesh_arrays.h"
 #include "cdprep/advanced/section_list.h"
+#include "cdprep/format/api.h"
 #include "cdprep/result.h"
 
 namespace cdprep::build {
@@ -35,7 +36,8 @@ struct ModelArrays {
     /// lives and is not moved.
     ///
     ///     arrays.sections(sections_for(Ask::overlap | Ask::ray))
-    [[nodiscard]] SectionList sections(format::SectionSet wanted = format::SectionSet::all()) const;
+    [[nodiscard]] CDPREP_API SectionList
+    sections(format::SectionSet wanted = format::SectionSet::all()) const;
 };
 
 /// The properties of a model that will be built.
@@ -56,7 +58,7 @@ struct PlannedModel {
 ///     const auto image = build::build_image(arrays.value().facts,
 ///                                           arrays.value().sections(planned.wanted).sections(),
 ///                                           room);
-[[nodiscard]] std::uint64_t image_size_bound(const PlannedModel& planned) noexcept;
+[[nodiscard]] CDPREP_API std::uint64_t image_size_bound(const PlannedModel& planned) noexcept;
 
 /// Builds the arrays of a model from a mesh. Query results name a triangle by its index in
 /// `triangles`. ModelArrays::source_vertex holds indices in `positions`.
@@ -75,19 +77,20 @@ struct PlannedModel {
 ///     const build::SectionList list = arrays.value().sections();
 ///     const auto image = build::build_image(arrays.value().facts, list.sections(), memory);
 ///     const auto model = Model::open(image.value());
-[[nodiscard]] Result<ModelArrays> build_model(std::span<const format::Double3> positions,
-                                              std::span<const format::Triangle> triangles,
-                                              const BvhOptions& options = {});
+[[nodiscard]] CDPREP_API Result<ModelArrays> build_model(
+    std::span<const format::Double3> positions, std::span<const format::Triangle> triangles,
+    const BvhOptions& options = {});
 
 /// Builds the same arrays from floats, which the model keeps.
-[[nodiscard]] Result<ModelArrays> build_model(std::span<const format::Float3> positions,
-                                              std::span<const format::Triangle> triangles,
-                                              const BvhOptions& options = {});
+[[nodiscard]] CDPREP_API Result<ModelArrays> build_model(
+    std::span<const format::Float3> positions, std::span<const format::Triangle> triangles,
+    const BvhOptions& options = {});
 
 /// Builds the same arrays with a BVH that build_bvh() made of these triangles. The mesh must meet
 /// the requirements of build_model(), which are not checked.
-[[nodiscard]] ModelArrays arrange_model(std::span<const format::Double3> positions,
-                                        std::span<const format::Triangle> triangles, Bvh bvh,
-                                        Precision precision, ParallelFor parallel_for = serial_for);
+[[nodiscard]] CDPREP_API ModelArrays arrange_model(std::span<const format::Double3> positions,
+                                                   std::span<const format::Triangle> triangles,
+                                                   Bvh bvh, Precision precision,
+                                                   ParallelFor parallel_for = serial_for);
 
 }  // namespace cdprep::build

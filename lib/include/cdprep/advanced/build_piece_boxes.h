@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cdprep/advanced/build_bvh.h"
+#include "cdprep/format/api.h"
 #include "cdprep/format/pieces.h"
 
 namespace cdprep::build {
@@ -30,7 +31,7 @@ struct PieceBoxes {
 /// fewest leaves that hold it, with about equal numbers of triangles. The leaves are in the order
 /// in which build_bvh() would put triangles with the same boxes. Returns empty arrays if there
 /// would be more than format::kMaxPieceLeaves leaves. The result is the same for any parallel_for.
-[[nodiscard]] PieceBoxes build_piece_boxes(const PiecesOf& surface, const Frame& frame,
-                                           ParallelFor parallel_for);
+[[nodiscard]] CDPREP_API PieceBoxes build_piece_boxes(const PiecesOf& surface, const Frame& frame,
+                                                      ParallelFor parallel_for);
 
 }  // namespace cdprep::build

@@ -8,6 +8,7 @@
 
 #include "cdprep/advanced/convex_points.h"
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/format/api.h"
 #include "cdprep/format/pieces.h"
 #include "cdprep/pose.h"
 
@@ -67,7 +68,7 @@ struct FeatureCache {
 /// long as that is nearer. This takes O(1) time if the hulls have moved little. The farthest points
 /// of both hulls along the gap then prove the distance. GJK computes the result if there is no
 /// cache, or if the walk or its proof fails. The proof fails if the hulls touch. Never allocates.
-[[nodiscard]] std::optional<ClosestFeatures> closest_features(
+[[nodiscard]] CDPREP_API std::optional<ClosestFeatures> closest_features(
     const FeatureHull& a, const FeatureHull& b, const Placement& placement,
     FeatureCache* cache = nullptr, QueryCounts* counts = nullptr) noexcept;
 

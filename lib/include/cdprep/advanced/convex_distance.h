@@ -7,6 +7,7 @@
 
 #include "cdprep/advanced/convex_points.h"
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/format/api.h"
 #include "cdprep/pairs.h"
 
 namespace cdprep {
@@ -37,9 +38,10 @@ struct ConvexCache {
 
 /// Returns whether two hulls have a common point; touching counts. Exact. `cache` and `counts` may
 /// be null, also in the functions below.
-[[nodiscard]] bool convex_collide(const ConvexPoints& a, const ConvexPoints& b,
-                                  const Placement& placement, ConvexCache* cache = nullptr,
-                                  QueryCounts* counts = nullptr) noexcept;
+[[nodiscard]] CDPREP_API bool convex_collide(const ConvexPoints& a, const ConvexPoints& b,
+                                             const Placement& placement,
+                                             ConvexCache* cache = nullptr,
+                                             QueryCounts* counts = nullptr) noexcept;
 
 /// The distance of two hulls, and points where it is attained.
 struct ConvexDistance {
@@ -59,19 +61,17 @@ struct ConvexDistance {
 /// 1e-12 of upper plus 1e-14 of the size of A - B (convex_distance_laws_test). A - B is the
 /// Minkowski difference. Its size is the largest difference between a point of A and a point of B
 /// along a coordinate axis.
-[[nodiscard]] std::optional<ConvexDistance> convex_distance(const ConvexPoints& a,
-                                                            const ConvexPoints& b,
-                                                            const Placement& placement,
-                                                            const DistanceOptions& options = {},
-                                                            ConvexCache* cache = nullptr,
-                                                            QueryCounts* counts = nullptr) noexcept;
+[[nodiscard]] CDPREP_API std::optional<ConvexDistance> convex_distance(
+    const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
+    const DistanceOptions& options = {}, ConvexCache* cache = nullptr,
+    QueryCounts* counts = nullptr) noexcept;
 
 /// Returns whether two hulls are at most `tolerance` apart; inclusive. A tolerance of 0 tests
 /// whether they touch. Returns false for a negative tolerance or NaN. Exact: a tolerance equal to
 /// the distance to the last bit gives true, and the next smaller double gives false.
-[[nodiscard]] bool convex_within(const ConvexPoints& a, const ConvexPoints& b,
-                                 const Placement& placement, double tolerance,
-                                 ConvexCache* cache = nullptr,
-                                 QueryCounts* counts = nullptr) noexcept;
+[[nodiscard]] CDPREP_API bool convex_within(const ConvexPoints& a, const ConvexPoints& b,
+                                            const Placement& placement, double tolerance,
+                                            ConvexCache* cache = nullptr,
+                                            QueryCounts* counts = nullptr) noexcept;
 
 }  // namespace cdprep

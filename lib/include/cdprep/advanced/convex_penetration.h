@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cdprep/advanced/convex_distance.h"
+#include "cdprep/format/api.h"
 
 namespace cdprep {
 
@@ -33,11 +34,9 @@ struct Penetration {
 /// proves `lower`. The farthest points of A and B along a direction prove `upper`.
 ///
 /// Takes ten to a hundred times as long as convex_distance(). Never allocates; uses 30 kB of stack.
-[[nodiscard]] std::optional<Penetration> convex_penetration(const ConvexPoints& a,
-                                                            const ConvexPoints& b,
-                                                            const Placement& placement,
-                                                            const DistanceOptions& options = {},
-                                                            ConvexCache* cache = nullptr,
-                                                            QueryCounts* counts = nullptr) noexcept;
+[[nodiscard]] CDPREP_API std::optional<Penetration> convex_penetration(
+    const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
+    const DistanceOptions& options = {}, ConvexCache* cache = nullptr,
+    QueryCounts* counts = nullptr) noexcept;
 
 }  // namespace cdprep

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "cdprep/format/api.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/hull.h"
 
@@ -40,12 +41,13 @@ struct ConvexPoints {
     std::span<const Double3> doubles{};
 
     /// Returns the point with a number below `count`.
-    [[nodiscard]] Double3 point(std::uint32_t number) const noexcept;
+    [[nodiscard]] CDPREP_API Double3 point(std::uint32_t number) const noexcept;
 };
 
 /// Returns points in the form of ConvexPoints::blocks; lanes past the last point repeat it.
 /// Allocates.
-[[nodiscard]] std::vector<format::HullBlock> hull_blocks(std::span<const Double3> points);
+[[nodiscard]] CDPREP_API std::vector<format::HullBlock> hull_blocks(
+    std::span<const Double3> points);
 
 /// The minimum point count for hill climbing along hull edges.
 inline constexpr std::uint32_t kClimbFrom = 64;
@@ -62,6 +64,6 @@ inline constexpr std::uint32_t kDirectionStarts = 6 * kDirectionCells * kDirecti
 /// order of rising y. The rows are in the order of rising z. The other faces are numbered likewise,
 /// with the axes in cyclic order. Of several largest coordinates, the first selects the face. The
 /// direction must be finite. The zero vector has a cell too.
-[[nodiscard]] std::uint32_t direction_cell(const Double3& direction) noexcept;
+[[nodiscard]] CDPREP_API std::uint32_t direction_cell(const Double3& direction) noexcept;
 
 }  // namespace cdprep

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "cdprep/format/api.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/model.h"
 
@@ -27,8 +28,8 @@ namespace cdprep {
 /// `file` must be one in which format::find_damage() finds nothing. `model` is this file, opened
 /// with all its sections. Takes O(vertices * facets) time, about a nanosecond per pair of a vertex
 /// and a facet. If there are parts, takes up to vertices * parts steps more. Allocates.
-[[nodiscard]] std::optional<format::Damage> find_hull_falsehood(std::span<const std::byte> file,
-                                                                const Model& model);
+[[nodiscard]] CDPREP_API std::optional<format::Damage> find_hull_falsehood(
+    std::span<const std::byte> file, const Model& model);
 
 /// Proves that the hulls around the nodes of the BVH over pieces are right. Each contains every
 /// vertex below its node, exactly. Each corner of a hull is within PieceNodeHull::slack of the
@@ -37,7 +38,7 @@ namespace cdprep {
 ///
 /// `file` must be one in which format::find_deep_damage() finds nothing. `model` is this file,
 /// opened with all its sections. Takes O(vertices * levels) hull queries. Allocates.
-[[nodiscard]] std::optional<format::Damage> find_piece_falsehood(std::span<const std::byte> file,
-                                                                 const Model& model);
+[[nodiscard]] CDPREP_API std::optional<format::Damage> find_piece_falsehood(
+    std::span<const std::byte> file, const Model& model);
 
 }  // namespace cdprep

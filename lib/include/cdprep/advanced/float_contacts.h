@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "cdprep/format/api.h"
 #include "cdprep/pairs.h"
 #include "cdprep/visitor.h"
 #include "cdprep/workspace.h"
@@ -26,7 +27,7 @@ enum class FloatSearch : std::uint8_t {
 /// returns false. No pair in contact is missing. Serves studies of the cost of exactness, and
 /// callers that accept some pairs that are not in contact.
 /// Reads only the placement of `pair`. Needs Ask::overlap. Costs less than overlaps().
-bool visit_float_contacts(const Pair& pair, Workspace& workspace, FloatSearch search,
-                          Visitor<FloatContact> visit);
+CDPREP_API bool visit_float_contacts(const Pair& pair, Workspace& workspace, FloatSearch search,
+                                     Visitor<FloatContact> visit);
 
 }  // namespace cdprep

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/format/api.h"
 #include "cdprep/format/file_header.h"
 
 // The separate steps from a mesh to the arrays of a model. build_model.h runs them all. Vertices
@@ -24,9 +25,9 @@ struct TreeOrder {
 /// Puts triangle order[i] at place i and numbers vertices by first use. Neighbours in the tree are
 /// then neighbours in memory. Vertices that no triangle uses are left out. `order` must be a
 /// permutation of the triangles. Takes O(n) time.
-[[nodiscard]] TreeOrder in_tree_order(std::size_t vertex_count,
-                                      std::span<const format::Triangle> triangles,
-                                      std::span<const std::uint32_t> order);
+[[nodiscard]] CDPREP_API TreeOrder in_tree_order(std::size_t vertex_count,
+                                                 std::span<const format::Triangle> triangles,
+                                                 std::span<const std::uint32_t> order);
 
 /// The components of a mesh: sets of triangles connected by shared vertices.
 struct ComponentNumbers {
@@ -37,8 +38,8 @@ struct ComponentNumbers {
 };
 
 /// Numbers the components. Takes O(n) time.
-[[nodiscard]] ComponentNumbers number_components(std::size_t vertex_count,
-                                                 std::span<const format::Triangle> triangles);
+[[nodiscard]] CDPREP_API ComponentNumbers
+number_components(std::size_t vertex_count, std::span<const format::Triangle> triangles);
 
 struct Topology {
     /// The components, in the order of their lowest triangle.
@@ -51,12 +52,12 @@ struct Topology {
 /// is balanced: every edge is used equally often in both directions. A side between two equal
 /// vertex numbers does not count as an edge. A mesh without triangles is balanced. Volumes are
 /// clamped to the range of double. Takes O(n) time, plus a sort of the edges at each vertex.
-[[nodiscard]] Topology find_topology(std::span<const format::Double3> positions,
-                                     std::span<const format::Triangle> triangles);
+[[nodiscard]] CDPREP_API Topology find_topology(std::span<const format::Double3> positions,
+                                                std::span<const format::Triangle> triangles);
 
 /// Returns one bit per triangle, 64 per word. A bit is set if the corners are exactly collinear.
 /// Returns no words if no triangle is degenerate. Takes O(n) time.
-[[nodiscard]] std::vector<std::uint64_t> find_degenerate(
+[[nodiscard]] CDPREP_API std::vector<std::uint64_t> find_degenerate(
     std::span<const format::Double3> positions, std::span<const format::Triangle> triangles,
     ParallelFor parallel_for = serial_for);
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "cdprep/broad_phase.h"
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 #include "cdprep/pose.h"
 
@@ -21,17 +22,18 @@ struct RootBox {
 /// reaches `reach` beyond them, in units of the models. If two models are at most d apart, their
 /// boxes with a reach of d / 2 each meet. The reach must be finite and at least 0, and the model
 /// opened with its BVH. Otherwise, the program ends with a sentence.
-[[nodiscard]] RootBox root_box(const Model& model, const Pose& world_from_model,
-                               double reach) noexcept;
+[[nodiscard]] CDPREP_API RootBox root_box(const Model& model, const Pose& world_from_model,
+                                          double reach) noexcept;
 
 /// Returns the axis-aligned box around a root box, for BroadPhase; absent if there are no
 /// triangles. It is relative to the origin, finite and at most 2^1000, which must be the same for
 /// all boxes. Far from it, rounding to float widens the boxes: at 10^7 by about a unit on each
 /// side.
-[[nodiscard]] WorldBox world_box(const RootBox& root, const Double3& origin = {}) noexcept;
+[[nodiscard]] CDPREP_API WorldBox world_box(const RootBox& root,
+                                            const Double3& origin = {}) noexcept;
 
 /// Returns false if two root boxes are certainly apart: by the fifteen directions of Gottschalk,
 /// Lin and Manocha 1996.
-[[nodiscard]] bool may_meet(const RootBox& a, const RootBox& b) noexcept;
+[[nodiscard]] CDPREP_API bool may_meet(const RootBox& a, const RootBox& b) noexcept;
 
 }  // namespace cdprep

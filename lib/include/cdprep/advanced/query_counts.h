@@ -3,11 +3,13 @@
 
 #include <cstdint>
 
+#include "cdprep/format/api.h"
+
 namespace cdprep {
 
 /// Returns the name of the instruction set that queries use on this machine: "scalar", "avx2",
 /// "avx512". The environment variable CDPREP_KERNELS chooses another.
-[[nodiscard]] const char* kernel_name() noexcept;
+[[nodiscard]] CDPREP_API const char* kernel_name() noexcept;
 
 /// Work of queries about two models, and of points_inside(). The counts serve tuning and
 /// comparisons on machines that are too noisy for a clock. Workspace::count_into() turns them on.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cdprep/advanced/build_bvh.h"
+#include "cdprep/format/api.h"
 
 namespace cdprep::build {
 
@@ -24,7 +25,8 @@ namespace cdprep::build {
 ///
 /// Takes O(n) time. A repeated call with the same options allocates nothing, except 80 bytes per
 /// 4,096 triangles for oriented boxes.
-double refit_bvh(Bvh& bvh, std::span<const format::Double3> positions,
-                 std::span<const format::Triangle> triangles, const BvhOptions& options = {});
+CDPREP_API double refit_bvh(Bvh& bvh, std::span<const format::Double3> positions,
+                            std::span<const format::Triangle> triangles,
+                            const BvhOptions& options = {});
 
 }  // namespace cdprep::build

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cdprep/advanced/build_bvh.h"
+#include "cdprep/format/api.h"
 #include "cdprep/workspace.h"
 
 namespace cdprep {
@@ -46,25 +47,26 @@ public:
 
     /// Prepares a walk of `bvh`, which must be built over `triangles` with BvhBounds::aligned and
     /// must outlive the walk. Allocates about 12 bytes per triangle.
-    SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
-             ParallelFor parallel_for);
+    CDPREP_API SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
+                        ParallelFor parallel_for);
     SelfWalk(const SelfWalk&) = delete;
     SelfWalk& operator=(const SelfWalk&) = delete;
-    ~SelfWalk();
+    CDPREP_API ~SelfWalk();
 
     /// Returns the number of parts of the walk, at most 128. It does not depend on the number of
     /// threads.
-    [[nodiscard]] std::size_t part_count() const noexcept;
+    [[nodiscard]] CDPREP_API std::size_t part_count() const noexcept;
 
     /// Returns part `number` before any work on it. `number` must be below part_count().
-    [[nodiscard]] Rest part(std::size_t number) const;
+    [[nodiscard]] CDPREP_API Rest part(std::size_t number) const;
 
     /// Calls `found` for each pair of a part's rest, until the rest is empty or `is_enough` returns
     /// true. After each step, `is_enough` receives the number of node pairs and leaf pairs of that
     /// step, at most 65. Parts may run at once, each with its own workspace. Interruptions do not
     /// change which pairs are found.
-    void run(Rest& rest, Workspace& workspace, const std::function<void(const SelfPair&)>& found,
-             const std::function<bool(std::size_t)>& is_enough) const;
+    CDPREP_API void run(Rest& rest, Workspace& workspace,
+                        const std::function<void(const SelfPair&)>& found,
+                        const std::function<bool(std::size_t)>& is_enough) const;
 
 private:
     class Tree;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "cdprep/ask.h"
+#include "cdprep/format/api.h"
 
 namespace cdprep {
 
@@ -22,6 +23,6 @@ enum class Structure : std::uint8_t {
 
 /// Returns the bit of Ask that a query through a structure requires in addition to the query's own
 /// bit. Returns Ask::nothing for Structure::bvh.
-[[nodiscard]] Ask ask_of(Structure structure) noexcept;
+[[nodiscard]] CDPREP_API Ask ask_of(Structure structure) noexcept;
 
 }  // namespace cdprep

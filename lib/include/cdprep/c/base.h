@@ -5,6 +5,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "cdprep/format/api.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* The common parts of the C API: codes, errors, memory, workspaces, poses.
  *
  * Rules that hold for every function:
@@ -44,23 +50,6 @@
  * - Null is refused, except where a comment allows it. An invalid pointer can crash a call, such as
  *   one to a closed model. So can a damaged file with CDPREP_MAP_TRUSTED, and a mapped file that is
  *   truncated while open. */
-
-#ifndef CDPREP_EXPORT /* define it first to use an export macro of your own */
-#if defined(_WIN32) && defined(CDPREP_BUILDING)
-#define CDPREP_EXPORT __declspec(dllexport)
-#elif defined(_WIN32) && defined(CDPREP_SHARED)
-#define CDPREP_EXPORT __declspec(dllimport)
-#elif defined(__GNUC__) && defined(CDPREP_BUILDING)
-#define CDPREP_EXPORT __attribute__((visibility("default")))
-#else
-#define CDPREP_EXPORT
-#endif
-#endif
-#ifdef __cplusplus
-#define CDPREP_API extern "C" CDPREP_EXPORT
-#else
-#define CDPREP_API CDPREP_EXPORT
-#endif
 
 #define CDPREP_VERSION_MAJOR 0
 #define CDPREP_VERSION_MINOR 1
@@ -283,5 +272,9 @@ CDPREP_API int cdprep_pose_relative(const cdprep_pose* world_from_a,
  */
 CDPREP_API int cdprep_pose_move(const cdprep_pose* pose, const double* points, size_t count,
                                 double* moved, cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* CDPREP_C_BASE_H */

@@ -4,6 +4,10 @@
 
 #include "cdprep/c/model.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Models from meshes in memory: no file, no `cdprep bake`. */
 
 /* The precision in which a model keeps positions. */
@@ -75,5 +79,9 @@ CDPREP_API int cdprep_model_build_size(const cdprep_build_options* options, size
 CDPREP_API int cdprep_model_build(const cdprep_build_options* options, void* memory, size_t size,
                                   cdprep_workspace* workspace, cdprep_model** model,
                                   cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* CDPREP_C_BUILD_H */

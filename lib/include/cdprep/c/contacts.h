@@ -4,6 +4,10 @@
 
 #include "cdprep/c/pairs.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Contacts between convex pieces of two surfaces, and queries about convex hulls. */
 
 enum { CDPREP_VERTEX = 0, CDPREP_EDGE = 1, CDPREP_FACE = 2 };
@@ -208,5 +212,9 @@ typedef struct cdprep_closest_features {
  * Needs: CDPREP_ASK_CONTACTS */
 CDPREP_API int cdprep_hulls_features(const cdprep_hull_pair* pair,
                                      cdprep_closest_features* features, cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* CDPREP_C_CONTACTS_H */

@@ -4,15 +4,19 @@
 
 #include "cdprep/c/scene.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Pictures of models and scenes for debugging: lines, triangles and texts in world coordinates. The
  * caller's functions draw them. */
 
 /* What is drawn, as bits of a set. */
 enum {
-    CDPREP_DRAW_SURFACE = 1,   /* all triangles. Needs CDPREP_ASK_CORNERS */
-    CDPREP_DRAW_BOXES = 2,     /* boxes of one level of the BVH, 12 lines each. Needs the BVH */
-    CDPREP_DRAW_HULLS = 4,     /* the hulls of parts, or the whole hull. Needs CDPREP_ASK_HULLS */
-    CDPREP_DRAW_PIECES = 8,    /* hulls of convex pieces. Needs CDPREP_ASK_PIECES, _CORNERS */
+    CDPREP_DRAW_SURFACE = 1, /* all triangles. Needs CDPREP_ASK_CORNERS */
+    CDPREP_DRAW_BOXES = 2,   /* boxes of one level of the BVH, 12 lines each. Needs the BVH */
+    CDPREP_DRAW_HULLS = 4,   /* the hulls of parts, or the whole hull. Needs CDPREP_ASK_HULLS */
+    CDPREP_DRAW_PIECES = 8,  /* hulls of convex pieces. Needs CDPREP_ASK_PIECES, _CORNERS */
     /* of scenes: lines between contact points, and normals. Needs the BVH */
     CDPREP_DRAW_CONTACTS = 16,
     CDPREP_DRAW_OVERLAPS = 32, /* of scenes: triangles in lists of overlap and self */
@@ -60,5 +64,9 @@ CDPREP_API int cdprep_model_draw(const cdprep_model* model, const cdprep_pose* w
  * the slot. Errors: those of cdprep_model_draw(); CDPREP_WHY_BUSY. */
 CDPREP_API int cdprep_scene_draw(const cdprep_scene* scene, const cdprep_draw* draw,
                                  cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* CDPREP_C_DRAW_H */

@@ -4,6 +4,10 @@
 
 #include "cdprep/c/model.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Models whose vertices move and whose triangles come and go: objects that deform and tear. */
 
 /* A live model. It is queried through cdprep_live_model(). While one call changes it, all other
@@ -172,5 +176,9 @@ CDPREP_API int cdprep_live_triangles(const cdprep_live* live, cdprep_live_triang
  * - CDPREP_WHY_BUSY: another call changes the live model.
  * - CDPREP_OVER_BUDGET: there is not enough memory. */
 CDPREP_API int cdprep_live_image(cdprep_live* live, cdprep_array* image, cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* CDPREP_C_LIVE_H */

@@ -4,6 +4,10 @@
 
 #include "cdprep/c/base.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* A baked or built model, open for queries. It is read-only: all functions may use one model on any
  * number of threads at the same time. */
 typedef struct cdprep_model cdprep_model;
@@ -238,5 +242,9 @@ CDPREP_API int cdprep_model_verdict(const cdprep_model* model, uint32_t number,
  * library cdprep_cells. Needs: CDPREP_ASK_TETRA_TREE */
 CDPREP_API int cdprep_model_level_error(const cdprep_model* model, uint32_t level, double* bound,
                                         cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* CDPREP_C_MODEL_H */

@@ -4,6 +4,10 @@
 
 #include "cdprep/c/pairs.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* The time at which two moving models first touch, and what a deforming model passes through. */
 
 /* How a motion is given. */
@@ -137,5 +141,9 @@ CDPREP_API int cdprep_sweep_may_touch(const cdprep_sweep* sweep, const cdprep_mo
 CDPREP_API int cdprep_sweep_pairs(const cdprep_sweep* sweep, const cdprep_model* other,
                                   const cdprep_motion* motion, cdprep_workspace* workspace,
                                   cdprep_overlap_list* list, cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* CDPREP_C_MOTION_H */

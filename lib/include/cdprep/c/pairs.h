@@ -4,6 +4,10 @@
 
 #include "cdprep/c/model.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Queries about two models, and about one model against itself.
  *
  * All answers are exact, and the same on every machine. They are those of exact arithmetic on the
@@ -334,5 +338,9 @@ CDPREP_API int cdprep_overlaps_many(const cdprep_pair* pairs, size_t count,
 CDPREP_API int cdprep_overlaps_mark_many(const cdprep_pair* pairs, size_t count,
                                          cdprep_workspace* workspace, cdprep_marks* marks,
                                          cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* CDPREP_C_PAIRS_H */

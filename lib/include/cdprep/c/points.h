@@ -4,6 +4,10 @@
 
 #include "cdprep/c/pairs.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Queries about one model: points, rays and shapes. The lanes of the workspace share the work on
  * many points or rays. The answers are the same, in the same order. */
 
@@ -174,5 +178,9 @@ CDPREP_API int cdprep_touch_many(const cdprep_shape_query* queries, size_t count
 CDPREP_API int cdprep_shape_distance_many(const cdprep_shape_query* queries, size_t count,
                                           cdprep_workspace* workspace, cdprep_nearest* nearest,
                                           cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* CDPREP_C_POINTS_H */

@@ -5,6 +5,10 @@
 #include "cdprep/c/contacts.h"
 #include "cdprep/c/motion.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Many objects that move, and the broad phase.
  *
  * A plan states what a scene computes. A scene holds objects, and runs the queries of its plan at
@@ -552,5 +556,9 @@ CDPREP_API int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** 
 CDPREP_API int cdprep_scene_step_with(cdprep_scene* scene, const cdprep_box_pair* candidates,
                                       size_t count, cdprep_workspace* workspace, cdprep_step* step,
                                       cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* CDPREP_C_SCENE_H */

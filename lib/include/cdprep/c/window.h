@@ -4,6 +4,10 @@
 
 #include "cdprep/c/pairs.h"
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* Windows: the part of a large model near a small one, copied for a loop that must answer in time.
  * A slow loop fills one window while a fast loop queries another, then the two are swapped. */
 
@@ -89,5 +93,9 @@ CDPREP_API int cdprep_window_distance(const cdprep_pair* pair,
                                       const cdprep_distance_options* options, uint64_t work,
                                       cdprep_workspace* workspace, cdprep_bounded* bounded,
                                       cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif /* CDPREP_C_WINDOW_H */

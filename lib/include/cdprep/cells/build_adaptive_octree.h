@@ -8,6 +8,7 @@
 
 #include "cdprep/advanced/build_bvh.h"
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/format/api.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/octree.h"
 
@@ -55,8 +56,8 @@ inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
 /// kAdaptiveScratchPerTriangle, PerReference and PerNode, each times its number. This holds for one
 /// thread. On several threads, the medians being computed take up to 24 bytes per reference. Throws
 /// only std::bad_alloc.
-[[nodiscard]] AdaptiveOctree build_adaptive_octree(std::span<const format::Double3> positions,
-                                                   std::span<const format::Triangle> triangles,
-                                                   const AdaptiveOctreeOptions& options = {});
+[[nodiscard]] CDPREP_API AdaptiveOctree build_adaptive_octree(
+    std::span<const format::Double3> positions, std::span<const format::Triangle> triangles,
+    const AdaptiveOctreeOptions& options = {});
 
 }  // namespace cdprep::build

@@ -9,6 +9,7 @@
 
 #include "cdprep/advanced/build_bvh.h"
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/format/api.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/octree.h"
 
@@ -59,8 +60,8 @@ inline constexpr std::size_t kScratchPerNode = 96;
 ///
 /// Takes O(levels * references) time. Scratch memory is at most kScratchPerVertex * vertices +
 /// kScratchPerReference * references + kScratchPerNode * nodes bytes. Throws only std::bad_alloc.
-[[nodiscard]] Octree build_octree(std::span<const format::Double3> positions,
-                                  std::span<const format::Triangle> triangles,
-                                  const OctreeOptions& options = {});
+[[nodiscard]] CDPREP_API Octree build_octree(std::span<const format::Double3> positions,
+                                             std::span<const format::Triangle> triangles,
+                                             const OctreeOptions& options = {});
 
 }  // namespace cdprep::build

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/format/api.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/tetra_tree.h"
 
@@ -46,8 +47,8 @@ struct TetraTreeOptions {
 /// limit is not split, nor is any below. Takes O(levels * references) time. Uses at most 21 bytes
 /// of scratch memory per vertex and 7 per triangle. It uses 13 more per reference of the result,
 /// and 160 per node, or 460 with boxes. Throws only std::bad_alloc.
-[[nodiscard]] TetraTree build_tetra_tree(std::span<const format::Double3> positions,
-                                         std::span<const format::Triangle> triangles,
-                                         const TetraTreeOptions& options = {});
+[[nodiscard]] CDPREP_API TetraTree build_tetra_tree(std::span<const format::Double3> positions,
+                                                    std::span<const format::Triangle> triangles,
+                                                    const TetraTreeOptions& options = {});
 
 }  // namespace cdprep::build

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "cdprep/format/api.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/model.h"
 
@@ -23,7 +24,7 @@ namespace cdprep {
 /// `file` must be one in which format::find_deep_damage() finds nothing. `model` is this file,
 /// opened with all its sections. Takes O(triangles * levels) steps of about a microsecond.
 /// Allocates.
-[[nodiscard]] std::optional<format::Damage> find_list_damage(std::span<const std::byte> file,
-                                                             const Model& model);
+[[nodiscard]] CDPREP_API std::optional<format::Damage> find_list_damage(
+    std::span<const std::byte> file, const Model& model);
 
 }  // namespace cdprep

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 #include "cdprep/pairs.h"
 #include "cdprep/pose.h"
@@ -28,7 +29,7 @@ struct CoarseCollision {
 /// the tree into four; a leaf stays as it is. The outer facet cuts a cone at its greatest radius,
 /// the inner one at its least (format::TetraNode). All triangles of the cone lie between them.
 /// Beyond the deepest level, the facets are those of the deepest level.
-[[nodiscard]] double level_error(const Model& model, std::uint32_t level) noexcept;
+[[nodiscard]] CDPREP_API double level_error(const Model& model, std::uint32_t level) noexcept;
 
 /// Returns whether two solids collide, as far as one level of their tetra-trees proves it. Reads no
 /// options. Needs Ask::tetra_tree of both models.
@@ -37,7 +38,7 @@ struct CoarseCollision {
 /// models. `yes`: a point lies below the inner facets of both models, which are closed and contain
 /// their centres. The search tests only the centres and a few points below each inner facet, so it
 /// may miss a `yes`. Never allocates. Takes O(pairs of cones that meet) time.
-[[nodiscard]] CoarseCollision collide_at_level(const Pair& pair, std::uint32_t level,
-                                               Workspace& workspace) noexcept;
+[[nodiscard]] CDPREP_API CoarseCollision collide_at_level(const Pair& pair, std::uint32_t level,
+                                                          Workspace& workspace) noexcept;
 
 }  // namespace cdprep

@@ -5,6 +5,7 @@
 
 #include "cdprep/cells/build_adaptive_octree.h"
 #include "cdprep/cells/build_octree.h"
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 
 namespace cdprep {
@@ -28,16 +29,16 @@ struct OctreeFigures {
 
 /// Returns the figures of a model's octree. All but `triangles` are 0 if the model was baked
 /// without one. Takes O(nodes + references) time.
-[[nodiscard]] OctreeFigures octree_figures(const Model& model) noexcept;
+[[nodiscard]] CDPREP_API OctreeFigures octree_figures(const Model& model) noexcept;
 
 /// Returns the same figures of a tree over `triangle_count` triangles that is not in a file.
-[[nodiscard]] OctreeFigures octree_figures(const build::Octree& octree,
-                                           std::uint64_t triangle_count) noexcept;
+[[nodiscard]] CDPREP_API OctreeFigures octree_figures(const build::Octree& octree,
+                                                      std::uint64_t triangle_count) noexcept;
 
 /// Returns the same figures of an adaptive octree.
-[[nodiscard]] OctreeFigures adaptive_octree_figures(const Model& model) noexcept;
-[[nodiscard]] OctreeFigures adaptive_octree_figures(const build::AdaptiveOctree& octree,
-                                                    std::uint64_t triangle_count) noexcept;
+[[nodiscard]] CDPREP_API OctreeFigures adaptive_octree_figures(const Model& model) noexcept;
+[[nodiscard]] CDPREP_API OctreeFigures
+adaptive_octree_figures(const build::AdaptiveOctree& octree, std::uint64_t triangle_count) noexcept;
 
 /// The children that have a record in a node: all, or only those that triangles touch.
 enum class EmptyChildren : std::uint8_t { counted, left_out };
@@ -46,7 +47,7 @@ enum class EmptyChildren : std::uint8_t { counted, left_out };
 /// other node 80, a reference 4. It is not known which children that implementation stored. Returns
 /// 0 without nodes. The formula is that of "A comparative study of implemented collision detection
 /// strategies".
-[[nodiscard]] std::uint64_t seed_formula_bytes(const OctreeFigures& figures,
-                                               EmptyChildren empty) noexcept;
+[[nodiscard]] CDPREP_API std::uint64_t seed_formula_bytes(const OctreeFigures& figures,
+                                                          EmptyChildren empty) noexcept;
 
 }  // namespace cdprep

@@ -9,6 +9,7 @@
 
 #include "cdprep/cells/build_octree.h"
 #include "cdprep/cells/overlap_through.h"
+#include "cdprep/format/api.h"
 #include "cdprep/format/octree.h"
 #include "cdprep/model.h"
 
@@ -36,13 +37,13 @@ struct OctreeIndex {
 
 /// Returns the index of a model that has octree().grid, or of a builder's octree. It is empty
 /// without nodes.
-[[nodiscard]] OctreeIndex octree_index(const Model& model) noexcept;
-[[nodiscard]] OctreeIndex octree_index(const build::Octree& octree) noexcept;
+[[nodiscard]] CDPREP_API OctreeIndex octree_index(const Model& model) noexcept;
+[[nodiscard]] CDPREP_API OctreeIndex octree_index(const build::Octree& octree) noexcept;
 
 /// Returns the Z-order code of the finest cell that holds a point. If the point is outside the
 /// cube, returns the code of the cell nearest to it. `p` has no NaN.
-[[nodiscard]] std::uint64_t code_of_point(const format::OctreeGrid& grid,
-                                          const Double3& p) noexcept;
+[[nodiscard]] CDPREP_API std::uint64_t code_of_point(const format::OctreeGrid& grid,
+                                                     const Double3& p) noexcept;
 
 /// Returns the key of the cell of `level` that contains the finest cell `code`.
 inline std::uint64_t key_at(std::uint64_t code, std::uint32_t level) noexcept {

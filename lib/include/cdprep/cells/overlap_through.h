@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "cdprep/format/api.h"
 #include "cdprep/pairs.h"
 
 namespace cdprep {
@@ -48,13 +49,14 @@ struct StructureOptions {
 ///
 /// Needs Ask::overlap and ask_of() the structure of both models. Never allocates; takes some 20 KiB
 /// of stack.
-[[nodiscard]] std::size_t overlaps_through(const Pair& pair, const StructureOptions& through,
-                                           Workspace& workspace,
-                                           std::span<TrianglePair> room) noexcept;
+[[nodiscard]] CDPREP_API std::size_t overlaps_through(const Pair& pair,
+                                                      const StructureOptions& through,
+                                                      Workspace& workspace,
+                                                      std::span<TrianglePair> room) noexcept;
 
 /// Returns whether any two triangles overlap; stops at the first pair found. Structure::bvh and
 /// Structure::pieces use pair.cache. Needs Ask::collide and ask_of() the structure of both models.
-[[nodiscard]] bool any_overlap_through(const Pair& pair, const StructureOptions& through,
-                                       Workspace& workspace) noexcept;
+[[nodiscard]] CDPREP_API bool any_overlap_through(const Pair& pair, const StructureOptions& through,
+                                                  Workspace& workspace) noexcept;
 
 }  // namespace cdprep

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "cdprep/cells/build_tetra_tree.h"
+#include "cdprep/format/api.h"
 #include "cdprep/model.h"
 
 namespace cdprep {
@@ -37,16 +38,16 @@ struct TetraFigures {
 /// Returns statistics of a model's tetra-tree. All but `triangles` are 0 if the model was baked
 /// without one. Layers are 0 if the model was opened without positions and triangles. Takes O(nodes
 /// + references) time, tens of nanoseconds per reference. Allocates four bytes per triangle.
-[[nodiscard]] TetraFigures tetra_figures(const Model& model);
+[[nodiscard]] CDPREP_API TetraFigures tetra_figures(const Model& model);
 
 /// Returns the same figures for a tetra-tree in memory that was built over these triangles.
-[[nodiscard]] TetraFigures tetra_figures(const build::TetraTree& tree,
-                                         std::span<const format::Double3> positions,
-                                         std::span<const format::Triangle> triangles);
+[[nodiscard]] CDPREP_API TetraFigures tetra_figures(const build::TetraTree& tree,
+                                                    std::span<const format::Double3> positions,
+                                                    std::span<const format::Triangle> triangles);
 
 /// Returns the size in bytes that the published implementation would need. The root takes 340, any
 /// other node 88, even an empty one, and a reference 4. Returns 0 without nodes. The formula is
 /// that of "A comparative study of implemented collision detection strategies".
-[[nodiscard]] std::uint64_t seed_formula_bytes(const TetraFigures& figures) noexcept;
+[[nodiscard]] CDPREP_API std::uint64_t seed_formula_bytes(const TetraFigures& figures) noexcept;
 
 }  // namespace cdprep

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "cdprep/format/api.h"
 #include "cdprep/format/geometry.h"
 
 namespace cdprep {
@@ -31,29 +32,30 @@ namespace cdprep::exact {
 ///
 /// Tries in turn a filter in double, a test for equal points, fixed-width integers, expansions
 /// (Shewchuk 1997) and big integers.
-[[nodiscard]] int orient2d(const Double2& a, const Double2& b, const Double2& c) noexcept;
+[[nodiscard]] CDPREP_API int orient2d(const Double2& a, const Double2& b,
+                                      const Double2& c) noexcept;
 
 /// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]. It is positive when d lies behind the
 /// plane, seen from the side where a, b, c turn counter-clockwise. Cost and stages as orient2d().
-[[nodiscard]] int orient3d(const Double3& a, const Double3& b, const Double3& c,
-                           const Double3& d) noexcept;
+[[nodiscard]] CDPREP_API int orient3d(const Double3& a, const Double3& b, const Double3& c,
+                                      const Double3& d) noexcept;
 
 /// Returns orient3d(plane[0], plane[1], plane[2], p) for each of three points p; faster than three
 /// calls.
-[[nodiscard]] std::array<int, 3> plane_signs(const Corners& plane,
-                                             const std::array<Double3, 3>& points) noexcept;
+[[nodiscard]] CDPREP_API std::array<int, 3> plane_signs(
+    const Corners& plane, const std::array<Double3, 3>& points) noexcept;
 
 /// The plane through three points, prepared for tests of many other points.
 class Plane {
 public:
-    Plane(const Double3& a, const Double3& b, const Double3& c) noexcept;
+    CDPREP_API Plane(const Double3& a, const Double3& b, const Double3& c) noexcept;
 
     /// Returns orient3d(a, b, c, p), exactly: negative when p lies in front.
-    [[nodiscard]] int side(const Double3& p) const noexcept;
+    [[nodiscard]] CDPREP_API int side(const Double3& p) const noexcept;
 
     /// Returns the height of p in front of the plane times the length of the plane's normal,
     /// rounded.
-    [[nodiscard]] double height(const Double3& p) const noexcept;
+    [[nodiscard]] CDPREP_API double height(const Double3& p) const noexcept;
 
 private:
     Double3 a_, b_, c_;

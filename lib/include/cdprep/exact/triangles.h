@@ -6,6 +6,7 @@
 #include <span>
 
 #include "cdprep/exact/predicates.h"
+#include "cdprep/format/api.h"
 
 namespace cdprep {
 
@@ -45,23 +46,25 @@ namespace cdprep::exact {
 
 /// Returns whether two triangles have a common point. Exact. Takes some 30 ns where a filter in
 /// double decides; microseconds at worst (Guigue and Devillers 2003, with exact signs).
-[[nodiscard]] bool triangles_touch(const Corners& a, const Corners& b) noexcept;
+[[nodiscard]] CDPREP_API bool triangles_touch(const Corners& a, const Corners& b) noexcept;
 
 /// Returns how two triangles meet. Exact. A triangle without area has no inside: it can only
 /// touch. Cost as triangles_touch().
-[[nodiscard]] TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept;
+[[nodiscard]] CDPREP_API TriangleContact classify_contact(const Corners& a,
+                                                          const Corners& b) noexcept;
 
 /// Returns the result of classify_contact(), without its filter: for studies of the filter's
 /// benefit. Exact.
-[[nodiscard]] TriangleContact contact_without_filter(const Corners& a, const Corners& b) noexcept;
+[[nodiscard]] CDPREP_API TriangleContact contact_without_filter(const Corners& a,
+                                                                const Corners& b) noexcept;
 
 /// Returns the edges that bound the common segment of two triangles that touch. Returns nothing
 /// when both lie in one plane or one has no area. Exact.
-[[nodiscard]] std::optional<CrossingEnds> crossing_ends(const Corners& a,
-                                                        const Corners& b) noexcept;
+[[nodiscard]] CDPREP_API std::optional<CrossingEnds> crossing_ends(const Corners& a,
+                                                                   const Corners& b) noexcept;
 
 /// Returns whether the corners are collinear. Exact.
-[[nodiscard]] bool is_degenerate(const Corners& t) noexcept;
+[[nodiscard]] CDPREP_API bool is_degenerate(const Corners& t) noexcept;
 
 /// Returns the distance of `q` from a triangle, with or without area, as a proven interval.
 ///
@@ -69,13 +72,13 @@ namespace cdprep::exact {
 /// If the triangle is much nearer than that corner, the width is up to 200 u times that distance.
 /// It is more for slivers. Works for all sizes from subnormal numbers to format::kMaxCoordinate.
 /// Takes some 50 ns.
-[[nodiscard]] PointTriangleDistance point_triangle_distance(const Double3& q,
-                                                            const Corners& t) noexcept;
+[[nodiscard]] CDPREP_API PointTriangleDistance point_triangle_distance(const Double3& q,
+                                                                       const Corners& t) noexcept;
 
 /// Returns whether a point, segment or triangle is at most `distance` from a triangle; inclusive.
 /// `corners` are the 1 to 3 corners of the former. Exact. False for a negative distance or NaN.
 /// Takes microseconds where double does not decide, and some 20 KiB of stack.
-[[nodiscard]] bool is_within(std::span<const Double3> corners, const Corners& t,
-                             double distance) noexcept;
+[[nodiscard]] CDPREP_API bool is_within(std::span<const Double3> corners, const Corners& t,
+                                        double distance) noexcept;
 
 }  // namespace cdprep::exact

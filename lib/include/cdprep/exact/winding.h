@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cdprep/exact/predicates.h"
+#include "cdprep/format/api.h"
 
 namespace cdprep {
 
@@ -22,12 +23,12 @@ namespace cdprep::exact {
 /// perturbed symbolically to o + (e, e^2, e^3) with e infinitely small. So no ray meets an edge or
 /// a vertex. A triangle without area adds nothing. (Feito and Torres 1997, with another rule for
 /// vertices.)
-[[nodiscard]] WindingTerm winding_term(const Double3& o, const Double3& q,
-                                       const Corners& t) noexcept;
+[[nodiscard]] CDPREP_API WindingTerm winding_term(const Double3& o, const Double3& q,
+                                                  const Corners& t) noexcept;
 
 /// Returns an `o` for winding_term() whose ray runs from q along +x: a point at least `reach`
 /// before q. `reach` should be about the model's size: with a much smaller one, the filter decides
 /// few triangles. The result differs from q unless |q.x| is near the largest double.
-[[nodiscard]] Double3 before_along_x(const Double3& q, double reach) noexcept;
+[[nodiscard]] CDPREP_API Double3 before_along_x(const Double3& q, double reach) noexcept;
 
 }  // namespace cdprep::exact

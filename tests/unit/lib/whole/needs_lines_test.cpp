@@ -73,7 +73,8 @@ std::string lower(std::string text) {
 /// Functions of a C++ header that have a "Needs" sentence. Comments are blocks of ///.
 void read_cpp(const std::string& header, Functions& functions) {
     std::istringstream lines(text_of(header));
-    const std::regex declared(R"(^(?:\[\[nodiscard\]\] )?[A-Za-z:_<>0-9]+ ([a-z_]+)\()");
+    const std::regex declared(
+        R"(^(?:\[\[nodiscard\]\] )?(?:CDPREP_API )?[A-Za-z:_<>0-9]+ ([a-z_]+)\()");
     const std::regex needs(R"(Needs ((?:Ask|ask_of)(?:[^.]|\.(?=\w))*)\.)");
     const std::regex ask(R"(Ask::([a-z_]+))");
     std::string comment, line;
