@@ -54,7 +54,7 @@ set(tools_rooms
 
 # A library of others: the pattern of its headers, then the folders that may know it.
 set(libraries
-    "xxh:format/src/checksum.cpp"
+    "xxh:tests"
     "assimp/|zip\\.h:tools/import/child"
     "pugixml:tools/import/child tools/validate tools/write"
     "H5|hdf5:tools/write"
