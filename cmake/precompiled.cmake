@@ -18,11 +18,12 @@ function(cdprep_precompile target)
     endif()
     get_target_property(options ${target} COMPILE_OPTIONS)
     get_target_property(definitions ${target} COMPILE_DEFINITIONS)
+    get_target_property(visibility ${target} CXX_VISIBILITY_PRESET)
     get_target_property(sources ${target} SOURCES)
     if(sources MATCHES "\\.c(;|$)")
         set(type ${target})  # CMake would look for a file for C beside that of another target
     endif()
-    string(MD5 key "${type} ${ARGN} ${options} ${definitions}")
+    string(MD5 key "${type} ${ARGN} ${options} ${definitions} ${visibility}")
     get_property(owner GLOBAL PROPERTY CDPREP_PRECOMPILED_${key})
     # ccache keeps what is compiled with such a file if it sees which one. GCC 12 then also warns,
     # wrongly, of inlined code of the standard library.
