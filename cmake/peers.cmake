@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Other libraries, which benchmarks and studies are set beside. None is linked into the product.
+# Other libraries, which benchmarks and studies are set beside. None is linked into the product, and
+# all are optional.
 
 function(cdprep_define_peer name)
     add_library(cdprep_peer_${name} INTERFACE)
@@ -62,4 +63,15 @@ endif()
 find_library(CDPREP_QHULL qhull_r)
 if(CDPREP_QHULL)
     cdprep_define_peer(qhull ${CDPREP_QHULL})
+endif()
+
+set(missing "")
+foreach(name fcl ccd cgal embree bullet ode qhull)
+    if(NOT TARGET cdprep_peer_${name})
+        list(APPEND missing ${name})
+    endif()
+endforeach()
+if(missing)
+    list(JOIN missing ", " missing)
+    message(STATUS "Benchmarks and studies leave out what was not found: ${missing}.")
 endif()
