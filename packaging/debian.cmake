@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+# Debian packages of a build that is configured for them: packaging/README.md has the commands.
+# Without CDPREP_TOOLS, they are those of the library alone.
+if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr" OR NOT BUILD_SHARED_LIBS)
+    return()
+endif()
+
+set(CDPREP_PACKAGE_CONTACT "The cdprep developers <cdprep@localhost>"
+    CACHE STRING "Maintainer of the packages; set it before you publish them")
+set(CPACK_PACKAGE_CONTACT ${CDPREP_PACKAGE_CONTACT})
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_COMPONENTS_ALL runtime development documentation)
+
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+# Defines the package of a component: what Debian calls it, its section, what it needs, and a text
+# of lines below 80 characters. Their first line is PROJECT_DESCRIPTION.
+set(version "${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}")
+function(cdprep_define_package component name section depends text)
+    string(TOUPPER ${component} upper)
+    set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name} PARENT_SCOPE)
+    set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section} PARENT_SCOPE)
+    set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "${depends}" PARENT_SCOPE)
+    set(CPACK_DEBIAN_${upper}_DESCRIPTION "${text}" PARENT_SCOPE)
+    install(FILES ${PROJECT_SOURCE_DIR}/packaging/debian/copyright
+                  ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian.gz
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component})
+endfunction()
+
+set(library libcdprep${CDPREP_SOVERSION})
+cdprep_define_package(runtime ${library} libs ""
+    "The library maps models that cdprep baked. It answers which triangles
+overlap, how far apart two models are, and where they touch. Answers are
+exact, and the same on every machine.")
+cdprep_define_package(development libcdprep-dev libdevel "${library} (= ${version})"
+    "Headers for C99 and C++20, with the files of CMake and pkg-config.")
+if(CDPREP_TOOLS)
+    list(APPEND CPACK_COMPONENTS_ALL program)
+    cdprep_define_package(program cdprep science "${library} (= ${version})"
+        "The program bakes mesh files into models that the library maps. It validates
+and repairs meshes, cuts them into convex pieces, and answers queries.")
+endif()
+cdprep_define_package(documentation cdprep-doc doc ""
+    "Documents of the program and the library, the format of baked files, and
+samples in C and C++.")
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+
+# The loader's cache is renewed when the libraries come and go.
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/triggers)
+
+# A changelog of Debian's form, which names the version alone: CHANGELOG.md has the changes.
+string(TIMESTAMP date "%a, %d %b %Y 00:00:00 +0000" UTC)
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian "cdprep (${version}) unstable; urgency=low
+
+  * See /usr/share/doc/cdprep/CHANGELOG.md of the package cdprep-doc.
+
+ -- ${CDPREP_PACKAGE_CONTACT}  ${date}
+")
+execute_process(COMMAND gzip -9nf ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian
+    COMMAND_ERROR_IS_FATAL ANY)
+
+include(CPack)
