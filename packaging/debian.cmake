@@ -48,6 +48,10 @@ if(CDPREP_TOOLS)
     cdprep_define_package(program cdprep science "${library} (= ${version})"
         "The program bakes mesh files into models that the library maps. It validates
 and repairs meshes, cuts them into convex pieces, and answers queries.")
+    install(CODE "
+        file(GLOB pages \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1/*.1)
+        execute_process(COMMAND gzip -9nf \${pages} COMMAND_ERROR_IS_FATAL ANY)
+    " COMPONENT program)
 endif()
 cdprep_define_package(documentation cdprep-doc doc ""
     "Documents of the program and the library, the format of baked files, and

@@ -80,6 +80,12 @@ void read_cpp(const std::string& header, Functions& functions) {
     std::string comment, line;
     while (std::getline(lines, line)) {
         std::smatch found, said;
+        // A long type stands on a line of its own.
+        const bool is_split = line.find("CDPREP_API") != std::string::npos;
+        if (std::string rest; is_split && line.find('(') == std::string::npos) {
+            std::getline(lines, rest);
+            line += " " + rest;
+        }
         if (line.starts_with("///")) {
             comment += line.substr(3);
             continue;
