@@ -3,13 +3,16 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace cdprep::write {
 namespace {
@@ -110,6 +113,17 @@ std::string why_not_created(const std::filesystem::path& target, int error) {
     if (error == ENOENT)
         return "cannot be written, for the folder " + folder.string() + " does not exist";
     return std::string("cannot be written: ") + std::strerror(error);
+}
+
+/// Lets this process open `count` more files, as far as the system permits.
+void allow_open_files(std::size_t count) {
+    constexpr rlim_t kOthers = 256;  // open already, or soon
+    struct rlimit limit {};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+    const rlim_t wanted = std::min<rlim_t>(limit.rlim_max, count + kOthers);
+    if (limit.rlim_cur >= wanted) return;
+    limit.rlim_cur = wanted;
+    ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 }  // namespace
@@ -233,6 +247,33 @@ Result<Done> write_whole(const std::filesystem::path& path, std::string_view byt
     const Result<Done> written = file.value().write_at(0, std::as_bytes(std::span(bytes)));
     if (!written) return written.error();
     return file.value().commit();
+}
+
+Result<Done> write_all(std::span<const FileBytes> files) {
+    allow_open_files(files.size());
+    std::vector<OutputFile> open;
+    open.reserve(files.size());
+    for (const FileBytes& file : files) {
+        Result<OutputFile> created = OutputFile::create(file.path);
+        if (!created) return created.error();
+        open.push_back(std::move(created).value());
+        const Result<Done> written =
+            open.back().write_at(0, std::as_bytes(std::span(std::string_view(file.bytes))));
+        if (!written) return written.error();
+    }
+    std::vector<std::filesystem::path> added;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        std::error_code unknown;
+        const bool was_there = std::filesystem::exists(files[i].path, unknown);
+        const Result<Done> committed = open[i].commit();
+        if (committed) {
+            if (!was_there) added.push_back(files[i].path);
+            continue;
+        }
+        for (const std::filesystem::path& path : added) std::filesystem::remove(path, unknown);
+        return committed.error();
+    }
+    return Done{};
 }
 
 }  // namespace cdprep::write

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "cdprep/result.h"
@@ -53,5 +54,16 @@ private:
 
 /// Creates, writes and commits a file whose bytes are complete.
 [[nodiscard]] Result<Done> write_whole(const std::filesystem::path& path, std::string_view bytes);
+
+/// The complete bytes of a file.
+struct FileBytes {
+    std::filesystem::path path;
+    std::string bytes;
+};
+
+/// Writes files that belong together, then gives each its name, in order. If one cannot be
+/// written, none appears and files of these names are unchanged. If one cannot be named, the files
+/// named before it are removed, unless they replaced others.
+[[nodiscard]] Result<Done> write_all(std::span<const FileBytes> files);
 
 }  // namespace cdprep::write

@@ -4,10 +4,12 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <string>
+#include <vector>
 
 #include "support/scratch_folder.h"
 #include "unit/tools/image_sections.h"
@@ -154,6 +156,45 @@ TEST_P(OutputFileOf, ATemporaryThatIsBeingWrittenIsLeftAlone) {
     EXPECT_EQ(content_of(held), "held");
     EXPECT_EQ(content_of(folder.file("out")), "new");
     ::close(descriptor);
+}
+
+TEST(WriteAll, WritesEveryFile) {
+    const ScratchFolder folder;
+    test::put_content(folder.file("b"), "old");
+    const std::vector<FileBytes> files = {{folder.file("a"), "one"}, {folder.file("b"), ""}};
+    ASSERT_TRUE(write_all(files));
+    EXPECT_EQ(content_of(folder.file("a")), "one");
+    EXPECT_EQ(content_of(folder.file("b")), "");
+    EXPECT_TRUE(write_all({}));
+}
+
+// All files are open at once: more than this process may open at first.
+TEST(WriteAll, WritesMoreFilesThanMayBeOpen) {
+    const ScratchFolder folder;
+    std::vector<FileBytes> files;
+    for (int i = 0; i < 100; ++i) files.push_back({folder.file(std::to_string(i)), "x"});
+    struct rlimit before {};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    struct rlimit low = before;
+    low.rlim_cur = 64;
+    if (before.rlim_max < 1'000) GTEST_SKIP() << "this process may open only " << before.rlim_max;
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &low), 0);
+    const Result<Done> written = write_all(files);
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+    ASSERT_TRUE(written) << written.error().message;
+    EXPECT_EQ(folder.names().size(), files.size());
+}
+
+TEST(WriteAll, WritesNothingIfOneFileCannotBeWritten) {
+    const ScratchFolder folder;
+    test::put_content(folder.file("a"), "old");
+    const std::vector<FileBytes> files = {
+        {folder.file("a"), "new"}, {folder.file("b"), "new"}, {folder.file("no folder/c"), "new"}};
+    const Result<Done> written = write_all(files);
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, ErrorCode::unwritable);
+    EXPECT_EQ(content_of(folder.file("a")), "old");
+    EXPECT_EQ(folder.names(), (std::set<std::string>{"a"}));
 }
 
 }  // namespace
