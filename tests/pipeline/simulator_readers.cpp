@@ -45,6 +45,7 @@ void collect(const aiScene& scene, const aiNode& node, Json& parts) {
                 std::vector<unsigned>(face.mIndices, face.mIndices + face.mNumIndices));
         }
         parts.push_back({{"name", node.mName.C_Str()},
+                         {"parent", node.mParent != nullptr ? node.mParent->mName.C_Str() : ""},
                          {"vertices", std::move(vertices)},
                          {"facets", std::move(facets)}});
     }
@@ -81,6 +82,7 @@ Json read_by_mujoco(const fs::path& path) {
     const mjtNum* moments = model->body_inertia + 3 * body;
     return {{"reader", "MuJoCo"},
             {"bodies", model->nbody},
+            {"positions", model->nq},
             {"mass", model->body_mass[body]},
             {"centre", point(centre[0], centre[1], centre[2])},
             {"moments", point(moments[0], moments[1], moments[2])},

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "write/hulls_text.h"
 #include "write/mesh_bytes.h"
@@ -35,11 +36,11 @@ std::size_t add_accessor(Glb& glb, std::size_t begin, int target, Json accessor)
 }
 
 /// Returns the bounds of the written floats, which glTF requires.
-std::array<Json, 2> bounds_of(const HullArrays& hull) {
+std::array<Json, 2> bounds_of(std::span<const Double3> points) {
     std::array<Json, 2> bounds = {Json::array(), Json::array()};
     for (const auto axis : {&Double3::x, &Double3::y, &Double3::z}) {
         const auto [least, greatest] = std::minmax_element(
-            hull.points.begin(), hull.points.end(),
+            points.begin(), points.end(),
             [&](const Double3& a, const Double3& b) { return a.*axis < b.*axis; });
         bounds[0].push_back(static_cast<float>((*least).*axis));
         bounds[1].push_back(static_cast<float>((*greatest).*axis));
@@ -47,46 +48,77 @@ std::array<Json, 2> bounds_of(const HullArrays& hull) {
     return bounds;
 }
 
-std::size_t add_positions(Glb& glb, const HullArrays& hull) {
+std::size_t add_positions(Glb& glb, std::span<const Double3> points) {
     constexpr int kFloat = 5126;
     constexpr int kArrayBuffer = 34962;
     const std::size_t begin = glb.binary.size();
-    for (const Double3& p : hull.points) append_point(glb.binary, p, true);
-    const auto [least, greatest] = bounds_of(hull);
+    for (const Double3& p : points) append_point(glb.binary, p, true);
+    const auto [least, greatest] = bounds_of(points);
     return add_accessor(glb, begin, kArrayBuffer,
                         {{"componentType", kFloat},
-                         {"count", hull.points.size()},
+                         {"count", points.size()},
                          {"type", "VEC3"},
                          {"min", least},
                          {"max", greatest}});
 }
 
-std::size_t add_indices(Glb& glb, const HullArrays& hull) {
+using Facet = std::array<std::uint32_t, 3>;
+
+const Facet& corners_of(const Facet& facet) {
+    return facet;
+}
+
+const Facet& corners_of(const format::Triangle& triangle) {
+    return triangle.vertex;
+}
+
+template <class Triangles>
+std::size_t add_indices(Glb& glb, const Triangles& triangles) {
     constexpr int kUnsignedInt = 5125;
     constexpr int kElementArrayBuffer = 34963;
     const std::size_t begin = glb.binary.size();
-    for (const auto& facet : hull.facets) {
-        for (const std::uint32_t vertex : facet) append_bytes(glb.binary, vertex);
+    for (const auto& triangle : triangles) {
+        for (const std::uint32_t vertex : corners_of(triangle)) append_bytes(glb.binary, vertex);
     }
     return add_accessor(
         glb, begin, kElementArrayBuffer,
-        {{"componentType", kUnsignedInt}, {"count", 3 * hull.facets.size()}, {"type", "SCALAR"}});
+        {{"componentType", kUnsignedInt}, {"count", 3 * triangles.size()}, {"type", "SCALAR"}});
 }
 
-/// Adds a node with a mesh. A hull without facets becomes points.
-void add_node(Glb& glb, const HullArrays& hull) {
+/// Adds a node with a mesh and returns its index. Without triangles, the mesh has points.
+template <class Triangles>
+std::size_t add_node(Glb& glb, const std::string& name, std::span<const Double3> points,
+                     const Triangles& triangles) {
     constexpr int kPoints = 0;
-    Json primitive = {{"attributes", {{"POSITION", add_positions(glb, hull)}}}};
-    if (hull.facets.empty()) {
+    Json primitive = {{"attributes", {{"POSITION", add_positions(glb, points)}}}};
+    if (triangles.empty()) {
         primitive["mode"] = kPoints;
     } else {
-        primitive["indices"] = add_indices(glb, hull);
+        primitive["indices"] = add_indices(glb, triangles);
     }
     const std::size_t mesh =
         append(glb.document, "meshes",
-               {{"name", hull.name}, {"primitives", Json::array({std::move(primitive)})}});
-    const std::size_t node = append(glb.document, "nodes", {{"name", hull.name}, {"mesh", mesh}});
-    glb.document["scenes"][0]["nodes"].push_back(node);
+               {{"name", name}, {"primitives", Json::array({std::move(primitive)})}});
+    return append(glb.document, "nodes", {{"name", name}, {"mesh", mesh}});
+}
+
+/// Adds the shown mesh, then the hulls, which may have a node above them.
+void add_nodes(Glb& glb, const RobotFile& file) {
+    std::vector<std::size_t> roots;
+    if (file.options.visual) {
+        const MeshArrays& shown = *file.options.visual;
+        roots.push_back(add_node(glb, file.name, shown.positions, shown.triangles));
+    }
+    std::vector<std::size_t> hulls;
+    for (const HullArrays& hull : file.hulls) {
+        hulls.push_back(add_node(glb, hull.name, hull.points, hull.facets));
+    }
+    if (!hulls.empty() && !file.options.hulls_node.empty()) {
+        hulls = {append(glb.document, "nodes",
+                        {{"name", file.options.hulls_node}, {"children", hulls}})};
+    }
+    roots.insert(roots.end(), hulls.begin(), hulls.end());
+    if (!roots.empty()) glb.document["scenes"][0]["nodes"] = roots;
 }
 
 void append_chunk(std::string& bytes, std::string chunk, std::uint32_t type, char padding) {
@@ -98,14 +130,14 @@ void append_chunk(std::string& bytes, std::string chunk, std::uint32_t type, cha
 
 }  // namespace
 
-std::string glb_bytes(std::span<const HullArrays> hulls) {
+std::string glb_bytes(const RobotFile& file) {
     constexpr std::uint32_t kMagic = 0x46546C67;
     constexpr std::uint32_t kJson = 0x4E4F534A;
     constexpr std::uint32_t kBinary = 0x004E4942;
     Glb glb;
     glb.document["scene"] = 0;
     glb.document["scenes"] = Json::array({Json::object()});
-    for (const HullArrays& hull : hulls) add_node(glb, hull);
+    add_nodes(glb, file);
     if (!glb.binary.empty()) {
         glb.document["buffers"] = Json::array({{{"byteLength", glb.binary.size()}}});
     }

@@ -42,23 +42,10 @@ std::string scale_text(double scale) {
     return text;
 }
 
-/// Returns a name of letters, digits, '_', '-' and '.'. It needs no escape in XML, in URIs or in
-/// a shell.
-std::string plain_name(const fs::path& path) {
-    std::string name = path.stem().string();
-    for (char& letter : name) {
-        const bool is_plain =
-            (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
-            (letter >= '0' && letter <= '9') || letter == '_' || letter == '-' || letter == '.';
-        if (!is_plain) letter = '_';
-    }
-    return name;
-}
-
 /// Returns the common prefix of the mesh names. Files in one folder have different prefixes, unless
 /// their names differ only in the extension.
 std::string mesh_stem(const fs::path& path) {
-    std::string name = plain_name(path);
+    std::string name = model_name(path);
     const std::string stem = path.stem().string();
     if (name == stem) return name;
     std::uint32_t hash = 2166136261U;  // FNV-1a
@@ -73,7 +60,7 @@ std::string text_in(HullsFormat format, const RobotFile& file) {
         case HullsFormat::obj:
             return obj_text(file.hulls);
         case HullsFormat::glb:
-            return glb_bytes(file.hulls);
+            return glb_bytes(file);
         case HullsFormat::urdf:
             return urdf_text(file);
         case HullsFormat::sdf:
@@ -84,23 +71,44 @@ std::string text_in(HullsFormat format, const RobotFile& file) {
     return {};
 }
 
-constexpr bool has_meshes(HullsFormat format) {
-    return format == HullsFormat::urdf || format == HullsFormat::sdf;
+/// Returns the mesh files to which a URDF, SDF or MJCF refers.
+std::vector<FileBytes> mesh_files(const fs::path& folder, HullsFormat format,
+                                  const RobotFile& file) {
+    std::vector<FileBytes> files;
+    if (has_mesh_files(format)) {
+        for (const HullArrays& hull : file.hulls) {
+            files.push_back({folder / mesh_name(file, hull.name), obj_text({&hull, 1})});
+        }
+    }
+    if (has_mass(format) && file.options.visual) {
+        files.push_back(
+            {folder / mesh_name(file, kVisual), bytes_of(MeshFormat::obj, *file.options.visual)});
+    }
+    return files;
 }
 
-/// Writes the mesh files to which a URDF or SDF refers.
-Result<Done> write_meshes(const fs::path& folder, const RobotFile& file) {
-    for (const HullArrays& hull : file.hulls) {
-        const Result<Done> done =
-            write_whole(folder / mesh_name(file, hull.name), obj_text({&hull, 1}));
-        if (!done) return done.error();
+/// Returns the bytes of the arrays in a GLB, which counts them in 32 bits.
+std::uint64_t array_bytes(const RobotFile& file) {
+    std::uint64_t elements = 0;
+    for (const HullArrays& hull : file.hulls) elements += hull.points.size() + hull.facets.size();
+    if (file.options.visual) {
+        elements += file.options.visual->positions.size() + file.options.visual->triangles.size();
     }
-    if (!file.options.visual) return Done{};
-    return write_mesh_file(folder / mesh_name(file, kVisual), MeshFormat::obj,
-                           *file.options.visual);
+    return 12 * elements;
 }
 
 }  // namespace
+
+std::string model_name(const fs::path& path) {
+    std::string name = path.stem().string();
+    for (char& letter : name) {
+        const bool is_plain =
+            (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+            (letter >= '0' && letter <= '9') || letter == '_' || letter == '-' || letter == '.';
+        if (!is_plain) letter = '_';
+    }
+    return name;
+}
 
 std::string mesh_name(const RobotFile& file, const std::string& hull) {
     return file.mesh_stem + "_" + hull + ".obj";
@@ -119,7 +127,7 @@ std::optional<HullsFormat> hulls_format_of(const fs::path& path) {
 }
 
 bool may_replace(const fs::path& path, HullsFormat format, const fs::path& file) {
-    if (!has_meshes(format)) return false;
+    if (!has_mesh_files(format)) return false;
     const auto folder_of = [](const fs::path& of) {
         return fs::absolute(of).lexically_normal().parent_path();
     };
@@ -135,13 +143,17 @@ Result<std::size_t> write_hulls(const fs::path& path, HullsFormat format,
     if (has_mass(format)) {
         std::erase_if(written, [](const HullArrays& hull) { return hull.dimension < 3; });
     }
-    const RobotFile file = {plain_name(path), mesh_stem(path), written, options,
+    const RobotFile file = {model_name(path), mesh_stem(path), written, options,
                             scale_text(options.metres_per_unit > 0 ? options.metres_per_unit : 1)};
-    if (has_meshes(format)) {
-        const Result<Done> done = write_meshes(path.parent_path(), file);
-        if (!done) return done.error();
+    constexpr std::uint64_t kMostBytes = 0xf0000000U;  // leaves room for the document
+    if (format == HullsFormat::glb && array_bytes(file) > kMostBytes) {
+        return Error{ErrorCode::bad_argument,
+                     path.string() + ": would have " + std::to_string(array_bytes(file)) +
+                         " bytes of corners, but a GLB has at most 4 GiB."};
     }
-    const Result<Done> done = write_whole(path, text_in(format, file));
+    std::vector<FileBytes> files = mesh_files(path.parent_path(), format, file);
+    files.push_back({path, text_in(format, file)});
+    const Result<Done> done = write_all(files);
     if (!done) return done.error();
     return hulls.size() - written.size();
 }

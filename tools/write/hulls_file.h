@@ -26,6 +26,11 @@ enum class HullsFormat : std::uint8_t { obj, glb, urdf, sdf, mjcf };
     return format != HullsFormat::obj && format != HullsFormat::glb;
 }
 
+/// Returns true if a format refers to mesh files of its own: a file per hull.
+[[nodiscard]] constexpr bool has_mesh_files(HullsFormat format) noexcept {
+    return format == HullsFormat::urdf || format == HullsFormat::sdf;
+}
+
 /// A convex hull in the form in which the file stores it.
 struct HullArrays {
     std::string name;  ///< letters, digits, '_' and '-'
@@ -45,9 +50,16 @@ struct HullsFileOptions {
     double metres_per_unit = 0;  ///< scales formats with a unit (URDF, SDF, MJCF); 0 means 1
     /// Of the link or body. Nothing: no mass is written, and readers use their own default.
     std::optional<BodyMass> mass = {};
-    /// The mesh that URDF and SDF show instead of the pieces. Nothing: they show nothing.
+    /// The mesh that is shown instead of the pieces. Nothing: only MJCF and GLB show the pieces.
+    /// An OBJ never contains it.
     std::optional<MeshArrays> visual = {};
+    bool is_floating = false;     ///< MJCF: a free joint; otherwise the body is fixed to the world
+    std::string hulls_node = {};  ///< GLB: the name of a node above the hulls; empty: none
 };
+
+/// Returns the name of the robot, model or body in a file: the file's name without its extension.
+/// Characters other than letters, digits, '_', '-' and '.' become '_'.
+[[nodiscard]] std::string model_name(const std::filesystem::path& path);
 
 /// Returns true if write_hulls() to `path` might replace `file` by a mesh.
 [[nodiscard]] bool may_replace(const std::filesystem::path& path, HullsFormat format,
@@ -55,15 +67,16 @@ struct HullsFileOptions {
 
 /// Writes hulls, each under its name. They become objects of an OBJ, nodes of a GLB, or mesh
 /// geoms of one body of an MJCF. In a URDF or SDF, they become collision elements of one link.
+/// A shown mesh becomes the first node of a GLB, named as the model, or a geom without collisions.
 ///
 /// Coordinates are written in the fewest digits that read back bit for bit. GLB has only
 /// floats: its corners are rounded to the nearest float. URDF and SDF refer to mesh files by
-/// paths relative to their own. Each hull is written beside the file as STEM_NAME.obj, and the
-/// shown mesh as STEM_visual.obj. STEM is the file's name without its extension. Characters
-/// other than letters, digits, '_', '-' and '.' become '_'; a number then distinguishes such
-/// names. URDF, SDF and MJCF omit hulls of fewer than three dimensions, because their readers
-/// require a volume. Returns the number of omitted hulls. Each file appears under its name when
-/// it is complete, `path` last.
+/// paths relative to their own. Each hull is written beside the file as STEM_NAME.obj. The mesh
+/// that URDF, SDF and MJCF show is written as STEM_visual.obj. STEM is model_name(); if that
+/// replaced characters, a number distinguishes such names. URDF, SDF and MJCF omit hulls of fewer
+/// than three dimensions, because their readers require a volume. Returns the number of omitted
+/// hulls. Fails with `bad_argument` if a GLB would exceed 4 GiB. All files appear when they are
+/// complete, or none does (write_all()).
 [[nodiscard]] Result<std::size_t> write_hulls(const std::filesystem::path& path, HullsFormat format,
                                               std::span<const HullArrays> hulls,
                                               const HullsFileOptions& options = {});

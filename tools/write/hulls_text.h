@@ -10,9 +10,9 @@ namespace cdprep::write {
 
 constexpr const char* kVisual = "visual";  ///< the name of the shown mesh; no hull has it
 
-/// The data that all elements of a URDF, SDF or MJCF share.
+/// The data that all elements of a GLB, URDF, SDF or MJCF share.
 struct RobotFile {
-    std::string name;       ///< of the robot, link, model and body
+    std::string name;       ///< of the robot, link, model, body and shown node
     std::string mesh_stem;  ///< the names of mesh files begin with it
     std::span<const HullArrays> hulls;
     const HullsFileOptions& options;
@@ -22,7 +22,7 @@ struct RobotFile {
 /// Returns the path of the mesh file of a hull, relative to the robot's file.
 [[nodiscard]] std::string mesh_name(const RobotFile& file, const std::string& hull);
 
-[[nodiscard]] std::string glb_bytes(std::span<const HullArrays> hulls);
+[[nodiscard]] std::string glb_bytes(const RobotFile& file);
 [[nodiscard]] std::string urdf_text(const RobotFile& file);
 [[nodiscard]] std::string sdf_text(const RobotFile& file);
 [[nodiscard]] std::string mjcf_text(const RobotFile& file);

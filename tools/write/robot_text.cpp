@@ -111,6 +111,27 @@ void add_mjcf_inertial(xml_node body_element, const BodyMass& body) {
     set(inertial, "fullinertia", inertia);
 }
 
+std::string mjcf_visual(const RobotFile& file) {
+    return file.name + "_" + kVisual;
+}
+
+void add_mjcf_visual_mesh(xml_node asset, const RobotFile& file) {
+    const xml_node mesh = add_named(asset, "mesh", mjcf_visual(file));
+    set(mesh, "file", mesh_name(file, kVisual));
+    set(mesh, "scale", file.scale);
+}
+
+/// Adds a geom that collides with nothing and has no mass.
+void add_mjcf_visual_geom(xml_node body, const RobotFile& file) {
+    const xml_node geom = add_named(body, "geom", mjcf_visual(file));
+    set(geom, "type", "mesh");
+    set(geom, "mesh", mjcf_visual(file));
+    set(geom, "contype", "0");
+    set(geom, "conaffinity", "0");
+    set(geom, "group", "2");
+    set(geom, "mass", "0");
+}
+
 std::string vertices_text(const HullArrays& hull) {
     std::string text;
     for (const Double3& p : hull.points) {
@@ -142,23 +163,29 @@ std::string sdf_text(const RobotFile& file) {
     return written(document);
 }
 
-/// Returns an MJCF file that contains the vertices themselves; MuJoCo computes their hull.
+/// Returns an MJCF file that contains the vertices themselves; MuJoCo computes their hull. A shown
+/// mesh is a geom of group 2, and the pieces are of group 3, which viewers hide at first.
 std::string mjcf_text(const RobotFile& file) {
     pugi::xml_document document;
     const xml_node mujoco = add(document, "mujoco");
     set(mujoco, "model", file.name);
     const xml_node asset = add(mujoco, "asset");
+    const bool has_visual = file.options.visual.has_value();
+    if (has_visual) add_mjcf_visual_mesh(asset, file);
     for (const HullArrays& hull : file.hulls) {
         const xml_node mesh = add_named(asset, "mesh", hull.name);
         set(mesh, "scale", file.scale);
         set(mesh, "vertex", vertices_text(hull));
     }
     const xml_node body = add_named(add(mujoco, "worldbody"), "body", file.name);
+    if (file.options.is_floating) add(body, "freejoint");
     if (file.options.mass) add_mjcf_inertial(body, *file.options.mass);
+    if (has_visual) add_mjcf_visual_geom(body, file);
     for (const HullArrays& hull : file.hulls) {
         const xml_node geom = add_named(body, "geom", hull.name);
         set(geom, "type", "mesh");
         set(geom, "mesh", hull.name);
+        if (has_visual) set(geom, "group", "3");
     }
     return written(document);
 }

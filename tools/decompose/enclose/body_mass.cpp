@@ -33,13 +33,12 @@ std::optional<write::BodyMass> mass_of(const mesh::Mesh& mesh, double density, d
     return body;
 }
 
-mesh::Mesh mesh_of(std::span<const convex::ApproximatePiece> pieces) {
+mesh::Mesh mesh_of(std::span<const convex::ConvexHull> pieces) {
     mesh::Mesh all;
-    for (const convex::ApproximatePiece& piece : pieces) {
+    for (const convex::ConvexHull& piece : pieces) {
         const auto first = static_cast<std::uint32_t>(all.positions.size());
-        all.positions.insert(all.positions.end(), piece.hull.points.begin(),
-                             piece.hull.points.end());
-        for (const auto& [a, b, c] : piece.hull.facets) {
+        all.positions.insert(all.positions.end(), piece.points.begin(), piece.points.end());
+        for (const auto& [a, b, c] : piece.facets) {
             all.triangles.push_back({{first + a, first + b, first + c}});
         }
     }
@@ -49,7 +48,7 @@ mesh::Mesh mesh_of(std::span<const convex::ApproximatePiece> pieces) {
 }  // namespace
 
 std::optional<WeighedBody> weigh(const mesh::Mesh& mesh, bool is_closed,
-                                 std::span<const convex::ApproximatePiece> pieces, double density,
+                                 std::span<const convex::ConvexHull> pieces, double density,
                                  double metres_per_unit) {
     const double scale = metres_per_unit > 0 ? metres_per_unit : 1;
     if (is_closed) {

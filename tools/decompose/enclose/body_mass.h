@@ -4,7 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "decompose/enclose/approximate_pieces.h"
+#include "hull/convex_hull.h"
+#include "mesh/mesh.h"
 #include "write/hulls_file.h"
 
 namespace cdprep::cli {
@@ -21,7 +22,7 @@ struct WeighedBody {
 /// those have no volume either. `density` is in kilograms per cubic metre; `metres_per_unit` 0
 /// counts as 1.
 [[nodiscard]] std::optional<WeighedBody> weigh(const mesh::Mesh& mesh, bool is_closed,
-                                               std::span<const convex::ApproximatePiece> pieces,
+                                               std::span<const convex::ConvexHull> pieces,
                                                double density, double metres_per_unit);
 
 }  // namespace cdprep::cli

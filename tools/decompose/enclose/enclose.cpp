@@ -12,6 +12,7 @@
 #include "decompose/enclose/body_mass.h"
 #include "decompose/enclose/mesh_nodes.h"
 #include "mesh/topology.h"
+#include "mesh/turn_up.h"
 #include "mesh/weld.h"
 #include "write/hulls_file.h"
 
@@ -60,46 +61,36 @@ bool is_for_simulators(const fs::path& output) {
     return !output.empty() && write::has_mass(*write::hulls_format_of(output));
 }
 
-/// Turns the up axis to +z, as simulators expect. Coordinates change places and signs only.
-void turn_z_up(std::vector<format::Double3>& points, format::UpAxis up) {
-    for (format::Double3& p : points) {
-        if (up == format::UpAxis::y) p = {p.x, -p.z, p.y};
-        if (up == format::UpAxis::x) p = {-p.z, p.y, p.x};
-    }
-}
-
 /// Writes the pieces. For simulators, also writes the mass and the visual mesh, in metres, +z up.
 Result<Done> write_pieces(mesh::Mesh mesh, bool is_closed, const EncloseOptions& options,
                           report::ApproximateReport& report) {
-    std::vector<convex::ApproximatePiece> pieces = report.result.pieces;
+    std::vector<convex::ConvexHull> hulls;
+    for (const convex::ApproximatePiece& piece : report.result.pieces) hulls.push_back(piece.hull);
     const write::HullsFormat format = *write::hulls_format_of(options.output);
-    const double metres_per_unit = report.metres_per_unit;
-    if (write::has_mass(format)) {
-        turn_z_up(mesh.positions, report.up_axis);
-        for (convex::ApproximatePiece& piece : pieces) {
-            turn_z_up(piece.hull.points, report.up_axis);
-        }
-    }
-    std::vector<write::HullArrays> hulls;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const convex::ConvexHull& hull = pieces[i].hull;
-        hulls.push_back({"piece_" + std::to_string(i), hull.points, hull.facets, hull.dimension});
-    }
     write::HullsFileOptions how;
-    how.metres_per_unit = metres_per_unit;
+    how.metres_per_unit = report.metres_per_unit;
     if (write::has_mass(format)) {
-        const auto weighed =
-            weigh(mesh, is_closed && !options.to_surface, pieces, options.density, metres_per_unit);
+        mesh::turn_up(mesh.positions, report.up_axis, format::UpAxis::z);
+        for (convex::ConvexHull& hull : hulls) {
+            mesh::turn_up(hull.points, report.up_axis, format::UpAxis::z);
+        }
+        const auto weighed = weigh(mesh, is_closed && !options.to_surface, hulls, options.density,
+                                   report.metres_per_unit);
         if (weighed) {
             how.mass = weighed->body;
             report.mass = weighed->body.mass;
             report.is_mass_of_pieces = weighed->is_of_pieces;
         }
     }
-    if (options.has_visual) {
+    if (options.has_visual && write::has_mesh_files(format)) {
         how.visual = {mesh.positions, mesh.triangles, mesh.single_precision};
     }
-    const Result<std::size_t> left_out = write::write_hulls(options.output, format, hulls, how);
+    std::vector<write::HullArrays> written;
+    for (std::size_t i = 0; i < hulls.size(); ++i) {
+        written.push_back(
+            {"piece_" + std::to_string(i), hulls[i].points, hulls[i].facets, hulls[i].dimension});
+    }
+    const Result<std::size_t> left_out = write::write_hulls(options.output, format, written, how);
     if (!left_out) return left_out.error();
     report.left_out = left_out.value();
     return Done{};

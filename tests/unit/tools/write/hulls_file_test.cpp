@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "support/scratch_folder.h"
@@ -100,6 +102,78 @@ TEST(HullsFile, AGlbIsAsLongAsItSays) {
     EXPECT_EQ(28 + json + word(20 + json), bytes.size());
     EXPECT_EQ(count(bytes.substr(20, json), "\"name\":\"flat\""), 2U);
     EXPECT_EQ(count(bytes.substr(20, json), "\"min\":[0.0,0.0,-1.0000000116860974e-07]"), 1U);
+}
+
+constexpr std::array<format::Triangle, 1> kShown = {{{{0, 1, 2}}}};
+
+/// Options that show a triangle of the first three corners.
+HullsFileOptions showing() {
+    HullsFileOptions options;
+    options.visual = MeshArrays{std::span(kCorners).first(3), kShown, false};
+    return options;
+}
+
+/// The document of a GLB.
+nlohmann::json document_of(const std::string& bytes) {
+    std::uint32_t size = 0;
+    std::memcpy(&size, bytes.data() + 12, sizeof size);
+    return nlohmann::json::parse(bytes.substr(20, size));
+}
+
+// The shown mesh is the first node, and the hulls are below a node of their own.
+TEST(HullsFile, AGlbShowsTheMeshBesideTheHulls) {
+    const test::ScratchFolder folder;
+    const auto path = folder.path() / "bolt.glb";
+    HullsFileOptions options = showing();
+    ASSERT_TRUE(write_hulls(path, HullsFormat::glb, solid_and_flat(), options).ok());
+    nlohmann::json document = document_of(test::content_of(path.string()));
+    EXPECT_EQ(document["scenes"][0]["nodes"], nlohmann::json({0, 1, 2}));
+    EXPECT_EQ(document["nodes"][0]["name"], "bolt");
+    EXPECT_EQ(document["nodes"][1]["name"], "solid");
+    EXPECT_EQ(document["accessors"][0]["count"], 3);
+    EXPECT_EQ(document["accessors"][1]["count"], 3);
+    EXPECT_FALSE(document["meshes"][0]["primitives"][0].contains("mode"));
+
+    options.hulls_node = "colliders";
+    ASSERT_TRUE(write_hulls(path, HullsFormat::glb, solid_and_flat(), options).ok());
+    document = document_of(test::content_of(path.string()));
+    EXPECT_EQ(document["scenes"][0]["nodes"], nlohmann::json({0, 3}));
+    EXPECT_EQ(document["nodes"][3]["name"], "colliders");
+    EXPECT_EQ(document["nodes"][3]["children"], nlohmann::json({1, 2}));
+    EXPECT_FALSE(document["nodes"][3].contains("mesh"));
+}
+
+TEST(HullsFile, AnMjcfShowsTheMeshAndFloats) {
+    const test::ScratchFolder folder;
+    const auto path = folder.path() / "bolt.xml";
+    HullsFileOptions options;
+    ASSERT_TRUE(write_hulls(path, HullsFormat::mjcf, solid_and_flat(), options).ok());
+    std::string text = test::content_of(path.string());
+    EXPECT_EQ(count(text, "freejoint"), 0U);
+    EXPECT_EQ(count(text, "contype"), 0U);
+    EXPECT_EQ(count(text, "group"), 0U);
+    EXPECT_EQ(folder.names().size(), 1U);
+
+    options = showing();
+    options.is_floating = true;
+    ASSERT_TRUE(write_hulls(path, HullsFormat::mjcf, solid_and_flat(), options).ok());
+    text = test::content_of(path.string());
+    EXPECT_EQ(count(text, "<freejoint />"), 1U);
+    EXPECT_EQ(count(text, R"(file="bolt_visual.obj")"), 1U);
+    EXPECT_EQ(count(text, R"(contype="0" conaffinity="0" group="2" mass="0")"), 1U);
+    EXPECT_EQ(count(text, R"(group="3")"), 1U);
+    EXPECT_EQ(folder.names(), (std::set<std::string>{"bolt.xml", "bolt_visual.obj"}));
+}
+
+// The folder in place of the last file cannot be replaced: no other file appears.
+TEST(HullsFile, AllFilesAppearOrNone) {
+    const test::ScratchFolder folder;
+    std::filesystem::create_directory(folder.path() / "x.urdf");
+    const auto done =
+        write_hulls(folder.path() / "x.urdf", HullsFormat::urdf, solid_and_flat(), showing());
+    ASSERT_FALSE(done.ok());
+    EXPECT_EQ(done.error().code, ErrorCode::unwritable);
+    EXPECT_EQ(folder.names(), (std::set<std::string>{"x.urdf"}));
 }
 
 // Names of meshes need no escape, and no two files of a folder share them.
