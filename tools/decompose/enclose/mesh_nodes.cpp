@@ -11,14 +11,23 @@
 namespace cdprep::cli {
 namespace {
 
+std::string last_name(const std::string& path) {
+    return path.substr(path.find_last_of('/') + 1);
+}
+
 /// Returns true if the name marks a convex node, by the conventions of exporters for engines.
 bool is_tagged_convex(const std::string& path) {
-    const std::string name = path.substr(path.find_last_of('/') + 1);
+    const std::string name = last_name(path);
     constexpr std::array<const char*, 4> kEndings = {"-convcol", "-convcolonly", "-convex",
                                                      "_convex"};
     return name.starts_with("UCX_") ||
            std::any_of(kEndings.begin(), kEndings.end(),
                        [&](const char* ending) { return name.ends_with(ending); });
+}
+
+/// Returns true if the name marks a collider. Godot takes ...-colonly as it is, convex or not.
+bool is_tagged_collider(const std::string& path) {
+    return is_tagged_convex(path) || last_name(path).ends_with("-colonly");
 }
 
 template <class Run>
@@ -66,7 +75,7 @@ MeshNodes find_nodes(const mesh::TriangleSoup& soup, const mesh::Mesh& mesh) {
     const auto others = static_cast<std::uint32_t>(nodes.names.size());
     const std::vector<bool> is_closed = find_closed(mesh, nodes.node_of, others);
     for (std::uint32_t& node : nodes.node_of) {
-        if (!is_closed[node] && nodes.is_convex[node] == 0) node = others;
+        if (!is_closed[node] && !is_tagged_collider(nodes.names[node])) node = others;
     }
     nodes.names.emplace_back();
     nodes.is_convex.push_back(0);

@@ -92,5 +92,18 @@ TEST(FindNodes, NamesMarkConvexOnes) {
     }
 }
 
+// Godot takes ...-colonly as it is: an open group of that name stays a node, and is no hull.
+TEST(FindNodes, CollidersOfAnyShapeStayApart) {
+    const MeshNodes groups = nodes_of(with_groups("a", "b-colonly"));
+    EXPECT_EQ(runs_of(groups.node_of),
+              (std::vector<std::pair<std::uint32_t, int>>{{0, 12}, {1, 8}}));
+    EXPECT_EQ(groups.is_convex, (std::vector<std::uint8_t>{0, 0, 0}));
+    EXPECT_EQ(nodes_of(with_instances("root/a-colonly", "b")).is_convex,
+              (std::vector<std::uint8_t>{0, 0}));
+    const MeshNodes others = nodes_of(with_groups("a", "b-colonly.001"));
+    EXPECT_EQ(runs_of(others.node_of),
+              (std::vector<std::pair<std::uint32_t, int>>{{0, 12}, {2, 8}}));
+}
+
 }  // namespace
 }  // namespace cdprep::cli
