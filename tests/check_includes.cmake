@@ -39,6 +39,7 @@ set(tools_rooms
     "decompose/surface: hull mesh text"
     "decompose/enclose: cli decompose/surface hull mesh text write"
     "decompose: cli decompose/enclose decompose/surface hull command_line text write"
+    "export: cli command_line decompose/enclose hull mesh text write"
     "bake: cli crossings decompose/enclose decompose/surface hull import command_line mesh repair\
  text validate validate/defects write"
     "info: bake cli decompose/surface hull command_line mesh study text validate/defects"
@@ -63,7 +64,7 @@ set(libraries
     "CLI/:tools/command_line"
     "Bullet[A-Z]|bt[A-Z]|LinearMath/|bullet_manifold:samples/engines tools/simulate/dynamics"
     "tbb/|oneapi/:tools/cli/program_threads.cpp"
-    "nlohmann/:tools/accuracy tools/bake tools/compare tools/decompose tools/hull\
+    "nlohmann/:tools/accuracy tools/bake tools/compare tools/decompose tools/export tools/hull\
  tools/import/child tools/info tools/repair tools/scene_file tools/text\
  tools/simulate tools/validate tools/write")
 

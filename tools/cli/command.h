@@ -48,6 +48,7 @@ void add_bake(const Command& app, Exit& exit);
 void add_compare(const Command& app, Exit& exit);
 void add_decompose(const Command& app, Exit& exit);
 void add_explain(const Command& app, Exit& exit);
+void add_export(const Command& app, Exit& exit);
 void add_hull(const Command& app, Exit& exit);
 void add_info(const Command& app, Exit& exit);
 void add_query(const Command& app, Exit& exit);

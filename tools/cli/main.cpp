@@ -25,6 +25,7 @@ Exit run(int argc, char** argv) {
     add_repair(root, exit);
     add_hull(root, exit);
     add_decompose(root, exit);
+    add_export(root, exit);
     add_accuracy(root, exit);
     add_compare(root, exit);
     add_simulate(root, exit);

@@ -5,6 +5,8 @@
 #include <iostream>
 #include <system_error>
 
+#include "write/output_file.h"
+
 namespace cdprep::cli {
 
 std::optional<Error> find_replaced_input(const std::filesystem::path& input,
@@ -29,16 +31,20 @@ Result<write::MeshFormat> mesh_output(const std::filesystem::path& input,
 Result<Done> write_mesh(const std::filesystem::path& output, write::MeshFormat format,
                         const write::MeshArrays& mesh) {
     if (output != "-") return write::write_mesh_file(output, format, mesh);
+    return write_bytes(output, write::bytes_of(format, mesh));
+}
+
+Result<Done> write_bytes(const std::filesystem::path& output, std::string_view bytes) {
+    if (output != "-") return write::write_whole(output, bytes);
     // Not through std::cout, which --quiet redirects.
-    const std::string bytes = write::bytes_of(format, mesh);
     const bool is_whole = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
     if (is_whole && std::fflush(stdout) == 0) return Done{};
     return Error{ErrorCode::unwritable,
-                 "standard output cannot be written; the mesh is incomplete."};
+                 "standard output cannot be written; the result is incomplete."};
 }
 
-std::ostream& report_stream(const std::filesystem::path& mesh_output) {
-    return mesh_output == "-" ? std::cerr : std::cout;
+std::ostream& report_stream(const std::filesystem::path& output) {
+    return output == "-" ? std::cerr : std::cout;
 }
 
 }  // namespace cdprep::cli

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
+#include <string_view>
 
 #include "cdprep/result.h"
 #include "write/mesh_file.h"
@@ -25,7 +26,10 @@ namespace cdprep::cli {
 [[nodiscard]] Result<Done> write_mesh(const std::filesystem::path& output, write::MeshFormat format,
                                       const write::MeshArrays& mesh);
 
-/// Returns the stream for a report: standard output, or standard error if `mesh_output` is "-".
-[[nodiscard]] std::ostream& report_stream(const std::filesystem::path& mesh_output);
+/// Writes the complete bytes of a file, or writes them to standard output for "-".
+[[nodiscard]] Result<Done> write_bytes(const std::filesystem::path& output, std::string_view bytes);
+
+/// Returns the stream for a report: standard output, or standard error if `output` is "-".
+[[nodiscard]] std::ostream& report_stream(const std::filesystem::path& output);
 
 }  // namespace cdprep::cli

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "cli/command.h"
+#include "cli/output_path.h"
+#include "cli/program_threads.h"
+#include "command_line/command_line.h"
+#include "command_line/command_page.h"
+#include "export/engine.h"
+#include "export/export_model.h"
+#include "text/printable.h"
+
+namespace cdprep::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path file;
+    std::string engine;
+    std::string format = "text";
+    std::size_t threads = 0;
+    ExportOptions options;
+};
+
+/// Returns an error for an option without effect: the user expected one.
+std::optional<Error> find_idle_option(const Command& command, const EngineForm& form) {
+    const auto idle = [&](const char* option, const std::string& why) {
+        return Error{ErrorCode::bad_argument, std::string(option) + ": " + why + " Leave it out."};
+    };
+    const std::string name = form.name;
+    if (command.count("--floating") > 0 && form.engine != Engine::mujoco) {
+        return idle("--floating", "only MJCF, for mujoco, has a joint to the world.");
+    }
+    if (command.count("--density") > 0 && !form.has_mass) {
+        return idle("--density", "the file for " + name + " has no mass in kilograms.");
+    }
+    if (command.count("--no-visual") > 0 && !form.can_omit_visual) {
+        return idle("--no-visual", form.engine == Engine::unreal
+                                       ? "Unreal attaches parts to the mesh that is shown."
+                                       : "the file for " + name + " never has a visual mesh.");
+    }
+    if (command.count("--strict") > 0 && !is_in_metres(form)) {
+        return idle("--strict", "the file for " + name + " needs no unit.");
+    }
+    return std::nullopt;
+}
+
+Result<report::ExportReport> export_file(const Command& command, const Arguments& arguments) {
+    const EngineForm& form = *find_engine(arguments.engine);
+    if (const auto error = find_idle_option(command, form)) return *error;
+    const auto output = output_for(form, arguments.file, arguments.options.output);
+    if (!output) return output.error();
+    ExportOptions options = arguments.options;
+    options.output = output.value();
+    const Threads threads(arguments.threads);
+    return export_model(arguments.file, form, options, threads);
+}
+
+Exit run(const Command& command, const Arguments& arguments) {
+    const Result<report::ExportReport> exported = export_file(command, arguments);
+    const bool is_json = arguments.format == "json";
+    std::ostream& out = report_stream(arguments.options.output);
+    if (!exported) {
+        if (is_json) {
+            out << report::export_json(
+                failed<report::ExportReport>(arguments.file, exported.error()));
+        }
+        return fail("export", exported.error());
+    }
+    const report::ExportReport& report = exported.value();
+    if (report.error) {
+        if (is_json) out << report::export_json(report);
+        std::cerr << "cdprep export: " << report::printable(*report.error) << '\n';
+        return static_cast<Exit>(report.exit);
+    }
+    out << (is_json ? report::export_json(report) : report::export_text(report));
+    const std::string warning = report::unit_warning(report);
+    if (!warning.empty()) std::cerr << "cdprep export: " << report::printable(warning) << '\n';
+    return Exit::success;
+}
+
+void add_content_options(const Command& command, ExportOptions& options) {
+    const char* const content = "Content";
+    command
+        .add_flag("--floating", options.is_floating,
+                  "For mujoco: add a free joint. Without one, the body is fixed to the world")
+        .group(content);
+    command
+        .add_option("--density", options.density,
+                    "For mujoco, gazebo and urdf: density for the mass, in kg per cubic metre")
+        .check(above_zero())
+        .show_default()
+        .group(content);
+    command
+        .add_flag("!--no-visual", options.has_visual,
+                  "Write the colliders alone, without the mesh itself")
+        .group(content);
+    command
+        .add_flag("--keep-points", options.keeps_points,
+                  "Write every point of the colliders, also those that engines ignore")
+        .group(content);
+    command
+        .add_flag("--strict", options.strict,
+                  "Refuse a file in metres if the model has no unit (exit 1)")
+        .group(content);
+}
+
+}  // namespace
+
+void add_export(const Command& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    const Command command = app.add_command("export", "Write colliders for a physics engine");
+    command.set_notes(
+        "Reads a file that was baked with --structures hull, and --parts or --max-error for convex "
+        "parts. Without parts, the convex hull of the whole is the collider.\n\n"
+        "godot: a GLB with nodes NAME_00-convcolonly. unreal: a GLB with nodes UCX_NAME_00. unity: "
+        "a GLB with the parts below a node named colliders. mujoco: MJCF. gazebo: SDF. urdf: URDF. "
+        "All have the mesh itself too. json: points, triangles and mass, for loaders of other "
+        "engines.\n\n"
+        "All but json are in metres and turned to the up axis of the engine. Points that "
+        "hull builders of engines ignore are dropped: the others move out by less than the stated "
+        "error, so that the colliders still enclose the mesh.",
+        {"cdprep bake chair.glb --structures hull --parts 16",
+         "cdprep export chair.cdp.h5 --for godot -o game/chair.glb",
+         "cdprep export robot.cdp.h5 --for mujoco --floating -o robot.xml"});
+    command.add_option("file", arguments->file, "A baked file (.cdp.h5)").required();
+    command.add_option("--for", arguments->engine, "The engine that reads the output")
+        .type_name("ENGINE")
+        .check(one_of(engine_names()))
+        .required();
+    command
+        .add_option("-o,--output", arguments->options.output,
+                    "The output, or a folder for it. Meshes of a URDF, SDF or MJCF are written "
+                    "beside it. Default: NAME.glb, .xml, .sdf, .urdf or .json beside NAME.cdp.h5, "
+                    "if there is no such file yet")
+        .type_name("PATH")
+        .group("Output");
+    add_content_options(command, arguments->options);
+    add_report_format(command, arguments->format);
+    add_jobs(command, arguments->threads);
+    command.callback([command, arguments, &exit] { exit = run(command, *arguments); });
+}
+
+}  // namespace cdprep::cli
