@@ -62,7 +62,7 @@ set(libraries
     "CGAL/:tools/decompose/enclose tools/info tools/query tools/repair"
     "Eigen/:tools/mesh"
     "CLI/:tools/command_line"
-    "Bullet[A-Z]|bt[A-Z]|LinearMath/|bullet_manifold:samples/engines tools/simulate/dynamics"
+    "Bullet[A-Z]|bt[A-Z]|LinearMath/|bullet_(manifold|shape):samples/engines tools/simulate/dynamics"
     "tbb/|oneapi/:tools/cli/program_threads.cpp"
     "nlohmann/:tools/accuracy tools/bake tools/compare tools/decompose tools/export tools/hull\
  tools/import/child tools/info tools/repair tools/scene_file tools/text\
@@ -130,7 +130,7 @@ allow_only(lib/include "cdprep/")
 allow_only(format/include "cdprep/format/")
 allow_only(format/src "cdprep/format/|[a-z_]+\\.h\"")
 allow_only(lib/bindings "cdprep/")
-allow_only(samples "cdprep/|bullet_manifold\\.h\"")
+allow_only(samples "cdprep/|bullet_(manifold|shape)\\.h\"")
 
 # A kernel knows nothing of ours but what kernels share, and two headers: macros, and what compilers
 # offer in different ways. Who chooses among kernels knows more.

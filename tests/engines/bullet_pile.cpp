@@ -8,7 +8,6 @@
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
-#include <BulletCollision/CollisionShapes/btConcaveShape.h>
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -18,13 +17,10 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <new>
 #include <string>
 #include <vector>
 
-#include "bullet_manifold.h"
-#include "cdprep/contacts.h"
-#include "mesh/find_bounds.h"
+#include "bullet_shape.h"
 #include "study/memory_model.h"
 #include "support/meshes.h"
 #include "support/rounds.h"
@@ -47,97 +43,6 @@ constexpr int kFirstSecond = 60;  ///< frames
 constexpr double kMostSpeed = 2;  ///< m/s after the first second
 constexpr double kAtRest = 0.01;  ///< m/s
 
-/// The bounds of a model; cdprep knows its triangles.
-class BoundedShape final : public btConcaveShape {
-public:
-    BoundedShape(const btVector3& lower, const btVector3& upper) : lower_(lower), upper_(upper) {
-        m_shapeType = FAST_CONCAVE_MESH_PROXYTYPE;
-        setMargin(btScalar(kTolerance));
-    }
-    void getAabb(const btTransform& t, btVector3& lower, btVector3& upper) const override {
-        btTransformAabb(lower_, upper_, getMargin(), t, lower, upper);
-    }
-    void processAllTriangles(btTriangleCallback*, const btVector3&,
-                             const btVector3&) const override {}
-    void calculateLocalInertia(btScalar mass, btVector3& inertia) const override {
-        const btVector3 d = upper_ - lower_;
-        inertia = mass / 12 *
-                  btVector3(d.y() * d.y() + d.z() * d.z(), d.x() * d.x() + d.z() * d.z(),
-                            d.x() * d.x() + d.y() * d.y());
-    }
-    void setLocalScaling(const btVector3&) override {}
-    [[nodiscard]] const btVector3& getLocalScaling() const override {
-        return scaling_;
-    }
-    [[nodiscard]] const char* getName() const override {
-        return "cdprep model";
-    }
-    /// The distance from the origin of the corner that is farthest.
-    [[nodiscard]] btScalar radius() const {
-        return btVector3(std::max(-lower_.x(), upper_.x()), std::max(-lower_.y(), upper_.y()),
-                         std::max(-lower_.z(), upper_.z()))
-            .length();
-    }
-
-private:
-    btVector3 lower_, upper_, scaling_{1, 1, 1};
-};
-
-Pose pose_of(const btTransform& t) {
-    std::array<double, 16> matrix{};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            matrix[static_cast<std::size_t>(4 * row + column)] = t.getBasis()[row][column];
-        }
-        matrix[static_cast<std::size_t>(4 * row + 3)] = t.getOrigin()[row];
-    }
-    matrix[15] = 1;
-    return nearest_pose(matrix, 1e-5).value();
-}
-
-const Model& model_of(const btCollisionObject& object) {
-    return *static_cast<const Model*>(object.getUserPointer());
-}
-
-/// Asks cdprep for the contacts of two objects, and keeps their manifolds.
-class ContactAlgorithm final : public btCollisionAlgorithm {
-public:
-    ContactAlgorithm(const btCollisionAlgorithmConstructionInfo& info, Workspace& workspace)
-        : btCollisionAlgorithm(info), workspace_(workspace) {}
-    ~ContactAlgorithm() override {
-        for (int m = 0; m < manifolds_.size(); ++m) m_dispatcher->releaseManifold(manifolds_[m]);
-    }
-    void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
-                          const btDispatcherInfo&, btManifoldResult*) override {
-        const btCollisionObject &one = *a->getCollisionObject(), &two = *b->getCollisionObject();
-        const Placement placement =
-            Placement::world(pose_of(one.getWorldTransform()), pose_of(two.getWorldTransform()));
-        fill_manifolds({model_of(one), model_of(two), placement}, workspace_, kTolerance, one, two,
-                       *m_dispatcher, manifolds_);
-    }
-    btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
-                                   btManifoldResult*) override {
-        return 1;
-    }
-    void getAllContactManifolds(btManifoldArray& all) override {
-        for (int m = 0; m < manifolds_.size(); ++m) all.push_back(manifolds_[m]);
-    }
-
-private:
-    Workspace& workspace_;
-    btManifoldArray manifolds_;
-};
-
-struct MakeAlgorithm final : btCollisionAlgorithmCreateFunc {
-    Workspace workspace;
-    btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
-                                                   const btCollisionObjectWrapper*,
-                                                   const btCollisionObjectWrapper*) override {
-        void* const room = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(ContactAlgorithm));
-        return new (room) ContactAlgorithm(info, workspace);
-    }
-};
-
 btVector3 bullet(const Double3& p) {
     return {btScalar(p.x), btScalar(p.y), btScalar(p.z)};
 }
@@ -145,13 +50,11 @@ btVector3 bullet(const Double3& p) {
 /// A mesh with what cdprep and Bullet need of it.
 struct Shape {
     study::MemoryModel baked;
-    std::unique_ptr<BoundedShape> bounds;
+    BulletShape shape;
 
-    explicit Shape(const test::TestMesh& mesh)
-        : baked(study::make_memory_model(test::mesh_of(mesh), {.pieces = true}).value()) {
-        const format::Bounds box = convex::find_bounds(baked.ordered);
-        bounds = std::make_unique<BoundedShape>(bullet(box.lower), bullet(box.upper));
-    }
+    Shape(const test::TestMesh& mesh, Workspace& workspace)
+        : baked(study::make_memory_model(test::mesh_of(mesh), {.pieces = true}).value()),
+          shape(baked.model, workspace, btScalar(kTolerance)) {}
 };
 
 /// A box about the origin.
@@ -164,9 +67,10 @@ test::TestMesh box(const Double3& half) {
 /// Bullet's world, with all that it points to.
 class World {
 public:
-    World() : dispatcher_(&configuration_) {
+    explicit World(Workspace& workspace)
+        : contacts_(workspace, kTolerance), dispatcher_(&configuration_) {
         dispatcher_.registerCollisionCreateFunc(FAST_CONCAVE_MESH_PROXYTYPE,
-                                                FAST_CONCAVE_MESH_PROXYTYPE, &make_);
+                                                FAST_CONCAVE_MESH_PROXYTYPE, &contacts_);
         world_.setGravity({0, 0, btScalar(-9.81)});
         world_.getSolverInfo().m_numIterations = 50;
         world_.getSolverInfo().m_splitImpulse = 1;
@@ -180,13 +84,12 @@ public:
 
     btRigidBody& add(Shape& shape, double mass, const btTransform& at) {
         btVector3 inertia(0, 0, 0);
-        if (mass > 0) shape.bounds->calculateLocalInertia(btScalar(mass), inertia);
+        if (mass > 0) shape.shape.calculateLocalInertia(btScalar(mass), inertia);
         bodies_.push_back(std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
-            btScalar(mass), nullptr, shape.bounds.get(), inertia)));
+            btScalar(mass), nullptr, &shape.shape, inertia)));
         btRigidBody& body = *bodies_.back();
         body.setWorldTransform(at);
         body.setInterpolationWorldTransform(at);
-        body.setUserPointer(&shape.baked.model);
         body.setFriction(btScalar(0.6));
         body.setActivationState(DISABLE_DEACTIVATION);
         world_.addRigidBody(&body);
@@ -197,7 +100,7 @@ public:
     }
 
 private:
-    MakeAlgorithm make_;
+    BulletContacts contacts_;
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_;
     btDbvtBroadphase broadphase_;
@@ -206,10 +109,18 @@ private:
     std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
+/// The distance from the origin of the corner that is farthest.
+btScalar radius_of(const format::Bounds& box) {
+    return bullet({std::max(-box.lower.x, box.upper.x), std::max(-box.lower.y, box.upper.y),
+                   std::max(-box.lower.z, box.upper.z)})
+        .length();
+}
+
 /// The greatest speed that a point of the body can have.
 double speed_of(const btRigidBody& body) {
-    const auto& shape = static_cast<const BoundedShape&>(*body.getCollisionShape());
-    return body.getLinearVelocity().length() + body.getAngularVelocity().length() * shape.radius();
+    const auto& shape = static_cast<const BulletShape&>(*body.getCollisionShape());
+    return body.getLinearVelocity().length() +
+           body.getAngularVelocity().length() * radius_of(*shape.model().record().bounds);
 }
 
 bool is_inside(const btRigidBody& body) {
@@ -219,11 +130,12 @@ bool is_inside(const btRigidBody& body) {
 }
 
 /// Drops five of a model. Returns whether they behave.
-bool drop(const std::string& name, Shape& shape) {
+bool drop(const std::string& name, Shape& shape, Workspace& workspace) {
     const double side = kInside / 2 + kWall;
-    Shape floor(box({side, side, kWall / 2})), across(box({side, kWall / 2, kHeight / 2})),
-        along(box({kWall / 2, side, kHeight / 2}));
-    World world;
+    Shape floor(box({side, side, kWall / 2}), workspace),
+        across(box({side, kWall / 2, kHeight / 2}), workspace),
+        along(box({kWall / 2, side, kHeight / 2}), workspace);
+    World world(workspace);
     const auto at = [](double x, double y, double z) {
         return btTransform(btQuaternion::getIdentity(), {btScalar(x), btScalar(y), btScalar(z)});
     };
@@ -281,8 +193,9 @@ int main(int count, char** arguments) {
                         name.c_str());
             return 77;
         }
-        cdprep::Shape shape(cdprep::test::moved_by(*mesh, cdprep::kSize, {0, 0, 0}));
-        passes = cdprep::drop(name, shape) && passes;
+        cdprep::Workspace workspace;
+        cdprep::Shape shape(cdprep::test::moved_by(*mesh, cdprep::kSize, {0, 0, 0}), workspace);
+        passes = cdprep::drop(name, shape, workspace) && passes;
     }
     return passes ? 0 : 1;
 }
