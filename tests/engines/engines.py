@@ -1,0 +1,221 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Pieces of three models in the engines that they are for: a bolt, a bracket and a kettle. Each
+engine must accept every piece. The body that falls onto a floor must come to rest on it, within
+what the engine allows. Prints a table: points given and kept, depth and speed after two seconds.
+
+Usage: engines.py native CDPREP FOLDER DROP_BULLET DROP_MUJOCO SIMULATOR_READERS
+       engines.py npm CDPREP FOLDER
+The second installs the packages of package.json into FOLDER; it is skipped where that fails."""
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+import xml.etree.ElementTree as xml
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path.insert(0, str(HERE.parent / "pipeline"))
+from colliders import colliders_of, lowest  # noqa: E402
+from shared_models import SKIPPED, must, run  # noqa: E402
+
+DENSITY = 1000  # kg per cubic metre
+TURN = (math.sin(0.25), 0.0, 0.0, math.cos(0.25))  # bodies start tilted, by half a radian
+DROP = 0.1  # metres, at the start, below the lowest point
+MOST_SPEED = 0.5  # metres a second after two seconds; what is round still rolls
+MOST_GAP = 0.005  # metres below a body at rest
+LEAST_KEPT = 0.9
+GOAL_KEPT = 0.95
+# Metres that a body at rest may be deep. Jolt: mPenetrationSlop, as drop.mjs sets it. Rapier: twice
+# its allowed error. MuJoCo's contacts are soft by design. The others state nothing.
+SLOP = {"Bullet 3.24": 0.001, "MuJoCo 2.2.2": 0.005, "jolt": 0.002, "physx": 0.001, "rapier": 0.002,
+        "havok": 0.002, "mujoco": 0.005}
+MODELS = {
+    "bolt": ("cm", ["--max-error", 0.5]),
+    "bracket": ("cm", ["--max-error", 0.5]),
+    "kettle": ("m", ["--parts", 32]),
+}
+METRES = {"cm": 0.01, "m": 1}
+
+
+def decomposed(program, source, folder, kinds, unit, limits):
+    """The files of a program without `export`: it keeps points that engines ignore."""
+    outputs = {kind: folder / f"{source.stem}_pieces.{kind}" for kind in ("obj", *kinds)}
+    for output in outputs.values():
+        done = run(program, "decompose", source, "-o", output, "--unit", unit, "--max-vertices", 64,
+                   *limits)
+        must(done.returncode in (0, 1), f"decompose {source.name}: {done.stderr}")
+    outputs["json"] = folder / f"{source.stem}.json"
+    made = colliders_of(source, outputs["obj"], METRES[unit])
+    outputs["json"].write_text(json.dumps(made))
+    return outputs
+
+
+def exported(program, source, folder, kinds, unit, limits):
+    """The files that `export` writes of a baked file."""
+    baked = folder / f"{source.stem}.cdp.h5"
+    done = run(program, "bake", source, "-o", baked, "--unit", unit, "--structures", "hull",
+               "--hull-vertices", 64, *limits)
+    must(done.returncode in (0, 1), f"bake {source.name}: {done.stderr}")
+    outputs = {kind: folder / f"{source.stem}_pieces.{kind}" for kind in ("json", *kinds)}
+    engines = {"json": ["json"], "glb": ["godot", "--no-visual"], "sdf": ["gazebo", "--no-visual"],
+               "mjcf": ["mujoco", "--no-visual", "--floating"]}
+    for kind, output in outputs.items():
+        written = output.with_suffix(".xml") if kind == "mjcf" else output
+        done = run(program, "export", baked, "--for", *engines[kind], "-o", written)
+        must(done.returncode == 0, f"export {source.name} for {engines[kind]}: {done.stderr}")
+        outputs[kind] = written
+    return outputs
+
+
+class Exported:
+    """The colliders of a model, and the files that engines read."""
+
+    def __init__(self, program, folder, name, kinds):
+        self.name, (unit, limits) = name, MODELS[name]
+        source = ROOT / f"samples/meshes/{name}.obj"
+        if name == "kettle":
+            source = folder / "kettle.obj"
+            subprocess.run([sys.executable, HERE / "make_kettle.py", source], check=True)
+        self.is_thinned = " export " in run(program, "--help").stdout
+        write = exported if self.is_thinned else decomposed
+        outputs = write(program, source, folder, kinds, unit, limits)
+        self.json, self.glb, self.sdf = (outputs.get(kind) for kind in ("json", "glb", "sdf"))
+        self.mjcf = floating(outputs["mjcf"], folder / f"{name}_floating.mjcf")
+        self.colliders = json.loads(self.json.read_text())
+        self.mass = DENSITY * METRES[unit] ** 3 * self.colliders["mass"]["volume"]
+        self.start = [0, 0, DROP - lowest(self.colliders, TURN, (0, 0, 0))]
+
+    def place(self):
+        return [*self.start, *TURN]
+
+
+def floating(source, target):
+    """The MJCF with a free joint of its body, and a floor."""
+    tree = xml.parse(source)
+    world = tree.getroot().find("worldbody")
+    body = world.find("body")
+    if body.find("freejoint") is None:
+        body.insert(0, xml.Element("freejoint"))
+    world.insert(0, xml.Element("geom", type="plane", size="50 50 1"))
+    tree.write(target)
+    return target
+
+
+def must_read(done, what):
+    must(done.returncode == 0, f"{what}: exit {done.returncode}: {done.stderr}{done.stdout}")
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+class Table:
+    """The rows, and what is wrong with them."""
+
+    def __init__(self):
+        self.faults = []
+        print(f"{'engine':14}{'model':9}{'pieces':>7}{'given':>7}{'kept':>6}{'':>7}"
+              f"{'depth mm':>10}{'speed m/s':>11}")
+
+    def fault(self, condition, sentence):
+        if not condition:
+            self.faults.append(sentence)
+
+    def add(self, engine, model, result):
+        name = f"{engine}, {model.name}"
+        depth = -lowest(model.colliders, result["quaternion"], result["position"])
+        kept = result["kept"] / result["given"]
+        print(f"{engine:14}{model.name:9}{result['pieces']:7}{result['given']:7}"
+              f"{result['kept']:6}{100 * kept:6.1f}%{1000 * depth:10.3f}{result['speed']:11.4f}"
+              f"{'' if kept >= GOAL_KEPT else '  below the goal'}", flush=True)
+        self.fault(result["pieces"] == len(model.colliders["pieces"]), f"{name}: pieces are lost")
+        self.fault(result["is_finite"], f"{name}: a number is not finite")
+        self.fault(abs(result["mass"] - model.mass) <= 1e-4 * model.mass,
+                   f"{name}: {result['mass']} kg, not {model.mass}")
+        self.fault(kept >= LEAST_KEPT or not model.is_thinned,
+                   f"{name}: keeps {result['kept']} of {result['given']}")
+        self.fault(result["speed"] <= MOST_SPEED, f"{name}: {result['speed']} m/s after 2 s")
+        self.fault(depth <= SLOP[engine], f"{name}: {depth} m deep")
+        self.fault(-depth <= MOST_GAP, f"{name}: {-depth} m above the floor")
+
+    def end(self):
+        for sentence in self.faults:
+            print(f"FAILED: {sentence}")
+        sys.exit(1 if self.faults else 0)
+
+
+def native(models, bullet, mujoco, readers):
+    table = Table()
+    for model in models:
+        table.add("Bullet 3.24", model, must_read(run(bullet, model.json, *model.place()),
+                                                  "drop_bullet"))
+        table.add("MuJoCo 2.2.2", model, must_read(run(mujoco, model.mjcf, *model.place()),
+                                                   "drop_mujoco"))
+        found = must_read(run(readers, model.sdf), f"SDFormat, {model.name}")
+        must(found["is_valid"] and len(found["parts"]) == len(model.colliders["pieces"]),
+             f"SDFormat, {model.name}: {found}")
+        must(abs(found["mass"] - model.mass) <= 1e-6 * model.mass, f"SDFormat: {found['mass']}")
+        print(f"{'SDFormat 12':14}{model.name:9}{len(found['parts']):7}  the inertia is valid")
+    table.end()
+
+
+def install(folder):
+    """Installs the packages, or exits as skipped."""
+    for tool in ("node", "npm"):
+        if shutil.which(tool) is None:
+            print(f"skipped: there is no {tool}")
+            sys.exit(SKIPPED)
+    for source in [*HERE.glob("*.mjs"), *(ROOT / "samples/engines").glob("*.mjs")]:
+        shutil.copy(source, folder)
+    wanted, there = HERE / "package.json", folder / "installed.json"
+    if there.exists() and there.read_text() == wanted.read_text():
+        return
+    shutil.copy(wanted, folder)
+    done = run("npm", "install", "--prefix", folder, "--no-audit", "--no-fund", "--ignore-scripts",
+               "--fetch-retries", 1, "--fetch-timeout", 30000)
+    if done.returncode != 0:
+        print(f"skipped: npm cannot install the engines: {done.stderr.strip()[-500:]}")
+        sys.exit(SKIPPED)
+    shutil.copy(wanted, there)
+
+
+def read_glb(model, folder):
+    meshes = must_read(run("node", "read_glb.mjs", model.glb, cwd=folder), f"three, {model.name}")
+    pieces = model.colliders["pieces"]
+    triangles = sum(mesh["triangles"] for mesh in meshes)
+    must(len(meshes) == len(pieces), f"three, {model.name}: {len(meshes)} meshes")
+    must(triangles == sum(len(piece["triangles"]) // 3 for piece in pieces),
+         f"three, {model.name}: {triangles} triangles")
+    must(all(mesh["hits"] + mesh["flat"] == mesh["triangles"] for mesh in meshes),
+         f"three-mesh-bvh, {model.name}: a ray misses: {meshes}")
+    must(len({mesh["name"] for mesh in meshes}) == len(meshes), "three: two meshes with one name")
+    points = sum(mesh["points"] for mesh in meshes)
+    print(f"{'three':14}{model.name:9}{len(meshes):7}{points:7}{points:6}  {triangles} triangles")
+
+
+def npm(models, folder):
+    table = Table()
+    for model in models:
+        for engine in ("jolt", "physx", "rapier", "havok", "mujoco"):
+            done = run("node", "drop.mjs", engine, model.json, model.mjcf, *model.place(),
+                       cwd=folder)
+            table.add(engine, model, must_read(done, f"{engine}, {model.name}"))
+        read_glb(model, folder)
+    table.end()
+
+
+def main():
+    kind, program, where, *programs = sys.argv[1:]
+    folder = pathlib.Path(where)
+    folder.mkdir(parents=True, exist_ok=True)
+    if kind == "npm":
+        install(folder)
+    kinds = ("mjcf", "glb" if kind == "npm" else "sdf")
+    models = [Exported(program, folder, name, kinds) for name in MODELS]
+    if kind == "npm":
+        npm(models, folder)
+    else:
+        native(models, *programs)
+
+
+main()
