@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Opens a file that is not there, and makes a workspace for every structure: proves that headers and
- * libraries fit together in C. */
+/* Opens a file that is not there, and makes a workspace for every structure: proves that headers
+ * and libraries fit together in C. */
 #include <cdprep/cdprep.h>
 #include <stdio.h>
 
