@@ -26,14 +26,11 @@ cdprep::Double3 double_vector(const btVector3& p) {
 
 /// The rotations of Bullet are of floats, and rigid up to their rounding.
 cdprep::Pose pose_of(const btTransform& t) {
-    std::array<double, 16> matrix{};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            matrix[static_cast<std::size_t>(4 * row + column)] = t.getBasis()[row][column];
-        }
-        matrix[static_cast<std::size_t>(4 * row + 3)] = t.getOrigin()[row];
-    }
-    matrix[15] = 1;
+    const btMatrix3x3& r = t.getBasis();
+    const btVector3& p = t.getOrigin();
+    const std::array<double, 16> matrix = {
+        r[0].x(), r[0].y(), r[0].z(), p.x(), r[1].x(), r[1].y(), r[1].z(), p.y(),
+        r[2].x(), r[2].y(), r[2].z(), p.z(), 0,        0,        0,        1};
     return cdprep::nearest_pose(matrix, 1e-5).value();
 }
 

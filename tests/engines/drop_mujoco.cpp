@@ -38,7 +38,8 @@ Json drop(const mjModel& model, const std::array<double, 7>& start) {
                                      start[3], start[4], start[5]};
     std::copy(q.begin(), q.end(), data->qpos);
     bool is_finite = true;
-    for (double time = 0; time < kSeconds; time += model.opt.timestep) {
+    const auto steps = std::lround(kSeconds / model.opt.timestep);
+    for (long step = 0; step < steps; ++step) {
         mj_step(&model, data.get());
         for (int i = 0; i < model.nq; ++i) is_finite = is_finite && std::isfinite(data->qpos[i]);
     }
