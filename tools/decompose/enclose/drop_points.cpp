@@ -33,11 +33,15 @@ constexpr double kIgnored = 0.0007;  ///< of half the sum of the box's sides: Ph
 constexpr double kMargin = 1.5;      ///< for the floats and partial hulls of engines
 constexpr std::size_t kMostRounds = 64;
 constexpr std::uint32_t kFewestPoints = 4;
+/// A hull grows by more than the height only while more than one point in so many is low. The last
+/// ones would take most of the growth.
+constexpr std::size_t kFewLow = 50;
 /// The first distance of new points in front of planes, in units of the largest coordinate: the
 /// rounding error of a coordinate. It grows until the exact test passes.
 constexpr double kFirstPad = 0x1p-50, kPadGrowth = 16;
 constexpr int kPads = 6;
 constexpr std::size_t kMostNeighbours = 12;  ///< tried for each low point, the nearest first
+constexpr int kSweeps = 24;                  ///< over planes; what is left is added along a way
 constexpr double kLeastSlope = 0.05;         ///< of a way out against a plane: no shallower
 
 /// The plane of a face, through a point of it: heights are exact up to rounding near that point.
@@ -51,7 +55,7 @@ struct HullPlane {
 };
 
 /// Returns the planes of the groups; empty if a normal is beyond the range of double.
-std::vector<HullPlane> faces_of(const ConvexHull& hull) {
+std::vector<HullPlane> planes_of(const ConvexHull& hull) {
     std::vector<HullPlane> faces;
     for (std::size_t g = 0; g + 1 < hull.groups.size(); ++g) {
         HullPlane face = {};
@@ -117,7 +121,7 @@ struct Merge {
 class PointDropper {
 public:
     PointDropper(const ConvexHull& given, const DropOptions& options)
-        : given_(given), options_(options), faces_of_given_(faces_of(given)) {
+        : given_(given), options_(options), planes_of_given_(planes_of(given)) {
         for (const Double3& p : given.points) {
             largest_ = std::max(largest_, mesh::largest_of(p));
         }
@@ -126,19 +130,26 @@ public:
     DroppedPoints run() {
         ConvexHull hull = given_;
         double growth = 0;
-        for (std::size_t round = 0; round < kMostRounds && options_.growth > 0; ++round) {
-            std::vector<Merge> merges = find_merges(hull);
+        // Points that need little growth go first: later ones may then need less.
+        double allowed = std::min(options_.height, options_.growth);
+        for (std::size_t round = 0; round < kMostRounds && allowed > 0; ++round) {
+            std::vector<Merge> merges = find_merges(hull, allowed);
             std::optional<Grown> grown;
             while (!grown && !merges.empty()) {
                 grown = replace(hull, merges);
                 merges.resize(merges.size() / 2);
             }
-            if (!grown) break;
-            hull = std::move(grown->hull);
-            growth = std::max(growth, grown->growth);
+            if (grown) {
+                hull = std::move(grown->hull);
+                growth = std::max(growth, grown->growth);
+            } else if (allowed < options_.growth && has_many_low(hull)) {
+                allowed = std::min(2 * allowed, options_.growth);
+            } else {
+                break;
+            }
         }
         DroppedPoints result{hull, growth, 0, 0};
-        result.low = low_points(hull).size();
+        result.low = low_points(hull, Stars(hull)).size();
         for (const Double3& p : hull.points) result.moved += is_given(p) ? 0 : 1;
         return result;
     }
@@ -151,6 +162,13 @@ private:
     struct Grown {
         ConvexHull hull;
         double growth;
+    };
+    /// A hull in which points are replaced, and by how much it may grow.
+    struct Place {
+        const ConvexHull& hull;
+        std::vector<HullPlane> planes;
+        Stars stars;
+        double allowed;
     };
 
     [[nodiscard]] bool is_given(const Double3& p) const {
@@ -165,15 +183,14 @@ private:
             neighbours.push_back(hull.points[other]);
         }
         double most = 0;
-        for (const HullPlane& face : faces_of(convex_hull(neighbours))) {
+        for (const HullPlane& face : planes_of(convex_hull(neighbours))) {
             most = std::max(most, face.height(hull.points[point]));
         }
         return most;
     }
 
     /// Returns the points that stand out too little, the lowest first.
-    [[nodiscard]] std::vector<Low> low_points(const ConvexHull& hull) const {
-        const Stars stars(hull);
+    [[nodiscard]] std::vector<Low> low_points(const ConvexHull& hull, const Stars& stars) const {
         std::vector<Low> low;
         for (std::uint32_t point = 0; point < hull.points.size(); ++point) {
             const double height = height_of(hull, stars, point);
@@ -185,11 +202,15 @@ private:
         return low;
     }
 
+    [[nodiscard]] bool has_many_low(const ConvexHull& hull) const {
+        return kFewLow * low_points(hull, Stars(hull)).size() > hull.points.size();
+    }
+
     /// Returns a bound on the distance of a point in front of the given hull from it.
     [[nodiscard]] double distance_from_given(const Double3& p) const {
         double least = std::numeric_limits<double>::infinity();
-        for (std::size_t g = 0; g < faces_of_given_.size(); ++g) {
-            if (faces_of_given_[g].height(p) < -kFirstPad * largest_) continue;
+        for (std::size_t g = 0; g < planes_of_given_.size(); ++g) {
+            if (planes_of_given_[g].height(p) < -kFirstPad * largest_) continue;
             for (std::uint32_t f = given_.groups[g]; f < given_.groups[g + 1]; ++f) {
                 const auto& [a, b, c] = given_.facets[f];
                 const Corners facet = {given_.points[a], given_.points[b], given_.points[c]};
@@ -199,9 +220,25 @@ private:
         return least;
     }
 
-    /// Returns the way from a base to a point in front of faces; nothing if there is no such way.
-    [[nodiscard]] std::optional<Merge> way_out(const Double3& base,
-                                               std::span<const HullPlane> around) const {
+    /// Returns nearly the nearest point to `base` that is in front of the planes (Hildreth 1957).
+    static Double3 nearest_in_front(const Double3& base, std::span<const HullPlane> around) {
+        std::vector<double> pull(around.size(), 0);
+        Double3 p = base;
+        for (int sweep = 0; sweep < kSweeps; ++sweep) {
+            for (std::size_t i = 0; i < around.size(); ++i) {
+                const double step = std::max(-pull[i], -around[i].height(p));
+                pull[i] += step;
+                p = plus(p, scaled(around[i].normal, step));
+            }
+        }
+        return p;
+    }
+
+    /// Returns the way from near a base to a point in front of planes, or nothing if there is none.
+    [[nodiscard]] std::optional<Merge> way_out(const Double3& near,
+                                               std::span<const HullPlane> around,
+                                               double allowed) const {
+        const Double3 base = nearest_in_front(near, around);
         Double3 sum = {};
         for (const HullPlane& face : around) sum = plus(sum, face.normal);
         const double size = std::sqrt(dot(sum, sum));
@@ -214,25 +251,24 @@ private:
             merge.length = std::max(merge.length, -face.height(base) / slope);
         }
         merge.growth = distance_from_given(merge.place(kFirstPad * largest_));
-        if (!(merge.growth < options_.growth)) return std::nullopt;
+        if (!(merge.growth < allowed)) return std::nullopt;
         return merge;
     }
 
     /// Returns the best point that replaces a point and a neighbour.
-    [[nodiscard]] std::optional<Merge> best_of_pair(const ConvexHull& hull,
-                                                    const std::vector<HullPlane>& faces,
-                                                    const Stars& stars, std::uint32_t point,
+    [[nodiscard]] std::optional<Merge> best_of_pair(const Place& place, std::uint32_t point,
                                                     std::uint32_t other) const {
-        std::vector<std::uint32_t> numbers = stars.faces(point);
-        numbers.insert(numbers.end(), stars.faces(other).begin(), stars.faces(other).end());
+        std::vector<std::uint32_t> numbers = place.stars.faces(point);
+        const std::vector<std::uint32_t>& more = place.stars.faces(other);
+        numbers.insert(numbers.end(), more.begin(), more.end());
         std::sort(numbers.begin(), numbers.end());
         numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
         std::vector<HullPlane> around;
-        for (const std::uint32_t number : numbers) around.push_back(faces[number]);
+        for (const std::uint32_t number : numbers) around.push_back(place.planes[number]);
         std::optional<Merge> best;
-        const Double3 &a = hull.points[point], &b = hull.points[other];
+        const Double3 &a = place.hull.points[point], &b = place.hull.points[other];
         for (const Double3& base : {b, mesh::middle_of(a, b), a}) {
-            std::optional<Merge> merge = way_out(base, around);
+            std::optional<Merge> merge = way_out(base, around, place.allowed);
             if (!merge || (best && best->growth <= merge->growth)) continue;
             best = merge;
             best->points = {point, other};
@@ -240,43 +276,40 @@ private:
         return best;
     }
 
-    [[nodiscard]] std::optional<Merge> best_merge(const ConvexHull& hull,
-                                                  const std::vector<HullPlane>& faces,
-                                                  const Stars& stars, std::uint32_t point,
+    [[nodiscard]] std::optional<Merge> best_merge(const Place& place, std::uint32_t point,
                                                   const std::vector<bool>& is_used) const {
+        const std::vector<Double3>& points = place.hull.points;
         std::vector<std::pair<double, std::uint32_t>> others;
-        for (const std::uint32_t other : stars.points(point)) {
+        for (const std::uint32_t other : place.stars.points(point)) {
             if (is_used[other]) continue;
-            others.emplace_back(mesh::squared_distance(hull.points[point], hull.points[other]),
-                                other);
+            others.emplace_back(mesh::squared_distance(points[point], points[other]), other);
         }
         std::sort(others.begin(), others.end());
         if (others.size() > kMostNeighbours) others.resize(kMostNeighbours);
         std::optional<Merge> best;
         for (const auto& [distance, other] : others) {
-            std::optional<Merge> merge = best_of_pair(hull, faces, stars, point, other);
+            std::optional<Merge> merge = best_of_pair(place, point, other);
             if (merge && (!best || merge->growth < best->growth)) best = merge;
         }
         return best;
     }
 
-    /// Returns replacements of pairs that have no neighbours in common. The lowest points are
-    /// first.
-    [[nodiscard]] std::vector<Merge> find_merges(const ConvexHull& hull) const {
-        const std::vector<HullPlane> faces = faces_of(hull);
+    /// Returns replacements of pairs that have no neighbours in common, and which grow by less than
+    /// `allowed`. The lowest points are first.
+    [[nodiscard]] std::vector<Merge> find_merges(const ConvexHull& hull, double allowed) const {
+        const Place place = {hull, planes_of(hull), Stars(hull), allowed};
         std::vector<Merge> merges;
-        if (faces.empty() || faces_of_given_.empty()) return merges;
-        const Stars stars(hull);
+        if (place.planes.empty() || planes_of_given_.empty()) return merges;
         std::vector<bool> is_used(hull.points.size(), false);
-        for (const Low& low : low_points(hull)) {
+        for (const Low& low : low_points(hull, place.stars)) {
             if (is_used[low.point]) continue;
             if (hull.points.size() - merges.size() <= kFewestPoints) break;
-            const auto merge = best_merge(hull, faces, stars, low.point, is_used);
+            const auto merge = best_merge(place, low.point, is_used);
             if (!merge) continue;
             merges.push_back(*merge);
             for (const std::uint32_t point : merge->points) {
                 is_used[point] = true;
-                for (const std::uint32_t other : stars.points(point)) is_used[other] = true;
+                for (const std::uint32_t other : place.stars.points(point)) is_used[other] = true;
             }
         }
         return merges;
@@ -311,7 +344,7 @@ private:
 
     const ConvexHull& given_;
     const DropOptions& options_;
-    std::vector<HullPlane> faces_of_given_;
+    std::vector<HullPlane> planes_of_given_;
     double largest_ = 0;
 };
 

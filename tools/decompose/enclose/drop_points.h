@@ -32,7 +32,8 @@ struct DroppedPoints {
 /// a neighbour by one point in front of all planes through either. The hull then contains both,
 /// and by the exact test of prove_points() all that it contained before. This is the edge collapse
 /// of progressive hulls (Sander, Gu, Gortler, Hoppe and Snyder 2000). The low points that cannot be
-/// replaced within the growth stay. Hulls of other dimensions are returned unchanged.
+/// replaced within the growth stay, and so do a few that would take most of it. Hulls of other
+/// dimensions are returned unchanged.
 [[nodiscard]] DroppedPoints drop_points(const ConvexHull& hull, const DropOptions& options);
 
 }  // namespace cdprep::convex
