@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #ifndef __wasi__
 #include <filesystem>
-#include <fstream>
 #endif
 #include <memory>
 #include <optional>
@@ -129,6 +129,12 @@ int open_path(Call& call, const Asked& /*asked*/, const char* utf8, cdprep_model
                      std::string(utf8) + ": this build reads no files, only bytes in memory.");
 }
 #else
+struct CloseFile {
+    void operator()(std::FILE* file) const noexcept {
+        std::fclose(file);
+    }
+};
+
 /// Reads the file, without mapping it.
 int open_copy(Call& call, const Asked& asked, const std::filesystem::path& path,
               cdprep_model** to) {
@@ -137,13 +143,13 @@ int open_copy(Call& call, const Asked& asked, const std::filesystem::path& path,
     if (!std::filesystem::is_regular_file(path, failed)) {
         return fail_reading(call, name, "is not there, or is not a regular file.");
     }
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return fail_reading(call, name, "cannot be opened.");
+    const std::unique_ptr<std::FILE, CloseFile> file(open_to_read(path));
+    if (file == nullptr) return fail_reading(call, name, "cannot be opened.");
     const std::uintmax_t size = std::filesystem::file_size(path, failed);
     if (failed) return fail_reading(call, name, "has no size that can be read.");
     OwnedMemory copy;
     if (const int code = copy.allocate(call, asked.allocator, size)) return code;
-    if (!file.read(reinterpret_cast<char*>(copy.get().start), static_cast<std::streamsize>(size))) {
+    if (size > 0 && std::fread(copy.get().start, 1, size, file.get()) != size) {
         return fail_reading(call, name, "cannot be read to its end.");
     }
     Asked named = asked;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -16,6 +17,9 @@ namespace cdprep {
 
 /// Returns the path that a text in UTF-8 names, or nothing if the system takes no such text.
 [[nodiscard]] std::optional<std::filesystem::path> path_from_utf8(const char* text);
+
+/// Opens a file for reading, as std::fopen() does.
+[[nodiscard]] std::FILE* open_to_read(const std::filesystem::path& path);
 
 /// The bytes of a file, mapped or copied, read-only. The only part of the library that depends on
 /// the operating system. Move-only; releases the memory on destruction.

@@ -83,6 +83,10 @@ std::optional<std::filesystem::path> path_from_utf8(const char* text) {
     return std::filesystem::path(std::string(text));
 }
 
+std::FILE* open_to_read(const std::filesystem::path& path) {
+    return std::fopen(path.c_str(), "rb");
+}
+
 Result<MappedFile> MappedFile::map(const std::filesystem::path& path) {
     const OpenFile file(path);
     if (file.error) return *file.error;

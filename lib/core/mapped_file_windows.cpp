@@ -120,6 +120,10 @@ std::optional<std::filesystem::path> path_from_utf8(const char* text) {
     return std::filesystem::path(wide);
 }
 
+std::FILE* open_to_read(const std::filesystem::path& path) {
+    return ::_wfopen(path.c_str(), L"rb");
+}
+
 Result<MappedFile> MappedFile::map(const std::filesystem::path& path) {
     const OpenFile file(path);
     if (file.error) return *file.error;
