@@ -68,8 +68,7 @@ int check_box(Call& call, const Name& name, const cdprep_shape_query& query) noe
         }
         if (query.a[i] > query.b[i]) {
             return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name.of("b", i),
-                               "is less than %s: the box is empty.",
-                               spelt(name.of("a", i)).data());
+                               "is less than %s: the box is empty.", spelt(name.of("a", i)).data());
         }
     }
     return CDPREP_OK;

@@ -32,7 +32,7 @@ struct Model::State {
 #ifndef __wasi__
     MappedFile mapping;  ///< or a copy; empty when the caller keeps the bytes
 #endif
-    std::string name;    ///< of the file, for messages
+    std::string name;  ///< of the file, for messages
     std::span<const std::byte> file;
     const format::FileHeader* header = nullptr;
     SectionSet sections;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A plugin of QEMU that counts the instructions of a program and prints their number at its end.
- * Declares what it uses of the plugin interface, version 1, whose header Debian does not package. */
+ * Declares what it uses of the plugin interface, version 1, whose header Debian does not package.
+ */
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -27,8 +27,8 @@ struct GltfReading {
 /// colliders and one has bodies. They ask for `collide`, of solids, between triggers and colliders.
 ///
 /// A kinematic node moves all nodes below it steadily. Another node with a motion is a body.
-/// Several colliders of a body become one object if their filters and materials are equal;
-/// otherwise they stay where they are. Velocities become model units. Gravity is 9.81 m/s^2
+/// Several colliders of a body become one object if their filters and materials are equal.
+/// Otherwise they stay where they are. Velocities become model units. Gravity is 9.81 m/s^2
 /// downwards, a step 1/60 s, a run 1 s.
 ///
 /// SceneFile::text is the JSON of the file.

@@ -15,9 +15,9 @@ namespace cdprep::report {
                                                 const SceneEvent& event,
                                                 const scenes::Simulation& simulation);
 
-/// Returns an event of a body in the last frame as JSON (simulate.schema.json). It has the frame and
-/// its time, "sleeps", "wakes" or "impact", and the body. An impact also has the object that was
-/// met, and its own time.
+/// Returns an event of a body in the last frame as JSON (simulate.schema.json). It has the frame
+/// and its time, "sleeps", "wakes" or "impact", and the body. An impact also has the object that
+/// was met, and its own time.
 [[nodiscard]] nlohmann::ordered_json body_event_json(std::uint64_t frame, double time_s,
                                                      const scenes::BodyEvent& event,
                                                      const scenes::SceneFile& scene);
