@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "cdprep/result.h"
 
@@ -34,8 +35,11 @@ public:
     [[nodiscard]] static Result<MappedFile> copy(const std::filesystem::path& path);
 
     MappedFile() noexcept = default;
-    MappedFile(MappedFile&& other) noexcept;
-    MappedFile& operator=(MappedFile&& other) noexcept;
+    MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+    MappedFile& operator=(MappedFile&& other) noexcept {
+        std::swap(bytes_, other.bytes_);
+        return *this;
+    }
     ~MappedFile();
 
     [[nodiscard]] std::span<const std::byte> bytes() const noexcept {

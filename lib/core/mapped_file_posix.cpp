@@ -8,7 +8,6 @@
 #include <cstring>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "core/mapped_file.h"
 
@@ -123,13 +122,6 @@ Result<MappedFile> MappedFile::copy(const std::filesystem::path& path) {
     }
     ::mprotect(start, file.size, PROT_READ);  // a stray write stops the program, as in a mapping
     return copied;
-}
-
-MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
-
-MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
-    std::swap(bytes_, other.bytes_);
-    return *this;
 }
 
 MappedFile::~MappedFile() {

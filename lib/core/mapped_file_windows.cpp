@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include "core/mapped_file.h"
 
@@ -157,13 +156,6 @@ Result<MappedFile> MappedFile::copy(const std::filesystem::path& path) {
     DWORD before = 0;
     ::VirtualProtect(start, file.size, PAGE_READONLY, &before);  // as in a mapping
     return copied;
-}
-
-MappedFile::MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
-
-MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
-    std::swap(bytes_, other.bytes_);
-    return *this;
 }
 
 MappedFile::~MappedFile() {
