@@ -67,7 +67,7 @@ class Exported:
             subprocess.run([sys.executable, HERE / "make_kettle.py", source], check=True)
         outputs = exported(program, source, folder, kinds, unit, limits)
         self.json, self.glb, self.sdf = (outputs.get(kind) for kind in ("json", "glb", "sdf"))
-        self.mjcf = floating(outputs["mjcf"], folder / f"{name}_floating.mjcf")
+        self.mjcf = with_floor(outputs["mjcf"], folder / f"{name}_floor.mjcf")
         self.colliders = json.loads(self.json.read_text())
         self.mass = DENSITY * METRES[unit] ** 3 * self.colliders["mass"]["volume"]
         self.start = [0, 0, DROP - lowest(self.colliders, TURN, (0, 0, 0))]
@@ -76,13 +76,10 @@ class Exported:
         return [*self.start, *TURN]
 
 
-def floating(source, target):
-    """The MJCF with a free joint of its body, and a floor."""
+def with_floor(source, target):
+    """The MJCF with a floor below its body."""
     tree = xml.parse(source)
     world = tree.getroot().find("worldbody")
-    body = world.find("body")
-    if body.find("freejoint") is None:
-        body.insert(0, xml.Element("freejoint"))
     world.insert(0, xml.Element("geom", type="plane", size="50 50 1"))
     tree.write(target)
     return target
