@@ -302,31 +302,10 @@ inline D8 select(D8::Mask where, D8 a, D8 b) noexcept {
 }  // namespace
 }  // namespace cdprep::kernels
 
-#include "cells_met.h"
-#include "farthest.h"
-#include "swept_spheres.h"
-#include "weak_planes.h"
-#include "world_boxes.h"
+#include "table_of.h"
 
 namespace cdprep::kernels {
 
-const Table kAvx512 = {"avx512",
-                       overlapping_boxes_of<F8, F16>,
-                       overlap_depths_of<F8, F16>,
-                       near_boxes_of<F8, F16>,
-                       near_triangles_of<F8, F16, F16>,
-                       triangles_within_of<F8, F16, F16>,
-                       find_contacts_of<F8, F16, F16>,
-                       find_own_contacts_of<F8, F16, F16>,
-                       place_among_cells_of<F8>,
-                       cells_met_of<F8>,
-                       {kSweptTests<0, F8, F16>, kSweptTests<1, F8, F16>, kSweptTests<2, F8, F16>},
-                       farthest_of<D8>,
-                       farthest_moved_of<D8>,
-                       weak_planes_of<F16>,
-                       met_boxes_of<F8>,
-                       meeting_boxes_of<F8>,
-                       meeting_pairs_of<F8>,
-                       escaped_boxes_of<F8>};
+const Table kAvx512 = table_of<F8, F16, D8>("avx512");
 
 }  // namespace cdprep::kernels
