@@ -4,11 +4,11 @@
 #include <limits>
 #include <type_traits>
 
+#include "c/batch.h"
 #include "c/c_pairs.h"
 #include "cdprep/c/points.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/points.h"
-#include "core/share_out.h"
 
 namespace cdprep::c {
 
@@ -178,59 +178,17 @@ int ask_shape(const cdprep_shape_query* query, cdprep_workspace* workspace, Answ
     });
 }
 
-/// A batch of queries about shapes.
 template <class Answer>
-struct ShapeBatch {
-    const cdprep_shape_query* queries;
-    std::size_t count;
-    cdprep_workspace* workspace;
-    Answer* answers;
-    const char* answers_name;
-    cdprep_error* error;
-};
+using ShapeBatch = Batch<cdprep_shape_query, Answer>;
 
-/// Checks that the arrays of a batch are there, then every query.
-template <class Answer, class Check>
-int check_batch(Call& call, const ShapeBatch<Answer>& batch, Check&& check) {
-    if (const int code = call.need(batch.workspace, {"workspace"})) return code;
-    if (batch.count > 0) {
-        if (const int code = call.need(batch.queries, {"queries"})) return code;
-        if (const int code = call.need(batch.answers, {batch.answers_name})) return code;
-    }
-    if (batch.count > kMostAnswers<Answer>) {
-        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"count"}, "is more than memory holds.");
-    }
-    for (std::size_t i = 0; i < batch.count; ++i) {
-        const Name name = {"queries", i};
-        const cdprep_shape_query* const query = element(batch.queries, i);
-        if (const int code = check_stride(call, name, batch.queries, query)) return code;
-        AskedShape asked;
-        if (const int code = read_asked(call, name, query, check, asked)) return code;
-    }
-    return CDPREP_OK;
-}
-
-/// Sets all answers to unknown, checks everything, then calls `ask(answer, shape, workspace)` for
-/// each query, on all lanes. Queries that change meanwhile keep their answer unknown.
+/// Runs each query about a shape; see ask_batch() and ask_shape().
 template <class Answer, class Check, class Asker>
 int ask_shapes(const ShapeBatch<Answer>& batch, Check&& check, Asker&& ask) noexcept {
-    set_unknown(batch.answers, batch.count);
-    return guarded(batch.error, [&](Call& call) -> int {
-        if (const int code = check_batch(call, batch, check)) return code;
-        InUse use;
-        if (const int code = use.begin(call, *batch.workspace)) return code;
-        const std::span<Workspace> lanes = batch.workspace->lanes;
-        const CallersThreads threads(*batch.workspace);
-        share_jobs(batch.count, lanes.size(), threads, [&](std::size_t i, std::size_t lane) {
-            assert(lane < lanes.size());
-            AskedShape asked;
-            Call again(nullptr);
-            const cdprep_shape_query* const query = element(batch.queries, i);
-            if (read_asked(again, {"queries", i}, query, check, asked) != CDPREP_OK) return;
-            ask(batch.answers[i], asked, lanes[lane]);
-        });
-        return CDPREP_OK;
-    });
+    const auto read = [&](Call& call, const Name& name, const cdprep_shape_query* query,
+                          AskedShape& asked) {
+        return read_asked(call, name, query, check, asked);
+    };
+    return ask_batch<AskedShape>(batch, nothing_to_check, read, no_answer_to_check, ask);
 }
 
 cdprep_nearest in_c(const std::optional<ShapeDistance>& found) noexcept {
@@ -307,7 +265,8 @@ int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* wor
 
 int cdprep_touch_many(const cdprep_shape_query* queries, size_t count, cdprep_workspace* workspace,
                       uint32_t* touches, cdprep_error* error) {
-    const ShapeBatch<uint32_t> batch = {queries, count, workspace, touches, "touches", error};
+    const ShapeBatch<uint32_t> batch = {queries, "queries", count, workspace,
+                                        touches, "touches", error};
     return ask_shapes(
         batch, check_touch, [](uint32_t& to, const AskedShape& asked, Workspace& scratch) {
             to = cdprep::c::word(
@@ -318,7 +277,8 @@ int cdprep_touch_many(const cdprep_shape_query* queries, size_t count, cdprep_wo
 int cdprep_shape_distance_many(const cdprep_shape_query* queries, size_t count,
                                cdprep_workspace* workspace, cdprep_nearest* nearest,
                                cdprep_error* error) {
-    const ShapeBatch<cdprep_nearest> batch = {queries, count, workspace, nearest, "nearest", error};
+    const ShapeBatch<cdprep_nearest> batch = {queries, "queries", count, workspace,
+                                              nearest, "nearest", error};
     return ask_shapes(batch, cdprep::c::check_distance,
                       [](cdprep_nearest& to, const AskedShape& asked, Workspace& scratch) {
                           to = cdprep::c::in_c(shape_distance(asked.query.model->model, asked.shape,
