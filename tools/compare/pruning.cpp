@@ -251,8 +251,9 @@ Check check_recall(const Table& table) {
 Check check_groups(const Table& table) {
     Check check;
     check.claim = "Clusters, slabs and leaves keep both triangles of every overlapping pair";
-    const auto column = static_cast<std::size_t>(
-        std::ranges::find(table.columns, kLostKey, &Column::key) - table.columns.begin());
+    const auto found = std::ranges::find(table.columns, kLostKey, &Column::key);
+    if (found == table.columns.end()) return check;
+    const auto column = static_cast<std::size_t>(found - table.columns.begin());
     double most = 0;
     std::string where;
     std::size_t asked = 0;

@@ -312,6 +312,24 @@ TEST(PruningChecks, NameTheLeastRecall) {
     EXPECT_EQ(pruning_checks(table_of({{0}}))[0].verdict, Verdict::not_asked);
 }
 
+// By hand: the row that loses most is named, and rows without a recall do not count.
+TEST(PruningChecks, NameWhatLosesMost) {
+    const auto check = [](const std::vector<double>& lost, double recall) {
+        Table table = table_of(std::vector<std::vector<double>>(lost.size(), {1, recall}));
+        table.columns[0].key = "lost";
+        for (std::size_t i = 0; i < lost.size(); ++i) table.rows[i].cells[0] = number(lost[i]);
+        return pruning_checks(table)[1];
+    };
+    const Check some = check({0.5, 2, 0, 1}, 1);
+    EXPECT_EQ(some.verdict, Verdict::fails);
+    EXPECT_EQ(some.evidence, "of 4 sets of poses, the worst loses 2 pairs a pose (row 1)");
+    const Check none = check({0, 0}, 0.5);
+    EXPECT_EQ(none.verdict, Verdict::holds);
+    EXPECT_EQ(none.evidence, "of 2 sets of poses, none loses a pair");
+    EXPECT_EQ(check({3}, 0).verdict, Verdict::not_asked);
+    EXPECT_EQ(pruning_checks(table_of({{1, 1}}))[1].verdict, Verdict::not_asked);
+}
+
 // By hand: H0 to H3 take 1, 1/2, 1/4 and 1/8, K0 to K2 a fifth, a half and 1; then H0 alone is
 // there, which K2 makes ten times as fast.
 TEST(CellSearchChecks, CountWhatReachesTheClaimAndWhatIsSlower) {
