@@ -59,6 +59,24 @@ TEST(Progress, ALoopIsDrawnSeldom) {
     EXPECT_LE(std::count(drawn.begin(), drawn.end(), '\n'), 3) << drawn;
 }
 
+// A bar moves several times a second; lines of a log are far apart.
+TEST(Progress, ABarIsDrawnMoreOftenThanLines) {
+    const auto drawn_by = [](ProgressStyle style) {
+        testing::internal::CaptureStderr();
+        {
+            Progress progress(style, 3);
+            for (std::size_t i = 0; i < 3; ++i) {
+                progress.advance(i, "frame");
+                std::this_thread::sleep_for(std::chrono::milliseconds(300));
+            }
+        }
+        const std::string drawn = testing::internal::GetCapturedStderr();
+        return std::count(drawn.begin(), drawn.end(), '/');
+    };
+    EXPECT_GE(drawn_by(ProgressStyle::bar), 3);
+    EXPECT_LE(drawn_by(ProgressStyle::plain), 2);
+}
+
 // The pause covers two updates of a bar.
 TEST(Progress, DrawsNothingAfterClear) {
     testing::internal::CaptureStderr();
