@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -219,7 +220,10 @@ TEST(Pruning, EachStepKeepsWhatOverlaps) {
     const Compared& all = compared();
     const std::vector<const ModelForms*> forms = {&all.forms[0], &all.forms[1]};
     const Table table = pruning_table(all.meshes, all.studies, forms);
+    const PairStudy& study = all.studies[0];
     expect_complete(table);
+    constexpr std::array strata = {Stratum::deep, Stratum::shallow, Stratum::near};
+    ASSERT_EQ(table.rows.size(), strata.size());
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const auto at = [&](const char* key) { return *cell_of(table, r, key).value; };
         EXPECT_GE(at("all_b"), at("cluster_b"));
@@ -229,6 +233,10 @@ TEST(Pruning, EachStepKeepsWhatOverlaps) {
         EXPECT_GE(at("leaf_b"), at("pcs_b"));
         EXPECT_GE(at("pcs_b"), at("cs_b"));
         EXPECT_GE(at("cs_a"), at("literal_cs_a"));
+        const std::vector<std::size_t> poses = study.poses.of(strata[r]);
+        double pairs = 0;
+        for (const std::size_t pose : poses) pairs += static_cast<double>(study.exact.pairs[pose]);
+        EXPECT_DOUBLE_EQ(at("pairs"), pairs / static_cast<double>(poses.size())) << r;
     }
     const std::vector<Check> checks = pruning_checks(table);
     ASSERT_EQ(checks.size(), 2U);
