@@ -313,7 +313,7 @@ private:
         const std::span<const std::uint32_t> piece_a = moved_a_.model->pieces().of_triangle;
         const std::span<const std::uint32_t> piece_b = moved_b_.model->pieces().of_triangle;
         const auto visit = [&](const NearTriangles& near) {
-            if (is_out_of_work((options_.work + 1) / 2)) return false;
+            if (is_out_of_work(options_.work - options_.work / 2)) return false;
             ++verdict_.work;
             const std::uint64_t key = std::uint64_t{piece_a[near.a]} << 32 | piece_b[near.b];
             if (gathered_.takes(key)) {

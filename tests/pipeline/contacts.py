@@ -9,9 +9,14 @@ import pathlib
 import sys
 import tempfile
 
+import jsonschema
+
 from known_meshes import CUBE
 from shared_models import bake, must, run
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCHEMA = jsonschema.Draft202012Validator(
+    json.loads((ROOT / "tools/query/contacts.schema.json").read_text()))
 
 SHEET = "OFF 4 2 0\n0 0 0\n9 0 0\n9 9 0\n0 9 0\n3 0 1 2\n3 0 2 3\n"
 
@@ -60,7 +65,45 @@ def enclosed(program, folder, cube):
 def ask(program, *arguments):
     asked = run(program, "query", "contacts", *arguments)
     must(asked.returncode == 0, f"query {arguments} exited {asked.returncode}: {asked.stderr}")
+    arguments = [str(argument) for argument in arguments]
+    if "json" in arguments or "ndjson" in arguments:
+        lines = asked.stdout.splitlines() if "ndjson" in arguments else [asked.stdout]
+        for line in lines:
+            error = jsonschema.exceptions.best_match(SCHEMA.iter_errors(json.loads(line)))
+            must(error is None, f"{arguments} breaks the schema: {error}")
     return asked.stdout
+
+
+def limited(program, folder, cube):
+    """A cube in the notch of an L: the walls have normals at right angles. A list is cut short by
+    --most and by --budget, and --cluster-deg counts degrees."""
+    (folder / "l.off").write_text(prism())
+    notch = folder / "notch.cdp.h5"
+    bake(program, folder / "l.off", "-o", notch, "--effects", "contacts")
+
+    def listed(*options):
+        return json.loads(ask(program, notch, cube, "--pose", "1 0 0 0 1 0 0 0 1 1.0625 1.125 5",
+                              "--tolerance", 0.25, "--format", "json", *options))[0]
+    all_of = listed()
+    walls = {tuple(round(x, 6) for x in contact["normal"]) for contact in all_of["contacts"]}
+    must(walls == {(1, 0, 0), (0, 1, 0)}, f"walls of {all_of}")
+    must(all_of["complete"] and all_of["found"] == all_of["count"] > 1, f"all: {all_of}")
+    deepest = listed("--most", 1)
+    must(deepest["count"] == 1 and not deepest["complete"] and deepest["searched"] and
+         abs(deepest["contacts"][0]["lower"] - 0.0625) < 1e-9, f"--most 1: {deepest}")
+    for degrees, count in ((45, 2), (89.5, 2), (90.5, 1)):
+        joined = listed("--most", 64, "--cluster-deg", degrees)
+        must(joined["count"] == count, f"--cluster-deg {degrees}: {joined}")
+        members = sum(contact["members"] for contact in joined["contacts"])
+        must(members == all_of["count"], f"--cluster-deg {degrees}: {joined}")
+    short = listed("--budget", 1)
+    must(short["count"] < all_of["count"] and not short["complete"] and not short["searched"],
+         f"--budget 1: {short}")
+    most = listed("--budget", 2**64 - 1)
+    must(most == all_of, f"--budget {2**64 - 1}: {most}")
+    text = ask(program, notch, cube, "--pose", "1 0 0 0 1 0 0 0 1 1.0625 1.125 5", "--tolerance",
+               0.25, "--most", 1)
+    must(text.startswith(f"pose 0: 1 contact of {all_of['found']} found\n"), text)
 
 
 def close(a, b):
@@ -104,7 +147,7 @@ def main():
     must(asked.returncode == 2 and "bvh, pieces" in asked.stderr, asked.stderr)
     must("points" not in ask(program, *pair, "--format", "ndjson"), "points without --manifold")
     text = ask(program, *pair)
-    must(text.splitlines()[0] == "pose 0: 1 contacts" and "normal 0 0 1" in text.replace("-0 ", "0 "),
+    must(text.splitlines()[0] == "pose 0: 1 contact" and "normal 0 0 1" in text.replace("-0 ", "0 "),
          text)
 
     # On a sheet, and asked of a file without contacts.
@@ -115,6 +158,7 @@ def main():
     must(asked.returncode == 2 and "triangle_piece" in asked.stderr and "--effects" in asked.stderr,
          f"{asked.returncode}: {asked.stderr}")
     enclosed(program, folder, cube)
+    limited(program, folder, cube)
     asked = run(program, "query", "contacts", cube, cube)
     must(asked.returncode == 2 and "--tolerance" in asked.stderr, asked.stderr)
 

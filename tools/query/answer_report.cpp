@@ -250,8 +250,8 @@ std::string as_text(const ContactFeature& feature) {
 }
 
 std::string as_text(const ContactsAnswer& answer) {
-    std::string text =
-        "pose " + number(answer.pose) + ": " + number(answer.contacts.size()) + " contacts";
+    std::string text = "pose " + number(answer.pose) + ": " +
+                       counted(answer.contacts.size(), "contact", "contacts");
     if (!answer.verdict.complete) {
         text += " of " + number(answer.verdict.found) +
                 (answer.verdict.searched ? " found" : " found before the budget ended the search");

@@ -12,7 +12,8 @@
 // breaks: a depth of more than twice the truth, an interval that does not hold the pieces' own
 // depth, a normal that is no unit vector.
 //
-// Usage: contact_depths [POSES]; the models are those beside the checkout, or in CDPREP_SHARED
+// Usage: contact_depths [POSES]: 60 by default, 1,000 with CDPREP_ALL_POSES=yes. The models are
+// those beside the checkout, or in CDPREP_SHARED
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,6 +31,7 @@
 #include "mesh/normalize.h"
 #include "mesh/weld.h"
 #include "study/memory_model.h"
+#include "support/rounds.h"
 #include "support/shared_models.h"
 
 namespace cdprep {
@@ -399,5 +401,6 @@ int main(int count, char** arguments) {
         std::printf("skipped: no test models beside the checkout (set CDPREP_SHARED)\n");
         return 77;
     }
-    return cdprep::run(*folder / "seed", count > 1 ? std::atoi(arguments[1]) : 60);
+    return cdprep::run(*folder / "seed",
+                       count > 1 ? std::atoi(arguments[1]) : cdprep::test::rounds(1000, 16));
 }

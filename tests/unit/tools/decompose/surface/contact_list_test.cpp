@@ -275,6 +275,23 @@ TEST(ContactLists, OneClusterHasTheCornersOfAll) {
     }
 }
 
+// Half of the work is for the search: half of the greatest number must not wrap around.
+TEST(ContactLists, TheGreatestWorkIsNoLimit) {
+    const OpenModel floor = open_with_pieces(grid_sheet(8, 8), PiecesOf::triangles);
+    const OpenModel cube = open_with_pieces(moved_by(unit_cube(), 3, {0, 0, 0}));
+    const Pair pair = {floor.model, cube.model, shifted({2.25, 2.5, -0.015625})};
+    for (const std::uint32_t most : {0U, 16U}) {
+        const List all = ask(pair, {.tolerance = 0.01, .most = most});
+        const List list = ask(
+            pair,
+            {.tolerance = 0.01, .most = most, .work = std::numeric_limits<std::uint64_t>::max()});
+        ASSERT_GT(all.contacts.size(), 15U);
+        EXPECT_EQ(list.contacts.size(), all.contacts.size());
+        EXPECT_EQ(list.verdict.work, all.verdict.work);
+        EXPECT_TRUE(list.verdict.searched);
+    }
+}
+
 // By hand: a cube in the notch of an L leans on both arms. Their normals are square to each other.
 TEST(ContactLists, ClustersKeepNormalsApart) {
     const OpenModel arms = open_with_pieces(prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
