@@ -37,7 +37,6 @@ namespace {
 constexpr std::size_t kFillEvery = 10;
 constexpr std::size_t kFillLag = 2;
 constexpr std::size_t kFclSteps = 600;
-constexpr std::size_t kDeformSteps = 600;
 
 double microseconds() {
     timespec now{};
@@ -189,7 +188,7 @@ void time_deforming(const Model& model, const Model& probe, const std::vector<Do
                                  far);
     };
     std::vector<double> steps, refits;
-    for (std::size_t i = 0; i < std::min(kDeformSteps, way.size()); ++i) {
+    for (std::size_t i = 0; i < way.size(); ++i) {
         if (i % 50 == 0) choose(i);
         const auto by = static_cast<float>(1e-4 * std::sin(0.3 * static_cast<double>(i)));
         for (std::size_t k = 0; k < count; ++k) {

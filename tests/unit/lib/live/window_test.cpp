@@ -21,6 +21,14 @@
 #include "support/rounds.h"
 #include "support/same_distance.h"
 
+#ifdef __linux__
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#endif
+
 namespace cdprep::test {
 namespace {
 
@@ -506,6 +514,49 @@ private:
     std::atomic<int> ready_ = 0;
     std::atomic<int> taken_ = 0;
 };
+
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/// Runs `loop` where every system call but exit kills the process. Returns the wait status; the
+/// exit status is 77 where that cannot be had.
+template <class Loop>
+int status_without_system_calls(Loop&& loop) {
+    const pid_t child = fork();
+    if (child == 0) {
+        if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_STRICT) != 0) _exit(77);
+        syscall(SYS_exit, loop() ? 0 : 1);  // _exit() would make another call
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    return status;
+}
+
+TEST(Window, TheFastLoopMakesNoSystemCall) {
+    const OpenModel all = open_tiny(large_mesh()), probe = open_tiny(small_mesh());
+    Glide glide(7);
+    std::vector<Placement> way;
+    for (int step = 0; step < 1000; ++step) way.push_back(glide.next(0));
+    OwnedWindow owned = window_of(300);
+    owned.window.fill({all.model, probe.model, way[0]}, 0.2);
+    Workspace workspace;
+    PairCache cache;
+    const int status = status_without_system_calls([&] {
+        bool is_sound = true;
+        for (const Placement& placement : way) {
+            const Pair pair = {all.model, probe.model, placement, {}, &cache};
+            const BoundedDistance whole = bounded_distance(pair, workspace, {}, {.work = 3000});
+            const BoundedDistance near = owned.window.distance(
+                {owned.window.model(), probe.model, placement, {}, &cache}, workspace);
+            const bool hits = collide(pair, workspace).hit == Answer::yes;
+            is_sound = is_sound && near.lower <= whole.upper && !(hits && near.lower > 0);
+        }
+        return is_sound;
+    });
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "no seccomp here";
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    const int caught = status_without_system_calls([] { return getppid() > 0; });
+    EXPECT_TRUE(WIFSIGNALED(caught)) << caught;
+}
+#endif
 
 // The slow thread fills windows where the probe is now. Every complete answer of the fast thread is
 // compared with that of the whole model afterwards.
