@@ -10,6 +10,7 @@
 #include <string>
 
 #include "cdprep/cdprep.h"
+#include "cdprep/contacts.h"
 #include "cdprep/pairs.h"
 #include "support/c_lanes.h"
 #include "support/c_models.h"
@@ -241,6 +242,41 @@ TEST(CApi, ACubeInASolidCubeIsPushedOut) {
     EXPECT_NEAR(contact.normal[0], 1, 1e-12);
     EXPECT_NEAR(contact.lower, -1.5, 1e-12);
     EXPECT_EQ(contact.id >> 32, CDPREP_NONE);
+}
+
+TEST(CApi, ListsOfContactsTellWhatALimitLeftOut) {
+    const AlignedBytes file = with_contacts(with_one_piece(baked_cube()));
+    const CModel cube(file);
+    const Model same = Model::open(file.span()).value();
+    const CWorkspace workspace;
+    Workspace own;
+    cdprep_pair pair;
+    cdprep_pair_init(&pair, sizeof pair);
+    pair.a = pair.b = cube.get();
+    pair.pose_b.rows[9] = 0.5;
+    const Placement half =
+        Placement::b_moves(Pose::from_quaternion(1, 0, 0, 0, {0.5, 0, 0}).value());
+    unsigned unsearched = 0;
+    for (const std::uint64_t work : {0U, 1U, 40U, 1000U}) {
+        cdprep_contact_options options;
+        cdprep_contact_options_init(&options, sizeof options);
+        options.work = work;
+        std::array<cdprep_contact, 4> contacts;
+        cdprep_contact_list list = {contacts.data(), contacts.size(), 0, 0, 0, 0, 0, 0};
+        EXPECT_EQ(cdprep_contacts(&pair, &options, workspace.get(), &list, nullptr), CDPREP_OK);
+        std::array<Contact, 4> room;
+        const ContactsVerdict verdict =
+            cdprep::contacts({same, same, half}, own, room, {.most = options.most, .work = work});
+        EXPECT_EQ(list.count, verdict.count) << work;
+        EXPECT_EQ(list.found, verdict.found) << work;
+        EXPECT_EQ(list.computed, verdict.computed) << work;
+        EXPECT_EQ(list.work, verdict.work) << work;
+        EXPECT_EQ(list.complete == CDPREP_YES, verdict.complete) << work;
+        EXPECT_EQ(list.searched == CDPREP_YES, verdict.searched) << work;
+        unsearched += verdict.searched ? 0U : 1U;
+    }
+    EXPECT_GE(unsearched, 1U);
+    EXPECT_LE(unsearched, 2U);
 }
 
 TEST(Workspace, MayLiveInTheCallersMemory) {
