@@ -137,6 +137,11 @@ def main():
         decompose(program, bolt, "--exact", "--tolerance", 1, code=2)
         decompose(program, bolt, "--order", "best", code=2)
         decompose(program, bolt, "--tolerance", -1, code=2)
+        # Of a bolt of 34 mm scaled to a diagonal of 1, no unit is known.
+        for options, code in (((), 0), (("--strict",), 1)):
+            said = decompose(program, bolt, "-o", folder / "x.urdf", "--parts", 1, "--unit", "mm",
+                             "--normalize", *options, code=code).stderr
+            must("has no unit after --normalize" in said and "Leave out --normalize." in said, said)
         missing = decompose(program, folder / "missing.obj", "--format", "json", code=3)
         must("error" in json.loads(missing.stdout), "the report says why")
         decompose(program, bolt, "-o", folder / "no folder" / "x.obj", code=4)

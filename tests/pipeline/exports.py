@@ -349,7 +349,8 @@ def check_units(program, folder):
     bake(program, source, "-o", normal, "--structures", "hull", "--parts", 1, "--unit", "mm",
          "--normalize")
     report, said = export(program, normal, "godot", folder / "unit.glb")
-    must(report["metres_per_unit"] == 0 and "states no unit" in said, said)
+    must(report["metres_per_unit"] == 0 and "has no unit" in said, said)
+    must(said.rstrip().endswith("Bake it without --normalize."), said)
     # The sample bolt weighs 5 g, not 5,000 t.
     bolt = folder / "bolt.cdp.h5"
     bake(program, SAMPLES / "bolt.obj", "-o", bolt, "--structures", "hull", "--unit", "mm")

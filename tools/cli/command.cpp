@@ -59,7 +59,9 @@ void add_input(const Command& command, std::filesystem::path& input) {
 }
 
 void add_normalize(const Command& command, bool& normalize) {
-    command.add_flag("--normalize", normalize, "Scale to a box of diagonal 1, centred at 0")
+    command
+        .add_flag("--normalize", normalize,
+                  "Scale to a box of diagonal 1, centred at 0. The model then has no unit")
         .group("Mesh");
 }
 

@@ -64,10 +64,12 @@ std::string unknown_unit(const ExportReport& report) {
 
 std::string unit_warning(const ExportReport& report) {
     if (!report.is_in_metres || report.metres_per_unit > 0) return {};
-    return report.input + ": states no unit; " + report.output + " takes it as metres, " +
-           size_text(report) +
+    return report.input +
+           (report.is_normalized ? ": was baked with --normalize and has no unit; "
+                                 : ": states no unit; ") +
+           report.output + " takes it as metres, " + size_text(report) +
            (report.mass ? " and " + in_six_digits(*report.mass) + " kg" : std::string()) +
-           ". Bake with --unit.";
+           (report.is_normalized ? ". Bake it without --normalize." : ". Bake with --unit.");
 }
 
 std::string export_text(const ExportReport& report) {

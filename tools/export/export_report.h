@@ -28,7 +28,7 @@ struct ExportReport {
     bool has_visual = false;
     bool is_visual_refused = false;  ///< the mesh is not closed, which MuJoCo requires
     double metres_per_unit = 0;      ///< 0: unknown
-    bool is_normalized = false;      ///< the unit of the file is not that of the model
+    bool is_normalized = false;      ///< then there is no unit
     format::UpAxis up_axis = format::UpAxis::unknown;  ///< of the model
     format::UpAxis written_up = format::UpAxis::unknown;
     std::array<double, 3> size{};   ///< of the mesh's box along the written axes, model units

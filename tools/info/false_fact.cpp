@@ -140,11 +140,16 @@ private:
     }
 
     /// The bounding box of a normalized model has diagonal 1. So no coordinate exceeds half of it,
-    /// up to one rounding to float.
+    /// up to one rounding to float. Its lengths have no unit.
     [[nodiscard]] Found find_not_normalized() const {
         constexpr double kMost = 0.5 * (1 + 0x1p-22);
         for (const Double3& p : mesh_.positions) {
             if (largest_of(p) > kMost) return FalseFact{flag_field("normalized"), "1", "0"};
+        }
+        const double unit = model_.header().metres_per_unit;
+        if (unit != 0) {
+            return FalseFact{"the user block, field metres_per_unit", text_of(unit),
+                             "0, as the model is normalized"};
         }
         const double factor = model_.header().normalize_factor;
         if (factor > 0 || model_.triangle_count() == 0) return std::nullopt;

@@ -41,6 +41,7 @@ double diagonal_of(const UsedBox& box) {
 }  // namespace
 
 Normalization normalize(TriangleSoup& soup) {
+    soup.metres_per_unit = 0;
     if (soup.triangles.empty()) return {};
     const UsedBox box = box_of_used(soup);
     const double length = diagonal_of(box);

@@ -14,7 +14,8 @@ struct Normalization {
 /// Centres the soup and scales it to a box whose diagonal is 1. Computes the box of the vertices
 /// that triangles use, in double, then rounds each coordinate to a float. A soup without extent,
 /// or with one below 2^-1022, is only centred. Coordinates must be at most
-/// format::kMaxCoordinate. Afterwards single_precision holds.
+/// format::kMaxCoordinate. Afterwards single_precision holds, and the unit is unknown: a length is
+/// then a share of the diagonal.
 Normalization normalize(TriangleSoup& soup);
 
 }  // namespace cdprep::mesh

@@ -56,10 +56,11 @@ bool is_turned(const ApproximateReport& report) {
 
 std::string unit_warning(const ApproximateReport& report) {
     if (!report.is_for_simulators || report.metres_per_unit > 0) return {};
-    return report.input + ": states no unit; " + report.output + " takes it as metres, " +
-           size_text(report) +
+    return report.input +
+           (report.is_normalized ? ": has no unit after --normalize; " : ": states no unit; ") +
+           report.output + " takes it as metres, " + size_text(report) +
            (report.mass ? " and " + in_six_digits(*report.mass) + " kg" : std::string()) +
-           ". Give --unit.";
+           (report.is_normalized ? ". Leave out --normalize." : ". Give --unit.");
 }
 
 std::string approximate_text(const ApproximateReport& report) {

@@ -21,6 +21,7 @@ struct ApproximateReport {
     bool to_surface = false;       ///< the error refers to the surface, not to the solid
     std::array<double, 3> size{};  ///< of that box along the axes, model units
     double metres_per_unit = 0;    ///< 0: unknown
+    bool is_normalized = false;    ///< then there is no unit
     format::UpAxis up_axis = format::UpAxis::unknown;
     bool is_for_simulators = false;   ///< the output is in metres, +z up
     std::size_t open_components = 0;  ///< always measured as surfaces

@@ -61,6 +61,16 @@ bool is_for_simulators(const fs::path& output) {
     return !output.empty() && write::has_mass(*write::hulls_format_of(output));
 }
 
+std::string unknown_unit(const fs::path& input, const EncloseOptions& options) {
+    const bool is_normalized = options.load.normalize;
+    return input.string() +
+           (is_normalized ? ": has no unit after --normalize, which "
+                          : ": states no unit, which ") +
+           options.output.string() +
+           (is_normalized ? " needs. Leave out --normalize."
+                          : " needs. Give --unit mm, cm, m, in or ft.");
+}
+
 /// Writes the pieces. For simulators, also writes the mass and the visual mesh, in metres, +z up.
 Result<Done> write_pieces(mesh::Mesh mesh, bool is_closed, const EncloseOptions& options,
                           report::ApproximateReport& report) {
@@ -129,8 +139,7 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     if (options.strict && is_for_simulators(options.output) && soup.metres_per_unit == 0) {
         report::ApproximateReport refused;
         refused.input = input.string();
-        refused.error = input.string() + ": states no unit, which " + options.output.string() +
-                        " needs. Give --unit mm, cm, m, in or ft.";
+        refused.error = unknown_unit(input, options);
         refused.exit = static_cast<int>(Exit::findings);
         return refused;
     }
@@ -155,6 +164,7 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     report.to_surface = options.to_surface;
     report.has_table = options.has_table;
     report.metres_per_unit = soup.metres_per_unit;
+    report.is_normalized = options.load.normalize;
     report.up_axis = soup.up_axis;
     report.is_for_simulators = is_for_simulators(options.output);
     mesh::Box box;

@@ -67,5 +67,20 @@ TEST(BakedModel, TheLibraryBuildsWhatABakeHolds) {
     }
 }
 
+// A length of a normalised model is a share of the diagonal, whatever unit the source has.
+TEST(BakedModel, ANormalizedOneHasNoUnit) {
+    for (const bool normalize : {false, true}) {
+        BakeOptions options;
+        options.import.metres_per_unit = 0.001;
+        options.normalize = normalize;
+        auto image = bake_image(std::string(CDPREP_SOURCE_DIR) + "/samples/meshes/bracket.obj",
+                                options, Threads(1), [](const char*) {});
+        ASSERT_TRUE(image) << image.error().message;
+        const auto model = Model::open(image.value().bytes());
+        ASSERT_TRUE(model) << model.error().message;
+        EXPECT_EQ(model.value().header().metres_per_unit, normalize ? 0 : 0.001);
+    }
+}
+
 }  // namespace
 }  // namespace cdprep::cli

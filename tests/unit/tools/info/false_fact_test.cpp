@@ -146,6 +146,10 @@ TEST(FalseFact, IsAForgedFlag) {
               "the user block, field normalize_factor");
     FileHeader header = format::read_header(small.span());
     ASSERT_GT(header.normalize_factor, 0);
+    FileHeader in_metres = header;
+    in_metres.metres_per_unit = 1;
+    EXPECT_EQ(field_of(false_fact(with_header(small, in_metres))),
+              "the user block, field metres_per_unit");
     header.normalize_factor = 0;  // a normalized model with triangles was scaled by something
     EXPECT_EQ(field_of(false_fact(with_header(small, header))),
               "the user block, field normalize_factor");
