@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "bake/pipeline.h"
 #include "bake/provenance.h"
@@ -23,24 +24,21 @@ std::uint64_t hash_of(std::string_view bytes) {
     return format::checksum(std::as_bytes(std::span(bytes)));
 }
 
-/// Returns whether the files that a mesh refers to are those that were read.
-bool are_same(const Json& files, const fs::path& folder, std::uint64_t max_bytes) {
-    for (const Json& file : files) {
-        const auto is_text = [&](const char* key) {
-            return file.contains(key) && file[key].is_string();
-        };
-        if (!file.is_object() || !is_text("name") || !is_text("xxh3_64")) return false;
-        const auto found =
-            import::SourceFile::open(folder / file["name"].get<std::string>(), max_bytes);
-        if (!found || report::hexadecimal(hash_of(found->bytes())) != file["xxh3_64"]) return false;
-    }
-    return true;
+}  // namespace
+
+BakeCache::BakeCache(fs::path folder) : folder_(std::move(folder)) {}
+
+Result<std::uint64_t> BakeCache::hash_of_file(const fs::path& path, std::uint64_t max_bytes) {
+    if (const auto known = hashes_.find(path); known != hashes_.end()) return known->second;
+    const auto file = import::SourceFile::open(path, max_bytes);
+    if (!file) return file.error();
+    return hashes_[path] = hash_of(file->bytes());
 }
 
-/// Returns whether a baked file comes from the mesh. `origin` is the provenance of the mesh without
-/// other files.
-bool is_bake_of(const fs::path& baked, const fs::path& mesh, const std::string& origin,
-                std::uint64_t max_bytes) {
+/// Returns whether a baked file comes from the mesh, and from the other files as they are now.
+/// `origin` is the provenance of the mesh without other files.
+bool BakeCache::is_bake_of(const fs::path& baked, const fs::path& mesh, const std::string& origin,
+                           std::uint64_t max_bytes) {
     const Result<Model> opened = Model::open(baked);  // damage anywhere: bake again
     if (!opened) return false;
     Json found = Json::parse(opened->record().provenance, nullptr, false);
@@ -49,27 +47,35 @@ bool is_bake_of(const fs::path& baked, const fs::path& mesh, const std::string& 
     }
     const Json files = found["source"].value("files", Json::array());
     found["source"].erase("files");
-    return found.dump() == origin && are_same(files, mesh.parent_path(), max_bytes);
+    if (found.dump() != origin) return false;
+    for (const Json& file : files) {
+        const auto is_text = [&](const char* key) {
+            return file.contains(key) && file[key].is_string();
+        };
+        if (!file.is_object() || !is_text("name") || !is_text("xxh3_64")) return false;
+        const auto hash =
+            hash_of_file(mesh.parent_path() / file["name"].get<std::string>(), max_bytes);
+        if (!hash || report::hexadecimal(*hash) != file["xxh3_64"]) return false;
+    }
+    return true;
 }
 
-}  // namespace
-
-Result<fs::path> find_or_bake(const fs::path& mesh, const fs::path& folder,
-                              const cli::BakeOptions& options, const cli::Threads& threads,
-                              const std::function<void(const char*)>& begins) {
+Result<fs::path> BakeCache::find_or_bake(const fs::path& mesh, const cli::BakeOptions& options,
+                                         const cli::Threads& threads,
+                                         const std::function<void(const char*)>& begins) {
     std::error_code failure;
-    fs::create_directories(folder, failure);
+    fs::create_directories(folder_, failure);
     if (failure) {
         return Error{ErrorCode::unwritable,
-                     folder.string() + ": cannot be created: " + failure.message() + "."};
+                     folder_.string() + ": cannot be created: " + failure.message() + "."};
     }
-    const auto source = import::SourceFile::open(mesh, options.import.file_bytes);
-    if (!source) return source.error();
+    const auto hash = hash_of_file(mesh, options.import.file_bytes);
+    if (!hash) return hash.error();
     mesh::TriangleSoup soup;
-    soup.source_hash = hash_of(source->bytes());
+    soup.source_hash = *hash;
     const std::string origin = cli::provenance_json(options, soup);
     const fs::path baked =
-        folder / (mesh.stem().string() + "-" + report::hexadecimal(hash_of(origin)) + ".cdp.h5");
+        folder_ / (mesh.stem().string() + "-" + report::hexadecimal(hash_of(origin)) + ".cdp.h5");
     if (is_bake_of(baked, mesh, origin, options.import.file_bytes)) return baked;
     const auto done = cli::bake(mesh, baked, options, threads, begins);
     if (!done) return done.error();

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <string>
 
 #include "bake/bake_options.h"
 #include "cdprep/result.h"
@@ -10,12 +13,27 @@
 
 namespace cdprep::scenes {
 
-/// Returns the baked file of a mesh in a folder. Bakes it unless the folder has a file of the same
-/// mesh, other files that the mesh refers to, options and version. The folder is made if there is
-/// none. Files are never removed.
-[[nodiscard]] Result<std::filesystem::path> find_or_bake(
-    const std::filesystem::path& mesh, const std::filesystem::path& folder,
-    const cli::BakeOptions& options, const cli::Threads& threads,
-    const std::function<void(const char*)>& begins);
+/// A folder of baked files of meshes. Files are never removed.
+class BakeCache {
+public:
+    explicit BakeCache(std::filesystem::path folder);
+
+    /// Returns the baked file of a mesh. Bakes it unless the folder has a file of the same mesh,
+    /// other files that the mesh refers to, options and version. Each file that a mesh is read from
+    /// is hashed once: a glTF file has many models. The folder is made if there is none.
+    [[nodiscard]] Result<std::filesystem::path> find_or_bake(
+        const std::filesystem::path& mesh, const cli::BakeOptions& options,
+        const cli::Threads& threads, const std::function<void(const char*)>& begins);
+
+private:
+    [[nodiscard]] Result<std::uint64_t> hash_of_file(const std::filesystem::path& path,
+                                                     std::uint64_t max_bytes);
+    [[nodiscard]] bool is_bake_of(const std::filesystem::path& baked,
+                                  const std::filesystem::path& mesh, const std::string& origin,
+                                  std::uint64_t max_bytes);
+
+    std::filesystem::path folder_;
+    std::map<std::filesystem::path, std::uint64_t> hashes_;  ///< of files that were hashed before
+};
 
 }  // namespace cdprep::scenes

@@ -69,7 +69,7 @@ bool is_of_one_model(ErrorCode code) {
 class Loader {
 public:
     Loader(const SceneFile& scene, const LoadOptions& options, const cli::Threads& threads)
-        : scene_(scene), options_(options), threads_(threads) {}
+        : scene_(scene), options_(options), threads_(threads), cache_(options.cache) {}
 
     Result<SceneModel> load(std::size_t number, const ModelNeeds& needs) {
         const fs::path& path = scene_.models[number];
@@ -107,9 +107,8 @@ private:
                 loaded);
         }
         loaded.origin = ModelOrigin::cached;
-        const Result<fs::path> cached =
-            find_or_bake(assembly == nullptr ? path : fs::path(scene_.name), options_.cache, *bake,
-                         threads_, begins);
+        const Result<fs::path> cached = cache_.find_or_bake(
+            assembly == nullptr ? path : fs::path(scene_.name), *bake, threads_, begins);
         if (!cached) return cached.error();
         return open_sections(*cached, loaded);
     }
@@ -141,6 +140,7 @@ private:
     const SceneFile& scene_;
     const LoadOptions& options_;
     const cli::Threads& threads_;
+    BakeCache cache_;
     std::size_t done_ = 0;  ///< models before the current one
 };
 
