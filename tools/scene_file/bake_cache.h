@@ -18,9 +18,9 @@ class BakeCache {
 public:
     explicit BakeCache(std::filesystem::path folder);
 
-    /// Returns the baked file of a mesh. Bakes it unless the folder has a file of the same mesh,
-    /// other files that the mesh refers to, options and version. Each file that a mesh is read from
-    /// is hashed once: a glTF file has many models. The folder is made if there is none.
+    /// Returns the baked file of a mesh. Bakes it unless the folder has one of the same mesh,
+    /// options and version. The files that the mesh refers to must be the same too. Each file is
+    /// hashed once, since a glTF file has many models. The folder is made if there is none.
     [[nodiscard]] Result<std::filesystem::path> find_or_bake(
         const std::filesystem::path& mesh, const cli::BakeOptions& options,
         const cli::Threads& threads, const std::function<void(const char*)>& begins);

@@ -3,12 +3,15 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cdprep/contacts.h"
-#include "cdprep/time_of_impact.h"
 #include "mesh/vectors.h"
+#include "simulate/dynamics/body_ways.h"
 #include "simulate/dynamics/bullet_world.h"
 #include "simulate/dynamics/contact_scene.h"
 #include "text/number_text.h"
@@ -18,6 +21,9 @@ namespace {
 
 /// Impacts of continuous bodies are found this exactly. In rest gaps.
 constexpr double kImpactTolerance = 1e-3;
+/// A body that turns farther goes its way in parts, each by less than pi.
+constexpr double kPartTurn = 2;
+constexpr double kMostTurn = 1000;  ///< in a substep
 
 Error refused(const std::string& sentence) {
     return {ErrorCode::bad_argument, sentence};
@@ -84,6 +90,12 @@ std::string fault_of(const RigidBody& body) {
     return {};
 }
 
+/// Where a body is at the end of a substep.
+struct WayEnd {
+    RigidState state;
+    Pose pose;
+};
+
 class BulletBodies final : public RigidBodies, private SubstepParts {
 public:
     BulletBodies(const DynamicsOptions& options, ParallelFor parallel_for);
@@ -141,10 +153,14 @@ private:
     void find_contacts() override;
     void move_bodies(double substep_s) override;
     void set_paces();
-    Result<Done> move_driven(double time);
-    Result<Done> move_free(std::uint32_t number, double substep_s);
-    Result<Pose> stopped(std::uint32_t number, const Pose& end, double substep_s);
-    void add_impact(std::uint32_t number, std::uint32_t other, double time, double substep_s);
+    Result<std::uint32_t> turn_parts(const BulletBody& body, const Double3& spin,
+                                     double substep_s) const;
+    static Result<Done> add_motion(const BulletBody& body, const Pose& start, const Pose& end,
+                                   std::vector<Motion>* way);
+    Result<Done> fly(std::uint32_t number, double substep_s, std::vector<Motion>* way);
+    Result<Done> find_ends(double substep_s, std::vector<BodyWay>& ways);
+    std::vector<BodyWay> empty_ways() const;
+    Result<Done> find_impacts(std::span<const BodyWay> ways, double substep_s);
     void end_drives();
 
     DynamicsOptions options_;
@@ -156,6 +172,8 @@ private:
     ImpulseWorld world_{*this, dispatcher_, broadphase_, solver_, configuration_};
     Manifolds manifolds_;
     Bodies bodies_;
+    bool has_continuous_ = false;
+    std::vector<std::optional<WayEnd>> ends_;  ///< of the bodies that move in a substep
     std::vector<BodyContact> contacts_;
     std::vector<BodyImpact> impacts_;
     DynamicsCounts counts_;
@@ -194,6 +212,7 @@ Result<std::uint32_t> BulletBodies::add_body(const RigidBody& body) {
     if (!mass) return mass.error();
     if (Result<Done> added = scene_.add(body); !added) return added.error();
     bodies_.push_back(std::make_unique<BulletBody>(body, *mass));
+    has_continuous_ = has_continuous_ || (body.is_continuous && body.kind == BodyKind::moving);
     btRigidBody& made = *bodies_.back()->rigid;
     const double angular = mass->radius > 0 ? options_.sleep_speed / mass->radius : 1;
     made.setSleepingThresholds(static_cast<btScalar>(options_.sleep_speed),
@@ -278,55 +297,19 @@ void BulletBodies::set_paces() {
     }
 }
 
-Result<Done> BulletBodies::move_driven(double time) {
-    for (std::uint32_t i = 0; i < body_count(); ++i) {
-        BulletBody& body = *bodies_[i];
-        if (!body.drive) continue;
-        const Pose pose = body.drive->at(time);
-        body.place(state_of(pose, body.mass.centre), pose);
-        scene_.set_pose(i, pose);
-    }
-    return Done{};
+/// Returns in how many parts a body turns by kPartTurn at most, each.
+Result<std::uint32_t> BulletBodies::turn_parts(const BulletBody& body, const Double3& spin,
+                                               double substep_s) const {
+    const double turn =
+        (most_spin(body.mass, body.state, spin) + length(body.push_turn)) * substep_s;
+    if (turn <= kMostTurn) return static_cast<std::uint32_t>(std::max(turn / kPartTurn, 0.0)) + 1;
+    return refused(body.given.name + ": may turn by " + text(turn) +
+                   " radians in a substep, but impacts are found up to " + text(kMostTurn) +
+                   ". Take more substeps.");
 }
 
-void BulletBodies::add_impact(std::uint32_t number, std::uint32_t other, double time,
-                              double substep_s) {
-    ++counts_.impacts;
-    const double before =
-        static_cast<double>(frame_) * options_.step_s + static_cast<double>(substep_) * substep_s;
-    impacts_.push_back({number, other, before + time * substep_s});
-}
-
-/// Returns where the motion of a continuous body ends: at its end, or at the first impact. The
-/// other bodies stay as they are.
-Result<Pose> BulletBodies::stopped(std::uint32_t number, const Pose& end, double substep_s) {
-    const BulletBody& body = *bodies_[number];
-    const Result<Motion> motion = Motion::between(body.pose, end, body.mass.centre);
-    if (!motion) return refused(body.given.name + ": " + motion.error().message);
-    const double reach = body.mass.radius + length(motion->parts().shift);
-    double time = 1;
-    std::optional<std::uint32_t> first;
-    for (std::uint32_t i = 0; i < body_count(); ++i) {
-        const BulletBody& other = *bodies_[i];
-        if (i == number || !scene_.are_paired(number, i)) continue;
-        if (mesh::euclidean_distance(body.state.centre, other.state.centre) >
-            reach + other.mass.radius) {
-            continue;
-        }
-        const Impact impact =
-            time_of_impact({*body.given.model, *other.given.model, *motion, Motion(other.pose)},
-                           scene_.workspace(), {.tolerance = kImpactTolerance * options_.rest_gap});
-        // Bodies that touch already have contacts.
-        if (impact.kind == ImpactKind::none || impact.lower <= 0 || impact.lower >= time) continue;
-        time = impact.lower;
-        first = i;
-    }
-    if (!first) return end;
-    add_impact(number, *first, time, substep_s);
-    return motion->at(time);
-}
-
-Result<Done> BulletBodies::move_free(std::uint32_t number, double substep_s) {
+/// Adds the end of a free body. `way` gets its motions, unless it is null.
+Result<Done> BulletBodies::fly(std::uint32_t number, double substep_s, std::vector<Motion>* way) {
     BulletBody& body = *bodies_[number];
     const btRigidBody& solved = *body.rigid;
     const Double3 linear = mesh::plus(doubles(solved.getLinearVelocity()), body.push);
@@ -338,24 +321,94 @@ Result<Done> BulletBodies::move_free(std::uint32_t number, double substep_s) {
     // The solver adds to a rounded spin. Flips of a body depend on the digits that are rounded off.
     const Double3 added =
         mesh::minus(doubles(solved.getAngularVelocity()), doubles(bullet(body.spin)));
-    const FreeMotion motion =
-        moved_freely(body.mass, body.state, shift, mesh::plus(body.spin, added),
-                     mesh::scaled(body.push_turn, substep_s), substep_s);
+    FreeMotion motion{body.state, mesh::plus(body.spin, added)};
+    std::uint32_t parts = 1;
+    if (way != nullptr) {
+        const Result<std::uint32_t> needed = turn_parts(body, motion.spin, substep_s);
+        if (!needed) return needed.error();
+        parts = *needed;
+    }
+    const double share = 1.0 / parts;
+    Pose pose = body.pose;
+    for (std::uint32_t part = 0; part < parts; ++part) {
+        motion = moved_freely(body.mass, motion.state, mesh::scaled(shift, share), motion.spin,
+                              mesh::scaled(body.push_turn, substep_s * share), substep_s * share);
+        const Result<Pose> next = pose_of(motion.state, body.mass.centre);
+        if (!next) {
+            return refused(body.given.name + ": the body flew away. " + next.error().message);
+        }
+        if (Result<Done> added_to = add_motion(body, pose, *next, way); !added_to) return added_to;
+        pose = *next;
+    }
     body.spin = motion.spin;
     body.rigid->setAngularVelocity(bullet(motion.spin));
-    RigidState next = motion.state;
-    Result<Pose> pose = pose_of(next, body.mass.centre);
-    if (!pose) return refused(body.given.name + ": the body flew away. " + pose.error().message);
-    if (body.given.is_continuous) {
-        const Result<Pose> stop = stopped(number, *pose, substep_s);
-        if (!stop) return stop.error();
-        if (stop->translation() != pose->translation() || stop->rotation() != pose->rotation()) {
-            next = state_of(*stop, body.mass.centre);
-            pose = stop;
+    ends_[number] = {motion.state, pose};
+    return Done{};
+}
+
+/// Adds a motion of a body to its way, unless that is null.
+Result<Done> BulletBodies::add_motion(const BulletBody& body, const Pose& start, const Pose& end,
+                                      std::vector<Motion>* way) {
+    if (way == nullptr) return Done{};
+    const Result<Motion> motion = Motion::between(start, end, body.mass.centre);
+    if (!motion) return refused(body.given.name + ": " + motion.error().message);
+    way->push_back(*motion);
+    return Done{};
+}
+
+/// Finds where bodies are at the end of a substep if nothing ends their ways.
+Result<Done> BulletBodies::find_ends(double substep_s, std::vector<BodyWay>& ways) {
+    const double time = static_cast<double>(substep_ + 1) / options_.substeps;
+    ends_.assign(bodies_.size(), std::nullopt);
+    for (std::uint32_t i = 0; i < body_count(); ++i) {
+        BulletBody& body = *bodies_[i];
+        std::vector<Motion>* const way = ways.empty() ? nullptr : &ways[i].motions;
+        if (body.drive) {
+            const Pose pose = body.drive->at(time);
+            ends_[i] = {state_of(pose, body.mass.centre), pose};
+            if (Result<Done> added = add_motion(body, body.pose, pose, way); !added) return added;
+        } else if (body.given.kind == BodyKind::moving && body.rigid->isActive()) {
+            if (Result<Done> flown = fly(i, substep_s, way); !flown) return flown;
+            body.push = body.push_turn = {};
+        } else if (way != nullptr) {
+            way->push_back(Motion(body.pose));
         }
     }
-    body.place(next, *pose);
-    scene_.set_pose(number, *pose);
+    return Done{};
+}
+
+/// Returns a way without motions for each body, or none if no body is continuous.
+std::vector<BodyWay> BulletBodies::empty_ways() const {
+    std::vector<BodyWay> ways;
+    if (!has_continuous_) return ways;
+    for (const auto& body : bodies_) {
+        const bool is_free = body->given.kind == BodyKind::moving;
+        ways.push_back({.model = body->given.model,
+                        .motions = {},
+                        .centre = body->mass.centre,
+                        .radius = body->mass.radius,
+                        .is_continuous = is_free && body->given.is_continuous,
+                        .is_free = is_free});
+    }
+    return ways;
+}
+
+/// Ends the ways of bodies at their impacts.
+Result<Done> BulletBodies::find_impacts(std::span<const BodyWay> ways, double substep_s) {
+    BodyWays moved(
+        ways, [&](std::uint32_t a, std::uint32_t b) { return scene_.are_paired(a, b); },
+        scene_.workspace(), kImpactTolerance * options_.rest_gap);
+    if (Result<Done> found = moved.run(); !found) return found;
+    const double before =
+        static_cast<double>(frame_) * options_.step_s + static_cast<double>(substep_) * substep_s;
+    for (const WayImpact& impact : moved.impacts()) {
+        ++counts_.impacts;
+        impacts_.push_back({impact.body, impact.other, before + impact.time * substep_s});
+    }
+    for (std::uint32_t i = 0; i < body_count(); ++i) {
+        const std::optional<Pose> end = moved.changed_end(i);
+        if (end) ends_[i] = {state_of(*end, bodies_[i]->mass.centre), *end};
+    }
     return Done{};
 }
 
@@ -363,13 +416,17 @@ void BulletBodies::move_bodies(double substep_s) {
     if (error_) return;
     for (auto& body : bodies_) body->touches = false;
     manifolds_.mark_touched();
-    const double time = static_cast<double>(substep_ + 1) / options_.substeps;
-    if (Result<Done> moved = move_driven(time); !moved) error_ = moved.error();
+    std::vector<BodyWay> ways = empty_ways();
+    Result<Done> moved = find_ends(substep_s, ways);
+    if (moved && has_continuous_) moved = find_impacts(ways, substep_s);
+    if (!moved) {
+        error_ = moved.error();
+        return;
+    }
     for (std::uint32_t i = 0; i < body_count(); ++i) {
-        BulletBody& body = *bodies_[i];
-        if (body.given.kind != BodyKind::moving || !body.rigid->isActive()) continue;
-        if (Result<Done> moved = move_free(i, substep_s); !moved) error_ = moved.error();
-        body.push = body.push_turn = {};
+        if (!ends_[i]) continue;
+        bodies_[i]->place(ends_[i]->state, ends_[i]->pose);
+        scene_.set_pose(i, ends_[i]->pose);
     }
     manifolds_.bounce();
 }

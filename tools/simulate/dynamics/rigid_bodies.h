@@ -67,9 +67,11 @@ struct RigidBody {
     double restitution = 0;     ///< of two bodies: the larger one
     double linear_damping = 0;  ///< the share of the velocity lost in a second, 0 to 1
     double angular_damping = 0;
-    /// Does not pass through surfaces that stand still: its motion ends at the first contact. Other
-    /// bodies count as standing, and it turns by pi at most in a substep. The models of all bodies
-    /// must then serve Ask::distance.
+    /// It passes through nothing, and no body passes through it. Where it first meets another one
+    /// in a substep, the motions of both end. A driven body goes on and takes it along. Between two
+    /// driven or fixed bodies it may be squeezed. In a substep, centres move along straight lines,
+    /// and no body may turn by more than 1000 radians. The models of all bodies must then serve
+    /// Ask::distance.
     bool is_continuous = false;
     Double3 velocity = {0, 0, 0};          ///< of the centre of mass
     Double3 angular_velocity = {0, 0, 0};  ///< radians per second, in the world
@@ -87,9 +89,9 @@ struct BodyContact {
     double impulse;  ///< along the normal, that of a bounce included; 0: they do not push
 };
 
-/// The first contact of a continuous body in a substep.
+/// The first contact of a continuous body and another one in a substep.
 struct BodyImpact {
-    std::uint32_t body;
+    std::uint32_t body;  ///< continuous; the smaller number if both are
     std::uint32_t other;
     double time_s;  ///< since the first frame began
 };

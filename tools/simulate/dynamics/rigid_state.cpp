@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulate/dynamics/rigid_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -97,6 +98,19 @@ FreeMotion moved_freely(const BodyMass& mass, const RigidState& state, const Dou
         }
     }
     return now;
+}
+
+// Let E be the sum of m w^2 over the axes, and L2 that of m^2 w^2. Both stay. Let M be the largest
+// moment and m0 the smallest. The sum of w^2 is E / M + sum of w^2 (1 - m / M). As m >= m0, that is
+// at most E / M + (E - L2 / M) / m0.
+double most_spin(const BodyMass& mass, const RigidState& state, const Double3& spin) noexcept {
+    const Double3 w = along_axes(mass, state.turn, spin), m = mass.moments;
+    const Double3 l = {m.x * w.x, m.y * w.y, m.z * w.z};
+    const auto [smallest, largest] = std::minmax({m.x, m.y, m.z});
+    const double energy = mesh::dot(l, w);
+    constexpr double kRounding = 1e-15;
+    const double spare = std::max(energy - mesh::dot(l, l) / largest, 0.0) + kRounding * energy;
+    return std::sqrt(energy / largest + spare / smallest);
 }
 
 RigidState state_of(const Pose& world_from_model, const Double3& centre) noexcept {

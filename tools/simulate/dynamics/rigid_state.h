@@ -39,6 +39,11 @@ struct FreeMotion {
                                       const Double3& shift, const Double3& spin,
                                       const Double3& push, double seconds) noexcept;
 
+/// Returns a bound of the angular velocity of a free body at all times. It follows from the energy
+/// and the angular momentum, which stay.
+[[nodiscard]] double most_spin(const BodyMass& mass, const RigidState& state,
+                               const Double3& spin) noexcept;
+
 /// Returns R p for a rotation, row by row.
 [[nodiscard]] inline Double3 rotated(const std::array<double, 9>& r, const Double3& p) noexcept {
     return {r[0] * p.x + r[1] * p.y + r[2] * p.z, r[3] * p.x + r[4] * p.y + r[5] * p.z,

@@ -149,6 +149,28 @@ TEST(MovedFreely, KeepsMomentumAndEnergy) {
     EXPECT_EQ(motion.state.centre.x, 10'000);
 }
 
+// The bound holds along the way, and is the spin itself about a principal axis.
+TEST(MostSpin, BoundsAFreeBody) {
+    const BodyMass mass = needle();
+    for (const Double3& first : {Double3{2, 0.3, -0.1}, Double3{0, 2, 1e-3}, Double3{1e-3, 0, 3},
+                                 Double3{1, 1, 1}, Double3{5, 0.01, 0}}) {
+        FreeMotion motion{{}, first};
+        const double most = most_spin(mass, motion.state, first);
+        double seen = 0;
+        for (int i = 0; i < 5000; ++i) {
+            const Double3& w = motion.spin;
+            seen = std::max(seen, std::sqrt(w.x * w.x + w.y * w.y + w.z * w.z));
+            motion = moved_freely(mass, motion.state, {}, w, {}, 1.0 / 240);
+        }
+        EXPECT_LE(seen, most * (1 + 1e-6)) << first.x << " " << first.y << " " << first.z;
+    }
+    EXPECT_NEAR(most_spin(mass, {}, {0, 0, 3}), 3, 1e-3) << "about the largest moment";
+    EXPECT_EQ(most_spin(mass, {}, {0, 0, 0}), 0);
+    BodyMass ball = mass;
+    ball.moments = {2, 2, 2};
+    EXPECT_NEAR(most_spin(ball, {}, {1, 2, 2}), 3, 1e-6);
+}
+
 // By an integration of Euler's equations in steps of 1e-3 s: the first flip is at this time.
 TEST(MovedFreely, FlipsInTime) {
     FreeMotion motion{{}, {1e-3, 2, 0}};

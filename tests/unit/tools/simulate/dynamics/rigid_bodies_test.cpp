@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -241,6 +243,94 @@ TEST_F(RigidBodiesTest, AContinuousBodyStopsAtPairedGroupsAlone) {
     for (const std::uint32_t one : met) EXPECT_EQ(one, 0U) << "the floor";
     EXPECT_GT(bodies->centre_of_mass(number).z, 0.5 - 0.01) << "on the floor";
     EXPECT_LT(bodies->centre_of_mass(number).z, 5) << "below the body that it passed";
+}
+
+// Each flies 4 times its size in a substep. Whichever of them is continuous, they meet.
+TEST_F(RigidBodiesTest, BodiesThatFlyAtEachOtherDoNotPass) {
+    for (const int continuous : {1, 2, 3}) {
+        const auto bodies = make({.gravity = {0, 0, 0}, .sleeps = false});
+        RigidBody left = cube({-5, 0, 0}), right = cube({5, 0, 0});
+        left.velocity = {1000, 0, 0};
+        right.velocity = {-1000, 0, 0};
+        left.is_continuous = (continuous & 1) != 0;
+        right.is_continuous = (continuous & 2) != 0;
+        ASSERT_TRUE(bodies->add_body(left));
+        ASSERT_TRUE(bodies->add_body(right));
+        std::vector<BodyImpact> impacts;
+        for (int frame = 0; frame < 10; ++frame) {
+            ASSERT_TRUE(bodies->step());
+            const auto met = bodies->impacts();
+            impacts.insert(impacts.end(), met.begin(), met.end());
+        }
+        ASSERT_FALSE(impacts.empty());
+        // By hand: 9 lie between them.
+        EXPECT_NEAR(impacts[0].time_s, 9.0 / 2000, 1e-5) << continuous;
+        const double apart = bodies->centre_of_mass(1).x - bodies->centre_of_mass(0).x;
+        EXPECT_GT(apart, 0.999) << continuous;
+        EXPECT_NEAR(bodies->velocity(0).x, bodies->velocity(1).x, 1) << "none bounces";
+    }
+}
+
+// By hand: at 10 m each 1/240 s, the one behind never comes nearer.
+TEST_F(RigidBodiesTest, AContinuousBodyMayFollowAnother) {
+    const auto bodies = make({.gravity = {0, 0, 0}, .sleeps = false});
+    for (const double x : {0.0, 1.5}) {
+        RigidBody one = cube({x, 0, 0});
+        one.velocity = {2400, 0, 0};
+        one.is_continuous = true;
+        ASSERT_TRUE(bodies->add_body(one));
+    }
+    for (int frame = 0; frame < 3; ++frame) {
+        ASSERT_TRUE(bodies->step());
+        EXPECT_TRUE(bodies->impacts().empty());
+    }
+    EXPECT_NEAR(bodies->centre_of_mass(0).x, 120, 1e-5) << "Bullet has the substep as a float";
+}
+
+// A driven floor that comes up by many times its way to the box takes it along.
+TEST_F(RigidBodiesTest, ADrivenBodyTakesAContinuousOneAlong) {
+    const auto bodies = make({.gravity = {0, 0, 0}, .sleeps = false});
+    const auto moving = bodies->add_body(floor(BodyKind::driven)).value();
+    RigidBody box = cube({0, 0, 2});
+    box.is_continuous = true;
+    const auto number = bodies->add_body(box).value();
+    double height = 0;
+    for (int frame = 0; frame < 5; ++frame) {
+        height += 20;
+        ASSERT_TRUE(bodies->drive(moving, at({0, 0, height})));
+        ASSERT_TRUE(bodies->step());
+        EXPECT_GE(bodies->centre_of_mass(number).z, height + 0.5 - 1e-3) << frame;
+    }
+}
+
+// The bar turns by 2 pi in each substep, so all its poses are alike. A post is in its way.
+TEST_F(RigidBodiesTest, AContinuousBodyTurnsFartherThanPi) {
+    const auto bodies = make({.gravity = {0, 0, 0}, .sleeps = false});
+    RigidBody post = cube({2.5, 2.5, 0});
+    post.kind = BodyKind::fixed;
+    ASSERT_TRUE(bodies->add_body(post));
+    test::TestMesh mesh = test::moved_by(test::unit_cube(), 1, {-0.5, -0.5, -0.5});
+    for (Double3& p : mesh.positions) p = {8 * p.x, 0.5 * p.y, 0.5 * p.z};
+    const study::MemoryModel bar = Models::baked(mesh);
+    const RigidBody turning = {.model = &bar.model,
+                               .name = "bar",
+                               .is_continuous = true,
+                               .angular_velocity = {0, 0, 480 * std::numbers::pi}};
+    ASSERT_TRUE(bodies->add_body(turning));
+    ASSERT_TRUE(bodies->step());
+    ASSERT_FALSE(bodies->impacts().empty());
+    // By hand: the upper side of the bar meets the corner (3, 2) first.
+    const double angle = std::atan2(2.0, 3.0) - std::asin(0.25 / std::hypot(3.0, 2.0));
+    EXPECT_NEAR(bodies->impacts()[0].time_s, angle / (480 * std::numbers::pi), 1e-6);
+
+    RigidBody faster = turning;
+    faster.angular_velocity.z = 300'000;
+    faster.world_from_model = at({0, 0, 20});
+    ASSERT_TRUE(bodies->add_body(faster));
+    const auto refused = bodies->step();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message.find("bar: may turn by 125"), 0u) << refused.error().message;
+    EXPECT_NE(refused.error().message.find("up to 1000. Take more substeps."), std::string::npos);
 }
 
 TEST_F(RigidBodiesTest, RefuseNumbersThatBulletCannotHold) {
