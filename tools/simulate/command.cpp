@@ -87,7 +87,10 @@ public:
           output_(output),
           page_(page),
           style_(style),
-          threads_(arguments.threads) {}
+          threads_(arguments.threads),
+          import_(arguments.import.options()) {
+        import_.parallel_for = threads_.parallel_for();
+    }
 
     Exit run() {
         if (const auto failed = read()) return *failed;
@@ -125,6 +128,8 @@ private:
             auto opened = scenes::Recording::open(file);
             if (!opened) return fail("simulate", opened.error());
             replay_.emplace(std::move(opened).value());
+            const Result<Done> set = replay_->set_import(import_);
+            if (!set) return fail("simulate", set.error());
             file = replay_->folder() / fs::path(replay_->scene_name()).filename();
         }
         folder_ = replay_ ? replay_->folder() : file.parent_path();
@@ -143,9 +148,7 @@ private:
 
     /// Meshes are in the file, so a replay reads it again.
     std::optional<Exit> read_gltf(const fs::path& file) {
-        import::ImportOptions options = arguments_.import.options();
-        options.parallel_for = threads_.parallel_for();
-        scenes::GltfReading reading = scenes::read_gltf_scene(file, options);
+        scenes::GltfReading reading = scenes::read_gltf_scene(file, import_);
         if (!reading.assembly) return fail_all("simulate", reading.errors);
         for (const std::string& finding : reading.findings) {
             std::cerr << "cdprep simulate: " << report::printable(finding) << '\n';
@@ -237,8 +240,7 @@ private:
     std::optional<Exit> load(const Plan& plan) {
         scenes::LoadOptions options;
         options.cache = arguments_.cache;
-        options.import = arguments_.import.options();
-        options.import.parallel_for = threads_.parallel_for();
+        options.import = import_;
         options.assembly = assembly_ ? &*assembly_ : nullptr;
         scenes::LoadedModels loaded =
             scenes::load_models(scene_, plan, std::move(options), style_, threads_);
@@ -309,7 +311,7 @@ private:
         Result<ReportOutput> opened = ReportOutput::open(arguments_.record);
         if (!opened) return opened.error();
         record_.emplace(std::move(opened).value());
-        recorder_.emplace(scene_, path_between(arguments_.record.parent_path(), folder_));
+        recorder_.emplace(scene_, path_between(arguments_.record.parent_path(), folder_), import_);
         return record_->append(recorder_->begin(models_));
     }
 
@@ -372,6 +374,7 @@ private:
     PageOutput& page_;
     ProgressStyle style_;
     const Threads threads_;
+    import::ImportOptions import_;  ///< of a replay: those of the recording
     scenes::SceneFile scene_;
     std::optional<scenes::AssemblyScene> assembly_;  ///< of a glTF file, without its scene
     fs::path folder_;                                ///< of the scene file
@@ -428,8 +431,8 @@ void add_study_options(const Command& command, Arguments& arguments, const Optio
     command
         .add_option("--record", arguments.record,
                     "Also write a recording: the scene, and the poses and events of each frame. "
-                    "`cdprep simulate FILE` replays it, with the same import options, and compares "
-                    "the results. It also appears after an interrupt or an error")
+                    "`cdprep simulate FILE` replays it, imports as the run did, and compares the "
+                    "results. It also appears after an interrupt or an error")
         .type_name("FILE")
         .excludes(plan)
         .group("Report");
@@ -473,11 +476,11 @@ void add_notes(const Command& command) {
         "layers the effects to compute. Objects of layers that are not paired are never looked "
         "at. Events do not depend on the number of threads. Motions may deform and tear models: "
         "a shear, a twist, a vertex stream (PC2), or a cut along a plane. With response, bodies "
-        "fall, push each other and come to rest. A glTF file is a scene too, by its extension "
-        "KHR_physics_rigid_bodies. Collision filters become layers, and motions become bodies. "
-        "Triggers tell which colliders begin and end to collide with them. The mesh of a node is "
-        "its geometry. Standard error lists what is not taken, and what is assumed because the "
-        "file does not state it.",
+        "fall, push each other and come to rest, and events tell what pushes. A glTF file is a "
+        "scene too, by its extension KHR_physics_rigid_bodies. Collision filters become layers, "
+        "and motions become bodies. Triggers tell which colliders begin and end to collide with "
+        "them. The mesh of a node is its geometry. Standard error lists what is not taken, and "
+        "what is assumed because the file does not state it.",
         {"cdprep simulate samples/scenes/crates.json --plan",
          "cdprep simulate samples/scenes/crates.json --frames 100",
          "cdprep simulate samples/scenes/cut.json --format text",

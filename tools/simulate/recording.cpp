@@ -10,6 +10,7 @@
 #include "simulate/event_json.h"
 #include "text/json_layout.h"
 #include "text/number_text.h"
+#include "text/space_name.h"
 
 namespace cdprep::scenes {
 namespace {
@@ -49,6 +50,30 @@ std::optional<GivenPose> pose_from(const Json& json, std::size_t objects) {
     return GivenPose{json[0].get<std::uint32_t>(), *pose};
 }
 
+/// The options that decide what a mesh becomes, without those that the run left open.
+Json import_json(const cdprep::import::ImportOptions& options) {
+    Json json = Json::object();
+    if (options.metres_per_unit) json["metres_per_unit"] = *options.metres_per_unit;
+    if (options.up_axis) json["up_axis"] = report::axis_name(*options.up_axis);
+    if (options.allow_empty) json["allow_empty"] = true;
+    return json;
+}
+
+/// The reverse. Nothing if it is none.
+std::optional<cdprep::import::ImportOptions> import_from(const Json& json) {
+    using format::UpAxis;
+    if (!json.is_object()) return std::nullopt;
+    cdprep::import::ImportOptions options;
+    const Json unit = json.value("metres_per_unit", Json());
+    if (unit.is_number() && unit > 0) options.metres_per_unit = unit.get<double>();
+    for (const UpAxis axis : {UpAxis::y, UpAxis::z}) {
+        if (json.value("up_axis", Json()) == report::axis_name(axis)) options.up_axis = axis;
+    }
+    options.allow_empty = json.value("allow_empty", Json()) == true;
+    const bool is_understood = import_json(options).size() == json.size();
+    return is_understood ? std::optional(options) : std::nullopt;
+}
+
 /// Returns a member that is a text, or null.
 const std::string* text_of(const Json& json, const char* key) {
     const auto found = json.find(key);
@@ -58,8 +83,9 @@ const std::string* text_of(const Json& json, const char* key) {
 
 }  // namespace
 
-Recorder::Recorder(const SceneFile& file, fs::path folder)
-    : file_(&file), folder_(std::move(folder)) {}
+Recorder::Recorder(const SceneFile& file, fs::path folder,
+                   const cdprep::import::ImportOptions& import)
+    : file_(&file), folder_(std::move(folder)), import_(import) {}
 
 std::string Recorder::begin(std::span<const SceneModel> models) const {
     Json hashes = Json::array();
@@ -67,6 +93,7 @@ std::string Recorder::begin(std::span<const SceneModel> models) const {
     return report::compact({{"cdprep_recording", kVersion},
                             {"scene", file_->name},
                             {"folder", folder_.generic_string()},
+                            {"import", import_json(import_)},
                             {"models", hashes},
                             {"text", file_->text}}) +
            "\n";
@@ -137,17 +164,45 @@ Result<Done> Recording::read_first() {
     const std::string* const folder = text_of(first, "folder");
     const std::string* const text = text_of(first, "text");
     const auto models = first.find("models");
-    if (name == nullptr || folder == nullptr || text == nullptr || models == first.end() ||
-        !models->is_array()) {
-        return unreadable("one of the keys scene, folder, models and text is missing or wrong.");
+    const auto options = import_from(first.value("import", Json()));
+    if (name == nullptr || folder == nullptr || text == nullptr || !options ||
+        models == first.end() || !models->is_array()) {
+        return unreadable(
+            "one of the keys scene, folder, import, models and text is missing or wrong.");
     }
     scene_name_ = *name;
     folder_ = *folder;
     scene_text_ = *text;
+    import_ = *options;
     for (const Json& model : *models) {
         if (!model.is_string()) return unreadable("the hash of a model is no text.");
         hashes_.push_back(model.get<std::string>());
     }
+    return Done{};
+}
+
+Result<Done> Recording::set_import(cdprep::import::ImportOptions& options) const {
+    const auto differ = [&](const std::string& option, const std::string& recorded,
+                            const std::string& given) {
+        return Error{ErrorCode::bad_argument,
+                     file_.name() + ": was recorded " + (recorded.empty() ? "without " : "with ") +
+                         option + recorded + ", but " + option + given +
+                         " is given. A replay imports as the run did: leave " + option + " out."};
+    };
+    const auto unit = [](const auto& x) { return x ? " " + report::unit_name(*x) : std::string(); };
+    const auto axis = [](const auto& x) {
+        return x ? std::string(" ") + report::axis_name(*x) : std::string();
+    };
+    if (options.metres_per_unit && options.metres_per_unit != import_.metres_per_unit) {
+        return differ("--unit", unit(import_.metres_per_unit), unit(options.metres_per_unit));
+    }
+    if (options.up_axis && options.up_axis != import_.up_axis) {
+        return differ("--up-axis", axis(import_.up_axis), axis(options.up_axis));
+    }
+    if (options.allow_empty && !import_.allow_empty) return differ("--allow-empty", "", "");
+    options.metres_per_unit = import_.metres_per_unit;
+    options.up_axis = import_.up_axis;
+    options.allow_empty = import_.allow_empty;
     return Done{};
 }
 

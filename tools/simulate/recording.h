@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "import/import_file.h"
 #include "import/source_file.h"
 #include "simulate/simulation.h"
 
@@ -19,8 +20,10 @@ namespace cdprep::scenes {
 /// any number of threads. With `continuous` and `haptic`, that holds for one instruction set.
 class Recorder {
 public:
-    /// `folder` leads from the folder of the recording to that of the scene file.
-    Recorder(const SceneFile& file, std::filesystem::path folder);
+    /// `folder` leads from the folder of the recording to that of the scene file. `import` has the
+    /// options with which meshes were read; limits are not recorded.
+    Recorder(const SceneFile& file, std::filesystem::path folder,
+             const import::ImportOptions& import);
 
     /// Returns the first line.
     [[nodiscard]] std::string begin(std::span<const SceneModel> models) const;
@@ -32,6 +35,7 @@ public:
 private:
     const SceneFile* file_;
     std::filesystem::path folder_;
+    import::ImportOptions import_;
     std::vector<Pose> poses_;  ///< by slot, of the last frame
     std::uint64_t frames_ = 0;
 };
@@ -61,6 +65,9 @@ public:
     [[nodiscard]] const std::filesystem::path& folder() const noexcept {
         return folder_;
     }
+    /// Sets the options that decide what a mesh becomes to those of the run. Limits stay. Fails
+    /// with bad_argument if one is set to something else.
+    [[nodiscard]] Result<Done> set_import(import::ImportOptions& options) const;
     /// How many frames the last line says there are.
     [[nodiscard]] std::uint64_t frames() const noexcept {
         return frames_;
@@ -86,6 +93,7 @@ private:
     std::string scene_name_;
     std::string scene_text_;
     std::filesystem::path folder_;
+    import::ImportOptions import_;     ///< without the limits
     std::vector<std::string> hashes_;  ///< of the models; empty for one that was not opened
     std::size_t at_ = 0;               ///< in the file
     std::uint64_t line_ = 0;           ///< the last one that was taken, from 1
