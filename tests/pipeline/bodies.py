@@ -44,7 +44,7 @@ def the_pile(program, folder):
     told = [event for event in events if event["effect"] != "response"]
     must(first.read_bytes() == third.read_bytes() and told == replayed, "the replay differs")
     asleep = {}
-    for event in (event for event in events if event["effect"] == "response"):
+    for event in (event for event in events if "body" in event):
         asleep[event["body"]] = event["event"]
     must(list(asleep.values()) == ["sleeps"] * 20, f"not all were told to sleep: {asleep}")
     must("response" not in three and three["response_is_replayed"], "a replay computes bodies")
@@ -77,11 +77,30 @@ def ball_scene(folder, name, effects, **members):
                   "pose": {"translation": [2, 0, 3.5]}, "motion": body}])
 
 
+def check_pushes(events, summary):
+    """Each begin of a pair is followed by its end before the next begin. Both rest at last."""
+    pushes = {}
+    for event in events:
+        if event["effect"] == "response" and "a" in event:
+            pushes.setdefault((event["a"], event["b"]), []).append(event)
+    must(set(pushes) == {("floor", "low"), ("floor", "high")}, f"{pushes}")
+    for pair in pushes.values():
+        kinds = [event["event"] for event in pair]
+        must(kinds == (["begins", "ends"] * len(kinds))[:len(kinds)], f"{pair}")
+        must(kinds[-1] == "begins", f"it does not rest: {pair}")
+    must(pushes["floor", "low"][0]["frame"] in (30, 31), f"{pushes}")
+    told = [event["event"] for pair in pushes.values() for event in pair]
+    counted = summary["response"]
+    must((told.count("begins"), told.count("ends")) == (counted["begins"], counted["ends"]),
+         f"{told} {counted}")
+
+
 def falls(program, folder):
     """By hand: a crate falls 1 metre in sqrt(2 / 8) seconds. Other effects do not change that."""
     scene = ball_scene(folder, "fall.json", ["response", "collide"])
     recording = folder / "fall.ndjson"
     events, summary = simulate(program, scene, "--record", recording)
+    check_pushes(events, summary)
     frames = frames_of(recording)
     for frame in range(30):
         height = 1.5 - 4 * (frame / 60) ** 2

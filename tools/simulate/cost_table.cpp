@@ -93,13 +93,17 @@ void CostTable::add(const scenes::Simulation& simulation) {
     rest_nanoseconds_ += rest_of_pairs(counts, threads);
     for (const SceneEvent& event : simulation.scene().events()) {
         const std::size_t effect = effect_number(event.effect);
-        begins_[effect] += event.kind == EventKind::begins ? 1 : 0;
-        ends_[effect] += event.kind == EventKind::ends ? 1 : 0;
+        add_event(effect, event.kind);
     }
     if (simulation.response() != nullptr) add_bodies(simulation);
     change_work_.add(simulation.change_work());
     frame_times_.add(nanoseconds_of(simulation.frame_seconds()));
     refit_times_.add(nanoseconds_of(simulation.change_work().seconds));
+}
+
+void CostTable::add_event(std::size_t effect, EventKind kind) {
+    begins_[effect] += kind == EventKind::begins ? 1 : 0;
+    ends_[effect] += kind == EventKind::ends ? 1 : 0;
 }
 
 void CostTable::add_bodies(const scenes::Simulation& simulation) {
@@ -111,6 +115,9 @@ void CostTable::add_bodies(const scenes::Simulation& simulation) {
     body_counts_.incomplete += counts.incomplete;
     body_counts_.too_fast += counts.too_fast;
     body_counts_.impacts += counts.impacts;
+    for (const scenes::PushEvent& event : simulation.response()->push_events()) {
+        add_event(kResponse, event.kind);
+    }
     times_[kResponse].add(nanoseconds_of(simulation.response_seconds()));
 }
 
@@ -131,14 +138,14 @@ std::vector<EffectRow> CostTable::effects(const scenes::Simulation& simulation) 
         row.nanoseconds = times_of(effect).sum();
         row.p99 = times_of(effect).at(0.99);
         row.read_bytes = read_bytes_of(scene_, effect, simulation.models());
+        const std::size_t number = is_response ? kResponse : effect_number(effect);
+        row.begins = begins_[number];
+        row.ends = ends_[number];
         if (is_response) {
             row.calls = body_counts_.pairs;
             row.state_bytes = simulation.response()->bodies().state_bytes();
         } else {
-            const std::size_t number = effect_number(effect);
             row.calls = counts_.calls[number];
-            row.begins = begins_[number];
-            row.ends = ends_[number];
             row.state_bytes = state_bytes_of(scene_, simulation.plan(), effect);
         }
         rows.push_back(std::move(row));

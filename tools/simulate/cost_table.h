@@ -71,6 +71,7 @@ public:
     [[nodiscard]] const TimeHistogram& times_of(Ask effect) const noexcept;
 
 private:
+    void add_event(std::size_t effect, EventKind kind);
     void add_bodies(const scenes::Simulation& simulation);
 
     const scenes::SceneFile& scene_;
@@ -78,8 +79,8 @@ private:
     SceneCounts counts_;
     dynamics::DynamicsCounts body_counts_;
     scenes::ChangeWork change_work_;
-    std::array<std::uint64_t, kSceneEffects.size()> begins_{};
-    std::array<std::uint64_t, kSceneEffects.size()> ends_{};
+    std::array<std::uint64_t, kSimulatedEffects.size()> begins_{};
+    std::array<std::uint64_t, kSimulatedEffects.size()> ends_{};
     std::array<TimeHistogram, kSimulatedEffects.size()> times_;  ///< means over the threads
     TimeHistogram frame_times_;
     TimeHistogram refit_times_;

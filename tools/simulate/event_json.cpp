@@ -121,6 +121,16 @@ Json event_json(std::uint64_t frame, double time_s, const SceneEvent& event,
     return json;
 }
 
+Json push_event_json(std::uint64_t frame, double time_s, const scenes::PushEvent& event,
+                     const scenes::SceneFile& scene) {
+    return {{"frame", frame},
+            {"time_s", time_s},
+            {"event", kind_name(event.kind)},
+            {"effect", scenes::effect_name(Ask::response)},
+            {"a", scene.objects[event.pair.a].name},
+            {"b", scene.objects[event.pair.b].name}};
+}
+
 Json body_event_json(std::uint64_t frame, double time_s, const scenes::BodyEvent& event,
                      const scenes::SceneFile& scene) {
     Json json = {{"frame", frame},

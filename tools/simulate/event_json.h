@@ -15,6 +15,12 @@ namespace cdprep::report {
                                                 const SceneEvent& event,
                                                 const scenes::Simulation& simulation);
 
+/// Returns an event of two objects that push each other as JSON (simulate.schema.json). It has the
+/// frame and its time, "begins", "stays" or "ends", and the objects.
+[[nodiscard]] nlohmann::ordered_json push_event_json(std::uint64_t frame, double time_s,
+                                                     const scenes::PushEvent& event,
+                                                     const scenes::SceneFile& scene);
+
 /// Returns an event of a body in the last frame as JSON (simulate.schema.json). It has the frame
 /// and its time, "sleeps", "wakes" or "impact", and the body. An impact also has the object that
 /// was met, and its own time.

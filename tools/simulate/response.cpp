@@ -167,12 +167,28 @@ std::size_t Response::awake_count() const noexcept {
 
 /// Bodies are in the order of their objects, and so are contacts.
 void Response::find_pushing() {
+    pushed_.swap(pushing_);
     pushing_.clear();
     for (const dynamics::BodyContact& contact : bodies_->contacts()) {
         const ObjectPair pair = {objects_[contact.a], objects_[contact.b]};
         if (contact.impulse <= 0 || (!pushing_.empty() && pushing_.back() == pair)) continue;
         pushing_.push_back(pair);
     }
+}
+
+/// Both lists of pairs rise.
+void Response::find_push_events() {
+    push_events_.clear();
+    auto before = pushed_.begin();
+    for (const ObjectPair& pair : pushing_) {
+        for (; before != pushed_.end() && *before < pair; ++before) {
+            push_events_.push_back({EventKind::ends, *before});
+        }
+        const bool stays = before != pushed_.end() && *before == pair;
+        push_events_.push_back({stays ? EventKind::stays : EventKind::begins, pair});
+        if (stays) ++before;
+    }
+    for (; before != pushed_.end(); ++before) push_events_.push_back({EventKind::ends, *before});
 }
 
 void Response::find_events(double time_s) {
@@ -200,6 +216,7 @@ Result<Done> Response::step(double time_s) {
     seconds_ = taken.count();
     for (std::size_t i = 0; i < moving_.size(); ++i) poses_[i].pose = bodies_->pose(moving_[i]);
     find_pushing();
+    find_push_events();
     find_events(time_s);
     return Done{};
 }

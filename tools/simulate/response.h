@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cdprep/scene.h"
 #include "scene_file/load_models.h"
 #include "simulate/dynamics/rigid_bodies.h"
 
@@ -30,7 +31,7 @@ struct ObjectPair {
 enum class BodyEventKind : std::uint8_t {
     sleeps,
     wakes,
-    impact,  ///< the first contact of a continuous body in a substep
+    impact,  ///< a continuous body meets another one in a substep
 };
 
 /// Something that happened to a body in a frame.
@@ -39,6 +40,12 @@ struct BodyEvent {
     std::uint32_t body;   ///< the number of an object in SceneFile::objects
     std::uint32_t other;  ///< of an impact: the object that was met; else the body
     double time_s;        ///< of an impact; else of the frame
+};
+
+/// Two objects that begin to push each other, go on, or end.
+struct PushEvent {
+    EventKind kind;
+    ObjectPair pair;
 };
 
 /// Returns whether a pair of layers asks for `response`.
@@ -74,6 +81,11 @@ public:
     [[nodiscard]] std::span<const ObjectPair> pushing() const noexcept {
         return pushing_;
     }
+    /// How pushing() differs from that of the frame before, in the order of the pairs. Each begin
+    /// is followed by one end before the next begin of the pair. A pair that sleeps goes on.
+    [[nodiscard]] std::span<const PushEvent> push_events() const noexcept {
+        return push_events_;
+    }
     /// What happened in the last frame. Impacts come in the order of their times, then bodies that
     /// sleep or wake in the order of their objects.
     [[nodiscard]] std::span<const BodyEvent> events() const noexcept {
@@ -105,6 +117,7 @@ private:
     [[nodiscard]] Result<Done> add(std::uint32_t object, const Model& model);
     [[nodiscard]] Result<Done> drive(double time_s);
     void find_pushing();
+    void find_push_events();
     void find_events(double time_s);
 
     const SceneFile* file_;
@@ -114,6 +127,8 @@ private:
     std::vector<std::uint32_t> driven_;
     std::vector<GivenPose> poses_;  ///< of the moving bodies
     std::vector<ObjectPair> pushing_;
+    std::vector<ObjectPair> pushed_;  ///< pushing_ of the frame before
+    std::vector<PushEvent> push_events_;
     std::vector<BodyEvent> events_;
     std::vector<bool> sleeps_;  ///< by place in moving_, in the last frame
     double seconds_ = 0;

@@ -136,7 +136,6 @@ std::string cost_text(std::span<const scenes::EffectCost> costs, Ask effect) {
 
 std::string effect_line(const RunSummary& summary, const EffectRow& row) {
     const std::uint64_t frames = summary.table.frames();
-    const bool has_events = row.effect != Ask::response;
     std::string last;
     for (const std::string& pair : row.asked_by) last += (last.empty() ? "" : "  ") + pair;
     const std::string cost = cost_text(summary.costs, row.effect);
@@ -146,8 +145,7 @@ std::string effect_line(const RunSummary& summary, const EffectRow& row) {
     return line_of(
         {scenes::effect_name(row.effect), fixed(calls, 1), frame_text(row.nanoseconds, frames),
          time_text(row.p99), bytes_text(row.state_bytes), bytes_text(row.read_bytes),
-         has_events ? std::to_string(row.begins) : "-",
-         has_events ? std::to_string(row.ends) : "-"},
+         std::to_string(row.begins), std::to_string(row.ends)},
         last);
 }
 
@@ -261,6 +259,8 @@ Json response_json(const RunSummary& summary, const EffectRow& row) {
             {"awake", response.awake_count()},
             {"driven", response.driven_count()},
             {"calls", row.calls},
+            {"begins", row.begins},
+            {"ends", row.ends},
             {"contacts", counts.contacts},
             {"deep", counts.deep},
             {"shortened", counts.shortened},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulate/simulation_report.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "simulate/event_json.h"
@@ -24,10 +25,18 @@ std::string SimulationReport::begin() const {
     return format_ == EventFormat::json ? "{\"events\":[" : "";
 }
 
-bool SimulationReport::is_told(const SceneEvent& event) const {
-    const scenes::AskedPair& pair = *pairs_[event.pair];
-    if (event.kind == EventKind::stays) return true;  // listed only where they are told
-    return event.kind == EventKind::begins ? pair.tells_begins : pair.tells_ends;
+bool SimulationReport::tells(const scenes::AskedPair& pair, EventKind kind) {
+    if (kind == EventKind::stays) return pair.asked.lists_stays;
+    return kind == EventKind::begins ? pair.tells_begins : pair.tells_ends;
+}
+
+bool SimulationReport::is_told(const scenes::PushEvent& event) const {
+    const auto layers =
+        std::minmax(scene_.objects[event.pair.a].layer, scene_.objects[event.pair.b].layer);
+    return std::ranges::any_of(scene_.pairs, [&](const scenes::AskedPair& pair) {
+        return contains(pair.asked.effects, Ask::response) &&
+               std::minmax(pair.asked.a, pair.asked.b) == layers && tells(pair, event.kind);
+    });
 }
 
 std::string SimulationReport::add_frame(std::uint64_t frame, const scenes::Simulation& simulation) {
@@ -39,9 +48,13 @@ std::string SimulationReport::add_frame(std::uint64_t frame, const scenes::Simul
         for (const scenes::BodyEvent& event : response->events()) {
             text += event_text(body_event_json(frame, time_s, event, scene_));
         }
+        for (const scenes::PushEvent& event : response->push_events()) {
+            if (is_told(event)) text += event_text(push_event_json(frame, time_s, event, scene_));
+        }
     }
     for (const SceneEvent& event : simulation.scene().events()) {
-        if (is_told(event)) text += event_text(event_json(frame, time_s, event, simulation));
+        if (!tells(*pairs_[event.pair], event.kind)) continue;
+        text += event_text(event_json(frame, time_s, event, simulation));
     }
     return text;
 }

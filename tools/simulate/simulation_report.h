@@ -34,7 +34,8 @@ public:
     [[nodiscard]] std::string finish(const scenes::Simulation& simulation) const;
 
 private:
-    [[nodiscard]] bool is_told(const SceneEvent& event) const;
+    [[nodiscard]] static bool tells(const scenes::AskedPair& pair, EventKind kind);
+    [[nodiscard]] bool is_told(const scenes::PushEvent& event) const;
     [[nodiscard]] std::string event_text(const nlohmann::ordered_json& event);
 
     const scenes::SceneFile& scene_;

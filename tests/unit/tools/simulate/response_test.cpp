@@ -11,6 +11,7 @@
 
 #include "simulate/scene_frames.h"
 #include "simulate/simulation.h"
+#include "simulate/simulation_report.h"
 #include "study/memory_model.h"
 #include "support/meshes.h"
 #include "support/run_threads.h"
@@ -171,6 +172,58 @@ TEST_F(ResponseTest, ObjectsWithAMotionPush) {
     for (std::uint64_t frame = 0; frame <= 60; ++frame) ASSERT_TRUE(simulation.step(frame));
     EXPECT_EQ(place_of(simulation, 0).x, -4);
     EXPECT_NEAR(place_of(simulation, 1).x, 0.5, 2e-3) << "it is pushed from then on";
+}
+
+// By the definition: begins and ends are the differences of the pairs of two frames. The cube
+// bounces in one frame, and rests at last.
+TEST_F(ResponseTest, PushesBeginAndEnd) {
+    Falling falling(0.6);
+    falling.file().dynamics.substeps = 1;
+    falling.file().objects[1].material.restitution = 0.5;
+    Simulation simulation = falling.make();
+    std::vector<ObjectPair> before;
+    std::vector<EventKind> kinds;
+    for (std::uint64_t frame = 0; frame <= 120; ++frame) {
+        ASSERT_TRUE(simulation.step(frame));
+        const auto pushing = simulation.response()->pushing();
+        std::vector<ObjectPair> now;
+        for (const PushEvent& event : simulation.response()->push_events()) {
+            EXPECT_EQ(event.pair, (ObjectPair{0, 1}));
+            const bool was = std::ranges::binary_search(before, event.pair);
+            EXPECT_EQ(event.kind != EventKind::begins, was) << frame;
+            if (event.kind != EventKind::ends) now.push_back(event.pair);
+            if (event.kind != EventKind::stays) kinds.push_back(event.kind);
+        }
+        EXPECT_TRUE(std::ranges::equal(now, pushing)) << frame;
+        before = now;
+    }
+    ASSERT_GE(kinds.size(), 3u);
+    EXPECT_EQ(kinds[1], EventKind::ends);
+    EXPECT_EQ(kinds.back(), EventKind::begins);
+}
+
+// Only what the pair of layers asks for; a cube that rests goes on to push, asleep or not.
+TEST_F(ResponseTest, ReportsTellPushes) {
+    for (const bool tells : {false, true}) {
+        Falling falling(0.51);
+        falling.file().pairs[0].tells_begins = tells;
+        falling.file().pairs[0].asked.tolerance = 0;
+        Simulation simulation = falling.make();
+        report::SimulationReport report(falling.file(), simulation.plan(),
+                                        report::EventFormat::ndjson);
+        std::string text;
+        for (std::uint64_t frame = 0; frame < 240; ++frame) {
+            ASSERT_TRUE(simulation.step(frame));
+            text += report.add_frame(frame, simulation);
+        }
+        EXPECT_TRUE(simulation.response()->bodies().is_asleep(1));
+        EXPECT_EQ(simulation.response()->pushing().size(), 1u);
+        const std::string pair = R"("effect":"response","a":"floor","b":"cube"})";
+        EXPECT_EQ(text.find(R"("event":"begins",)" + pair) != std::string::npos, tells) << text;
+        EXPECT_EQ(text.find(R"("event":"stays",)" + pair), std::string::npos);
+        const std::string last = text.substr(0, text.rfind(pair));
+        EXPECT_EQ(last.ends_with(R"("event":"begins",)"), tells) << text;
+    }
 }
 
 // By hand: the cube rests on the floor; nobody asks for contacts, so those that push are shown.
