@@ -50,8 +50,10 @@ set(tools_rooms
     "compare: cli compare/cells decompose/surface hull import command_line mesh page query study\
  text"
     "query: bake cli compare/cells command_line mesh scene_file text write"
-    "simulate: cli command_line import page scene_file simulate/dynamics text"
-    "simulate/dynamics: mesh text")
+    "simulate/dynamics: mesh text"
+    "simulate/run: scene_file simulate/dynamics text"
+    "simulate/page: cli page scene_file simulate/run text"
+    "simulate: cli command_line import scene_file simulate/page simulate/run text")
 
 # A library of others: the pattern of its headers, then the folders that may know it.
 set(libraries

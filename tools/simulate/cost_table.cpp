@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "scene_file/compile_scene.h"
-#include "simulate/section_use.h"
+#include "simulate/run/section_use.h"
 #include "text/printable.h"
 
 namespace cdprep::report {

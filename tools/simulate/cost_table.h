@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "simulate/effect_counts.h"
-#include "simulate/simulation.h"
+#include "simulate/run/effect_counts.h"
+#include "simulate/run/simulation.h"
 #include "simulate/time_histogram.h"
 
 namespace cdprep::report {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "scene_file/compile_scene.h"
-#include "simulate/effect_counts.h"
+#include "simulate/run/effect_counts.h"
 #include "text/number_text.h"
 
 namespace cdprep::scenes {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "simulate/simulation.h"
+#include "simulate/run/simulation.h"
 
 namespace cdprep::scenes {
 

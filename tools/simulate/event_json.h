@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "simulate/simulation.h"
+#include "simulate/run/simulation.h"
 
 namespace cdprep::report {
 

@@ -10,7 +10,7 @@
 
 #include "import/import_file.h"
 #include "import/source_file.h"
-#include "simulate/simulation.h"
+#include "simulate/run/simulation.h"
 
 namespace cdprep::scenes {
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "simulate/section_use.h"
+#include "simulate/run/section_use.h"
 #include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"

@@ -9,7 +9,7 @@
 
 #include "simulate/cost_table.h"
 #include "simulate/effect_costs.h"
-#include "simulate/simulation.h"
+#include "simulate/run/simulation.h"
 
 namespace cdprep::report {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simulate/response.h"
+#include "simulate/run/response.h"
 
 #include <algorithm>
 #include <chrono>

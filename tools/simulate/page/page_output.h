@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/report_output.h"
-#include "simulate/scene_page.h"
+#include "simulate/page/scene_page.h"
 
 namespace cdprep::cli {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "page/page_surface.h"
-#include "simulate/scene_frames.h"
+#include "simulate/page/scene_frames.h"
 
 namespace cdprep::report {
 

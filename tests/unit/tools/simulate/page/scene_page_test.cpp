@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simulate/scene_page.h"
+#include "simulate/page/scene_page.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "page/page_text.h"
-#include "simulate/scene_chart.h"
-#include "simulate/scene_geometry.h"
-#include "unit/tools/simulate/page_scene.h"
+#include "simulate/page/scene_chart.h"
+#include "simulate/page/scene_geometry.h"
+#include "unit/tools/simulate/page/page_scene.h"
 
 namespace cdprep::report {
 namespace {

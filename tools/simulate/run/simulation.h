@@ -11,7 +11,7 @@
 #include "cdprep/scene.h"
 #include "scene_file/changing_model.h"
 #include "scene_file/load_models.h"
-#include "simulate/response.h"
+#include "simulate/run/response.h"
 
 namespace cdprep::scenes {
 

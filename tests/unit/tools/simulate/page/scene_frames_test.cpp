@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simulate/scene_frames.h"
+#include "simulate/page/scene_frames.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "simulate/scene_geometry.h"
-#include "simulate/scene_timeline.h"
+#include "simulate/page/scene_geometry.h"
+#include "simulate/page/scene_timeline.h"
 #include "support/random_pose.h"
-#include "unit/tools/simulate/page_scene.h"
+#include "unit/tools/simulate/page/page_scene.h"
 
 namespace cdprep::report {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simulate/scene_geometry.h"
+#include "simulate/page/scene_geometry.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simulate/plan_report.h"
+#include "simulate/run/plan_report.h"
 
 #include <array>
 #include <nlohmann/json.hpp>
 
 #include "scene_file/effect_words.h"
-#include "simulate/effect_counts.h"
-#include "simulate/section_use.h"
+#include "simulate/run/effect_counts.h"
+#include "simulate/run/section_use.h"
 #include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "simulate/scene_frames.h"
-#include "simulate/scene_timeline.h"
+#include "simulate/page/scene_frames.h"
+#include "simulate/page/scene_timeline.h"
 
 namespace cdprep::report {
 

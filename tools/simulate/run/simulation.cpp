@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simulate/simulation.h"
+#include "simulate/run/simulation.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simulate/response.h"
+#include "simulate/run/response.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "simulate/scene_frames.h"
-#include "simulate/simulation.h"
+#include "simulate/page/scene_frames.h"
+#include "simulate/run/simulation.h"
 #include "simulate/simulation_report.h"
 #include "study/memory_model.h"
 #include "support/meshes.h"

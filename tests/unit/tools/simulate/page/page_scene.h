@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "simulate/simulation.h"
+#include "simulate/run/simulation.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "simulate/scene_timeline.h"
+#include "simulate/page/scene_timeline.h"
 
 namespace cdprep::report {
 

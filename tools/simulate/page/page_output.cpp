@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simulate/page_output.h"
+#include "simulate/page/page_output.h"
 
 #include <algorithm>
 #include <iostream>
 #include <utility>
 
-#include "simulate/scene_chart.h"
+#include "simulate/page/scene_chart.h"
 
 namespace cdprep::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "simulate/simulation.h"
+#include "simulate/run/simulation.h"
 
 namespace cdprep::report {
 

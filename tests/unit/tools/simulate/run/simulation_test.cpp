@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simulate/simulation.h"
+#include "simulate/run/simulation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simulate/scene_page.h"
+#include "simulate/page/scene_page.h"
 
 #include <algorithm>
 #include <array>
@@ -11,10 +11,10 @@
 #include "page/base64.h"
 #include "page/page_parts.h"
 #include "page/page_text.h"
-#include "simulate/effect_counts.h"
-#include "simulate/plan_report.h"
-#include "simulate/scene_chart.h"
-#include "simulate/scene_geometry.h"
+#include "simulate/page/scene_chart.h"
+#include "simulate/page/scene_geometry.h"
+#include "simulate/run/effect_counts.h"
+#include "simulate/run/plan_report.h"
 #include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simulate/section_use.h"
+#include "simulate/run/section_use.h"
 
 #include "cdprep/format/sections.h"
 

@@ -9,8 +9,8 @@
 
 #include "cdprep/scene.h"
 #include "scene_file/effect_words.h"
-#include "simulate/response.h"
-#include "simulate/simulation.h"
+#include "simulate/run/response.h"
+#include "simulate/run/simulation.h"
 
 namespace cdprep::report {
 
