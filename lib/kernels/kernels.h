@@ -391,6 +391,9 @@ extern const Table kAvx512;  ///< likewise
 #ifdef CDPREP_HAVE_NEON
 extern const Table kNeon;  ///< which every ARM64 processor can run
 #endif
+#ifdef CDPREP_HAVE_SIMD128
+extern const Table kSimd128;  ///< the only one of WebAssembly, where each byte is downloaded
+#endif
 
 /// The tables that this processor can run, the reference first.
 struct Available {

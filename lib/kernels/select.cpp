@@ -21,8 +21,12 @@ namespace cdprep::kernels {
 namespace {
 
 const char* wanted_kernels() noexcept {
+#ifdef CDPREP_HAVE_SIMD128
+    return nullptr;  // there are no variables, and no choice
+#else
     // Read once, before any query; nothing else in the process writes it then.
     return std::getenv("CDPREP_KERNELS");  // NOLINT(concurrency-mt-unsafe)
+#endif
 }
 
 const Table& choose() noexcept {
@@ -69,6 +73,9 @@ const Curve& active_curve() noexcept {
 }
 
 Available available() noexcept {
+#ifdef CDPREP_HAVE_SIMD128
+    return {{&kSimd128, nullptr, nullptr}, 1};
+#else
     Available tables = {{&kScalar, nullptr, nullptr}, 1};
 #ifdef CDPREP_HAVE_AVX2
     const Processor processor = ask_processor();
@@ -79,6 +86,7 @@ Available available() noexcept {
     tables.table[tables.count++] = &kNeon;
 #endif
     return tables;
+#endif
 }
 
 const Table& active() noexcept {

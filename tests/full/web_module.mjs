@@ -20,7 +20,7 @@ function refuses(call, code, words) {
     error.message.includes(words));
 }
 
-assert.deepEqual(cdprep.version, { version: "0.1.0", kernels: "scalar" });
+assert.deepEqual(cdprep.version, { version: "0.1.0", kernels: "simd128" });
 
 // The mesh: its corners span the box, and each ray towards a corner hits at most as far away.
 const { positions, triangles } = model.mesh();
