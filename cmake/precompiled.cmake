@@ -5,6 +5,9 @@
 set(CDPREP_COMMON_HEADERS <algorithm> <array> <atomic> <bit> <cassert> <charconv> <cmath> <cstddef>
     <cstdint> <cstdio> <cstring> <filesystem> <functional> <limits> <map> <memory>
     <numeric> <optional> <span> <string> <string_view> <tuple> <utility> <vector>)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "wasm32")  # which has no files
+    list(REMOVE_ITEM CDPREP_COMMON_HEADERS <filesystem>)
+endif()
 
 # The sources of target include the common headers and those named further. Targets that name the
 # same, and are compiled with the same options, share the file of the first: a macro that it alone
