@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "c/c_model.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #endif
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -135,6 +137,19 @@ struct CloseFile {
     }
 };
 
+/// Fills all of `bytes`. Some C libraries count the bytes of one call in 32 bits.
+bool read_whole(std::FILE* file, std::span<std::byte> bytes) noexcept {
+    constexpr std::size_t kMost = std::size_t{1} << 30;  // of a call
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        const std::size_t wanted = std::min(kMost, bytes.size() - done);
+        const std::size_t got = std::fread(bytes.data() + done, 1, wanted, file);
+        if (got == 0) return false;
+        done += got;
+    }
+    return true;
+}
+
 /// Reads the file, without mapping it.
 int open_copy(Call& call, const Asked& asked, const std::filesystem::path& path,
               cdprep_model** to) {
@@ -149,7 +164,7 @@ int open_copy(Call& call, const Asked& asked, const std::filesystem::path& path,
     if (failed) return fail_reading(call, name, "has no size that can be read.");
     OwnedMemory copy;
     if (const int code = copy.allocate(call, asked.allocator, size)) return code;
-    if (size > 0 && std::fread(copy.get().start, 1, size, file.get()) != size) {
+    if (!read_whole(file.get(), {static_cast<std::byte*>(copy.get().start), size})) {
         return fail_reading(call, name, "cannot be read to its end.");
     }
     Asked named = asked;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -61,6 +62,29 @@ TEST(CApi, EveryModeOfOpeningGivesTheSameAnswers) {
             << error.message;
         ask_all(model);
         cdprep_model_close(model);
+    }
+}
+
+// The C API takes names in UTF-8 everywhere, also where the system has wide ones.
+TEST(CApi, OpensAFileBeyondAsciiInEveryMode) {
+    const ScratchFolder folder;
+    const std::u8string name = u8"W\u00fcrfel \u7acb \U0001f4e6.cdp.h5";
+    const std::filesystem::path path = folder.path() / name;
+    std::filesystem::rename(folder.write("cube", baked_cube().span()), path);
+    const std::u8string whole = path.u8string();
+    const std::string text(whole.begin(), whole.end()), missing = text + ".none";
+    const std::string named(name.begin(), name.end());
+    for (const std::uint32_t mode : {CDPREP_MAP, CDPREP_COPY, CDPREP_MAP_TRUSTED}) {
+        cdprep_open_options options;
+        cdprep_open_options_init(&options, sizeof options);
+        options.mode = mode;
+        cdprep_model* model = nullptr;
+        cdprep_error error;
+        ASSERT_EQ(cdprep_model_open(text.c_str(), &options, &model, &error), CDPREP_OK)
+            << error.message;
+        cdprep_model_close(model);
+        EXPECT_EQ(cdprep_model_open(missing.c_str(), &options, &model, &error), CDPREP_UNREADABLE);
+        EXPECT_NE(std::string(error.message).find(named), std::string::npos) << error.message;
     }
 }
 

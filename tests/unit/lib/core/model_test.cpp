@@ -6,11 +6,13 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cdprep/format/sections.h"
 #include "cdprep/pairs.h"
+#include "core/mapped_file.h"
 #include "support/guarded_pages.h"
 #include "support/open_tiny.h"
 #include "support/scratch_folder.h"
@@ -50,6 +52,28 @@ std::size_t overlaps_of(const Model& model) {
 
 fs::path write_cube(const ScratchFolder& scratch) {
     return scratch.write("cube.cdp.h5", baked_cube().span());
+}
+
+// Windows names files in UTF-16, other systems in bytes. Messages are in UTF-8 everywhere.
+TEST(Model, OpensAndNamesAFileBeyondAscii) {
+    const ScratchFolder scratch;
+    const std::string name = "W\xc3\xbcrfel \xe7\xab\x8b \xf0\x9f\x93\xa6.cdp.h5";
+    const std::optional<fs::path> relative = path_from_utf8(name.c_str());
+    ASSERT_TRUE(relative);
+    EXPECT_EQ(path_text(*relative), name);
+    const fs::path path = scratch.path() / *relative;
+    for (const OpenMode mode : {OpenMode::map, OpenMode::copy}) {
+        const Result<Model> missing = Model::open(path, {.mode = mode});
+        ASSERT_FALSE(missing);
+        EXPECT_NE(missing.error().message.find(name + ": cannot be opened"), std::string::npos)
+            << missing.error().message;
+    }
+    fs::rename(write_cube(scratch), path);
+    for (const OpenMode mode : {OpenMode::map, OpenMode::copy}) {
+        const Result<Model> opened = Model::open(path, {.mode = mode});
+        ASSERT_TRUE(opened) << opened.error().message;
+        EXPECT_EQ(opened.value().triangle_count(), 12U);
+    }
 }
 
 // What POSIX promises of rename: an open file stays what it was.
