@@ -44,8 +44,6 @@ int sample_game_main(int argc, char** argv);
 void* __real_malloc(std::size_t size);
 void* __real_calloc(std::size_t count, std::size_t size);
 void* __real_realloc(void* memory, std::size_t size);
-void* __real_aligned_alloc(std::size_t alignment, std::size_t size);
-int __real_posix_memalign(void** memory, std::size_t alignment, std::size_t size);
 int __real_cdprep_scene_step(cdprep_scene* scene, cdprep_workspace* workspace, cdprep_step* step,
                              cdprep_error* error);
 void __real_cdprep_scene_end(cdprep_scene* scene);
@@ -62,6 +60,9 @@ void* __wrap_realloc(void* memory, std::size_t size) {
     ++cdprep::test::allocations;
     return __real_realloc(memory, size);
 }
+#ifndef _WIN32  // CMakeLists.txt says why
+void* __real_aligned_alloc(std::size_t alignment, std::size_t size);
+int __real_posix_memalign(void** memory, std::size_t alignment, std::size_t size);
 void* __wrap_aligned_alloc(std::size_t alignment, std::size_t size) {
     ++cdprep::test::allocations;
     return __real_aligned_alloc(alignment, size);
@@ -70,6 +71,7 @@ int __wrap_posix_memalign(void** memory, std::size_t alignment, std::size_t size
     ++cdprep::test::allocations;
     return __real_posix_memalign(memory, alignment, size);
 }
+#endif
 int __wrap_cdprep_scene_step(cdprep_scene* scene, cdprep_workspace* workspace, cdprep_step* step,
                              cdprep_error* error) {
     if (cdprep::test::steps++ == 0) cdprep::test::at_first_step = cdprep::test::allocations;
