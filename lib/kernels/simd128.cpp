@@ -262,31 +262,10 @@ inline D8 select(const D8::Mask& where, const D8& a, const D8& b) noexcept {
 }  // namespace
 }  // namespace cdprep::kernels
 
-#include "cells_met.h"
-#include "farthest.h"
-#include "swept_spheres.h"
-#include "weak_planes.h"
-#include "world_boxes.h"
+#include "table_of.h"
 
 namespace cdprep::kernels {
 
-const Table kSimd128 = {"simd128",
-                        overlapping_boxes_of<F8, F8>,
-                        overlap_depths_of<F8, F8>,
-                        near_boxes_of<F8, F8>,
-                        near_triangles_of<F8, F8, F8>,
-                        triangles_within_of<F8, F8, F8>,
-                        find_contacts_of<F8, F8, F8>,
-                        find_own_contacts_of<F8, F8, F8>,
-                        place_among_cells_of<F8>,
-                        cells_met_of<F8>,
-                        {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>},
-                        farthest_of<D8>,
-                        farthest_moved_of<D8>,
-                        weak_planes_of<F8>,
-                        met_boxes_of<F8>,
-                        meeting_boxes_of<F8>,
-                        meeting_pairs_of<F8>,
-                        escaped_boxes_of<F8>};
+const Table kSimd128 = table_of<F8, F8, D8>("simd128");
 
 }  // namespace cdprep::kernels
