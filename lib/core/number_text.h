@@ -16,7 +16,7 @@
 namespace cdprep {
 
 #ifdef __wasm__
-/// As below, but a power of two may have a digit more. The tables of std::to_chars() would be 40
+/// As below, but some powers of two have a digit more. The tables of std::to_chars() would be 36
 /// kB, by Brotli, of the module that a page loads.
 inline std::string number_text(double value) {
     std::array<char, 32> digits{};  // holds 17 digits and an exponent
