@@ -92,6 +92,35 @@ def check_events(browser, page, events):
     clean(browser)
 
 
+def check_pushes(browser, program, folder):
+    """Bodies that begin and end to push each other are listed in the frames that the run tells."""
+    scene = json.loads((SCENES / "pile.json").read_text())
+    scene["objects"] = scene["objects"][:6]
+    for pair in scene["pairs"]:
+        pair["effects"], pair["events"] = ["response"], ["begins", "ends"]
+        pair.pop("contacts")
+    for one in scene["objects"]:
+        one["model"] = str(SCENES / one["model"])
+    (folder / "few.json").write_text(json.dumps(scene))
+    page, events, _ = simulate(program, folder / "few.json", folder, "--frames", 60)
+    told = [[e["frame"], e["event"], e["a"], e["b"]] for e in events
+            if e["event"] in ("begins", "ends")]
+    must(len(told) > 5, f"pushes: {told}")
+    browser.open(page.as_uri())
+    listed = browser.value("Array.from({length: run.event_count}, (_, i) => { "
+                           "const e = run.event(i); return [e.frame, e.kind, "
+                           "run.object_name(e.a), run.object_name(e.b)]; })")
+    must(listed == told, f"listed {listed}, told {told}")
+    effects = browser.value("Array.from({length: run.event_count}, (_, i) => "
+                            "run.effects[run.event(i).effect].name)")
+    must(set(effects) == {"response"}, f"effects {effects}")
+    for kind in ("begins", "ends"):
+        marks = browser.value(f"+document.querySelector('#lane-response .{kind}').dataset.count")
+        frames = {e[0] for e in told if e[1] == kind}
+        must(marks == len(frames), f"{marks} marks of {kind}, frames {frames}")
+    clean(browser)
+
+
 def check_tints(browser, page, events):
     """Objects that collide take the colour of the effect, at the frame of the event."""
     browser.open(page.as_uri())
@@ -380,6 +409,7 @@ def main():
         with Browser(WIDTH, HEIGHT) as browser:
             check_events(browser, page, events)
             check_tints(browser, page, events)
+            check_pushes(browser, program, folder)
             check_playback(browser, page)
             check_panels(browser, page, events)
             check_lit(browser, program, folder)

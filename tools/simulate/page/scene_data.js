@@ -111,7 +111,7 @@ class SceneRun {
 
   event(i) {
     const [frame, a, b, what] = this.event_words.subarray(i * 4, i * 4 + 4);
-    return {frame, a, b, effect: what & 7, kind: KINDS[(what >> 3) & 3], reason: REASONS[what >> 5]};
+    return {frame, a, b, effect: what & 15, kind: KINDS[(what >> 4) & 3], reason: REASONS[what >> 6]};
   }
 
   // The first event not before a frame.

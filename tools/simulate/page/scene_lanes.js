@@ -48,11 +48,6 @@ class Lanes {
   words(effect, number) {
     const {begins, ends, holds} = this.run.spans;
     const sum = (rows) => rows.reduce((total, row) => total + row[number], 0);
-    if (!effect.has_events) {
-      return effect.name + ': at most ' +
-          plural(most_of(holds.map((row) => row[number])), 'pair', 'pairs') +
-          ' of objects push each other at the end of a frame.';
-    }
     return effect.name + ': begins ' + plural(sum(begins), 'time', 'times') + ', ends ' +
         plural(sum(ends), 'time', 'times') + '; at most ' +
         plural(most_of(holds.map((row) => row[number])), 'pair', 'pairs') +

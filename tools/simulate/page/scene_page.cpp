@@ -215,8 +215,7 @@ Json effects_json(Ask asked, Ask computed) {
     for (const Ask effect : kSimulatedEffects) {
         json.push_back({{"name", scenes::effect_name(effect)},
                         {"asked", contains(computed, effect)},
-                        {"is_replayed", contains(asked, effect) && !contains(computed, effect)},
-                        {"has_events", effect != Ask::response}});
+                        {"is_replayed", contains(asked, effect) && !contains(computed, effect)}});
     }
     return json;
 }
@@ -353,17 +352,26 @@ void ScenePage::list_events(std::uint64_t frame, const scenes::Simulation& simul
     const auto number_of = [&](ObjectId id) {
         return static_cast<std::uint32_t>(&simulation.object(id) - file_.objects.data());
     };
-    for (const SceneEvent& event : simulation.scene().events()) {
-        if (event.kind == EventKind::stays) continue;
+    const auto list = [&](EventKind kind, std::uint32_t a, std::uint32_t b, std::size_t effect,
+                          EventReason reason) {
+        if (kind == EventKind::stays) return;
         if (events_.size() == options_.events) {
             ++events_left_out_;
-            continue;
+            return;
         }
-        events_.push_back({static_cast<std::uint32_t>(frame), number_of(event.a),
-                           number_of(event.b),
-                           static_cast<std::uint32_t>(effect_number(event.effect)) +
-                               8 * static_cast<std::uint32_t>(event.kind) +
-                               32 * static_cast<std::uint32_t>(event.reason)});
+        static_assert(kSimulatedEffects.size() <= 16);
+        events_.push_back({static_cast<std::uint32_t>(frame), a, b,
+                           static_cast<std::uint32_t>(effect) +
+                               16 * static_cast<std::uint32_t>(kind) +
+                               64 * static_cast<std::uint32_t>(reason)});
+    };
+    for (const SceneEvent& event : simulation.scene().events()) {
+        list(event.kind, number_of(event.a), number_of(event.b), effect_number(event.effect),
+             event.reason);
+    }
+    if (simulation.response() == nullptr) return;
+    for (const scenes::PushEvent& event : simulation.response()->push_events()) {
+        list(event.kind, event.pair.a, event.pair.b, kSceneEffects.size(), EventReason::moved);
     }
 }
 

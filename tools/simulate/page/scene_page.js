@@ -150,8 +150,8 @@ function effect_table() {
   const rows = run.effects.map((effect, k) => effect.asked
       ? make('tr', {}, make('td', {}, effect_swatch(effect), effect.name),
              make('td', {class: 'holds'}, cell(spans.holds, k)),
-             make('td', {}, effect.has_events ? cell(spans.begins, k) : '\u2013'),
-             make('td', {}, effect.has_events ? cell(spans.ends, k) : '\u2013'),
+             make('td', {}, cell(spans.begins, k)),
+             make('td', {}, cell(spans.ends, k)),
              make('td', {}, whole(now.calls[k])))
       : make('tr', {class: 'off'}, make('td', {}, effect.name),
              make('td', {colspan: 4}, effect.is_replayed ? 'not computed: poses of the recording'

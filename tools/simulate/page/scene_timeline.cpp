@@ -19,6 +19,10 @@ TimelineSpan span_of(const scenes::Simulation& simulation) {
     }
     if (const scenes::Response* response = simulation.response()) {
         span.holds.back() = response->pushing().size();
+        for (const scenes::PushEvent& event : response->push_events()) {
+            if (event.kind == EventKind::begins) ++span.begins.back();
+            if (event.kind == EventKind::ends) ++span.ends.back();
+        }
     }
     for (const SceneEvent& event : simulation.scene().events()) {
         const std::size_t effect = effect_number(event.effect);

@@ -236,8 +236,8 @@ TEST(ScenePage, EventsAndSpansAreThoseOfTheRun) {
             expected.insert(expected.end(), {static_cast<std::uint32_t>(frame),
                                              object_in(scene.file(), simulation, event.a),
                                              object_in(scene.file(), simulation, event.b),
-                                             effect + 8 * static_cast<std::uint32_t>(event.kind) +
-                                                 32 * static_cast<std::uint32_t>(event.reason)});
+                                             effect + 16 * static_cast<std::uint32_t>(event.kind) +
+                                                 64 * static_cast<std::uint32_t>(event.reason)});
         }
         EXPECT_EQ(spans["begins"][frame], json(begins)) << frame;
         EXPECT_EQ(spans["holds"][frame][3], simulation.scene().distances().size()) << frame;
