@@ -436,7 +436,11 @@ int cdprep_plan_text(const cdprep_plan* plan, char* text, size_t room, size_t* l
         }
         if (const int code = call.need(length, {"length"})) return code;
         const cdprep::format::FloatEnvironment environment;
-        const std::string all = plan->plan.describe();
+        std::size_t bytes = 0;
+        if (const int code = cdprep_scene_size(plan, &bytes, error)) return code;
+        const std::string all = plan->plan.describe() +
+                                "with the results of C: " + std::to_string(bytes) +
+                                " bytes, cdprep_scene_size()\n";
         *length = all.size();
         if (room == 0) return CDPREP_OK;
         text[all.copy(text, room - 1)] = 0;

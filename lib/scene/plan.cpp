@@ -7,6 +7,8 @@
 #include <string>
 
 #include "cdprep/format/float_environment.h"
+#include "cdprep/format/sections.h"
+#include "cdprep/scene.h"
 #include "core/layer_names.h"
 #include "core/number_text.h"
 #include "scene/scene_records.h"
@@ -41,6 +43,16 @@ std::string list_of(const std::vector<std::string>& words) {
         text += (i == 0 ? "" : before) + words[i];
     }
     return text;
+}
+
+/// The layers of a set, bit i for layer i.
+template <class Names>
+std::vector<std::string> names_in(const Names& names, std::uint32_t layers) {
+    std::vector<std::string> texts;
+    for (std::uint32_t layer = 0; layer < kLayers; ++layer) {
+        if ((layers >> layer & 1) != 0) texts.push_back(layer_text(names, layer));
+    }
+    return texts;
 }
 
 /// Returns the reason why an effect is refused: it is not built. Lists the built ones.
@@ -235,12 +247,7 @@ private:
             if (std::max(pair.a, pair.b) >= kLayers || !has(asks_of_models(pair), one)) continue;
             asking |= (1U << pair.a | 1U << pair.b) & model.layers;
         }
-        std::vector<std::string> names;
-        for (std::uint32_t layer = 0; layer < kLayers; ++layer) {
-            if ((asking >> layer & 1) != 0) {
-                names.push_back(layer_text(options_.layer_names, layer));
-            }
-        }
+        const std::vector<std::string> names = names_in(options_.layer_names, asking);
         return (names.size() == 1 ? "its layer " : "its layers ") + list_of(names) +
                (names.size() == 1 ? " asks" : " ask");
     }
@@ -306,13 +313,54 @@ std::string effects_text(const LayerPair& pair) {
     return effects;
 }
 
+/// The features that models must serve: "collide and solid".
+std::string asks_text(Ask asks) {
+    std::vector<std::string> names;
+    for (const Needs& row : needs()) {
+        if (has(asks, row.ask)) names.emplace_back(row.name);
+    }
+    return list_of(names);
+}
+
+std::string sections_text(format::SectionSet sections) {
+    std::vector<std::string> names;
+    for (const format::SectionKind& kind : format::section_kinds()) {
+        if (sections.contains(kind.id)) names.emplace_back(kind.name);
+    }
+    return list_of(names);
+}
+
+std::string counted(std::uint64_t count, const char* noun) {
+    return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+/// The bytes of a scene, and what they have room for.
+std::string size_text(const Plan& plan) {
+    const SceneLimits& limits = plan.limits();
+    std::string text = "the state of a scene: " + counted(Scene::size(plan), "byte") + " for " +
+                       counted(limits.objects, "object") + ", " + counted(limits.pairs, "pair") +
+                       " of boxes and " + counted(limits.threads, "thread");
+    if (has_any(plan.effects(), Ask::overlap | Ask::self)) {
+        text += ", " + counted(limits.triangle_pairs, "listed triangle pair");
+    }
+    if (has(plan.effects(), Ask::contacts)) {
+        text += ", " + counted(limits.contacts, "listed contact");
+    }
+    return text + "\n";
+}
+
 }  // namespace
 
 Plan::Plan(const PlanOptions& options)
     : limits_(options.limits),
       origin_(options.origin),
       layer_names_(options.layer_names.begin(), options.layer_names.end()) {
+    for (std::uint32_t i = 0; i < std::min<std::size_t>(layer_names_.size(), kLayers); ++i) {
+        layers_ |= 1U << i;
+    }
+    for (const ModelUse& model : options.models) layers_ |= model.layers;
     for (const LayerPair& pair : options.pairs) {
+        layers_ |= 1U << pair.a | 1U << pair.b;
         if (pair.effects == Ask::nothing) continue;
         pairs_.push_back(pair);
         const auto number = static_cast<std::uint16_t>(pairs_.size());
@@ -380,26 +428,54 @@ Ask Plan::effects() const noexcept {
 
 std::string Plan::describe() const {
     std::string text;
-    std::uint32_t layers = 0;
     for (const LayerPair& pair : pairs_) {
         text += "layers " + layers_text(layer_names_, pair.a, pair.b) + ": " + effects_text(pair) +
                 "\n";
-        layers |= 1U << pair.a | 1U << pair.b;
     }
     std::string rest;
     for (const Ask one : kSceneEffects) {
         if (!has(effects(), one)) rest += (rest.empty() ? "" : ", ") + name_of(one);
     }
     if (!rest.empty()) text += "not computed, for no pair of layers asks: " + rest + "\n";
+    return text + unpaired_text() + models_text() + size_text(*this);
+}
+
+/// Which layers are not looked at together, and which not at all.
+std::string Plan::unpaired_text() const {
+    const std::uint32_t paired = layers_of(static_cast<Ask>(~0U));
     std::string apart;
     for (std::uint32_t a = 0; a < kLayers; ++a) {
         for (std::uint32_t b = a; b < kLayers; ++b) {
-            if ((layers >> a & layers >> b & 1) == 0) continue;
+            if ((paired >> a & paired >> b & 1) == 0) continue;
             if ((filter_of(a).accepts >> b & 1) != 0) continue;
             apart += (apart.empty() ? "" : ", ") + layers_text(layer_names_, a, b);
         }
     }
-    if (!apart.empty()) text += "layers that are never looked at together: " + apart + "\n";
+    std::string text;
+    if (!apart.empty()) text = "layers that are never looked at together: " + apart + "\n";
+    const std::vector<std::string> alone = names_in(layer_names_, layers_ & ~paired);
+    if (alone.empty()) return text;
+    return text + "layers in no pair, whose objects are never looked at: " + list_of(alone) + "\n";
+}
+
+/// What the models of each layer must serve, and what is read of them. Layers with equal needs
+/// share a line.
+std::string Plan::models_text() const {
+    std::string text;
+    std::uint32_t told = 0;
+    for (std::uint32_t layer = 0; layer < kLayers; ++layer) {
+        const Ask asks = asks_of(layer);
+        if (asks == Ask::nothing || (told >> layer & 1) != 0) continue;
+        std::uint32_t alike = 0;
+        for (std::uint32_t other = layer; other < kLayers; ++other) {
+            if (asks_of(other) == asks) alike |= 1U << other;
+        }
+        told |= alike;
+        const std::vector<std::string> names = names_in(layer_names_, alike);
+        text += (names.size() == 1 ? "models of layer " : "models of layers ") + list_of(names) +
+                " must serve " + asks_text(asks) +
+                "; no sections are read but: " + sections_text(sections_for(asks)) + "\n";
+    }
     return text;
 }
 

@@ -130,15 +130,20 @@ public:
     /// Returns all effects of all pairs.
     [[nodiscard]] CDPREP_API Ask effects() const noexcept;
 
-    /// Returns a page of text. It lists the effects of each pair of layers and the queries that
-    /// run, then what is not computed.
+    /// Returns a page of text. Its first lines are those of pairs(), one each: the effects, and the
+    /// queries that run. Then it lists what is not computed, and the layers that are not looked at.
+    /// At the end are the sections that are read of the models, and the size of a Scene.
     [[nodiscard]] CDPREP_API std::string describe() const;
 
 private:
     explicit Plan(const PlanOptions& options);
+    [[nodiscard]] std::string unpaired_text() const;
+    [[nodiscard]] std::string models_text() const;
 
     SceneLimits limits_;
     Double3 origin_{};
+    /// Those that have a name, a model or a pair in the options: bit i for layer i.
+    std::uint32_t layers_ = 0;
     std::vector<LayerPair> pairs_;
     std::vector<std::string> layer_names_;
     /// [a][b]: 1 more than the pair's number.

@@ -110,9 +110,10 @@ typedef int (*cdprep_text_visitor)(void* context, const char* sentence);
 CDPREP_API int cdprep_plan_compile(const cdprep_plan_options* options, cdprep_text_visitor refusals,
                                    void* context, cdprep_plan** plan, cdprep_error* error);
 
-/* Stores a text of some lines: the queries of each layer pair, then what is not computed. *length
- * is that of the whole text, without the zero at its end. Stores as many characters as there is
- * room for, and a zero. `text` may be null if `room` is 0. */
+/* Stores a text of some lines. First are the queries of each layer pair, then what is not computed,
+ * and layers in no pair. At the end are the sections that are read, and the size of a scene.
+ * *length is that of the whole text, without the zero at its end. Stores as many characters as
+ * there is room for, and a zero. `text` may be null if `room` is 0. */
 CDPREP_API int cdprep_plan_text(const cdprep_plan* plan, char* text, size_t room, size_t* length,
                                 cdprep_error* error);
 

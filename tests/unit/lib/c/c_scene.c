@@ -49,13 +49,14 @@ static const char* compile(const cdprep_model* cube, cdprep_plan** plan) {
 }
 
 static const char* read_plan(const cdprep_plan* plan) {
-    char text[400], start[7];
+    char text[2000], start[7];
     size_t length = 0, same = 0;
     uint32_t ask = 0;
     MUST(cdprep_plan_text(plan, NULL, 0, &length, NULL) == CDPREP_OK && length > 50);
     MUST(cdprep_plan_text(plan, text, sizeof text, &same, NULL) == CDPREP_OK && same == length);
     MUST(length < sizeof text && strlen(text) == length);
     MUST(strstr(text, "layers 31 and 3: collide (mostly from distance), ") == text);
+    MUST(strstr(text, "the state of a scene: ") != NULL);
     MUST(cdprep_plan_text(plan, start, sizeof start, &same, NULL) == CDPREP_OK);
     MUST(same == length && strcmp(start, "layers") == 0);
     MUST(cdprep_plan_ask(plan, FLOOR, &ask, NULL) == CDPREP_OK && ask == EFFECTS);

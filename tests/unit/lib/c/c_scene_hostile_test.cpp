@@ -343,17 +343,17 @@ TEST_F(CSceneHostile, APlanTellsEveryReason) {
     EXPECT_EQ(cdprep_plan_compile(&changed, nullptr, nullptr, &plan, nullptr), CDPREP_BAD_ARGUMENT);
 }
 
-// By hand: the third layer has an empty name.
+// By hand: the third layer has an empty name, and the fourth is in no pair.
 TEST_F(CSceneHostile, MessagesAndTextsNameTheLayers) {
     const std::vector<cdprep_layer_pair> pairs = {pair_of(0, 2, CDPREP_ASK_COLLIDE),
                                                   pair_of(1, 0, CDPREP_ASK_COLLIDE),
                                                   pair_of(0, 1, CDPREP_ASK_COLLIDE)};
-    const std::array<const char*, 3> names = {"floor", "crates", ""};
+    const std::array<const char*, 4> names = {"floor", "crates", "", "debris"};
     cdprep_plan_options changed = options();
     changed.layer_pairs = pairs.data();
     changed.layer_pair_count = 3;
     changed.layer_names = names.data();
-    changed.layer_name_count = 3;
+    changed.layer_name_count = 4;
     cdprep_plan* plan = nullptr;
     cdprep_error error;
     EXPECT_EQ(cdprep_plan_compile(&changed, nullptr, nullptr, &plan, &error), CDPREP_BAD_ARGUMENT);
@@ -362,16 +362,26 @@ TEST_F(CSceneHostile, MessagesAndTextsNameTheLayers) {
                  "options.layer_pairs[1].");
     changed.layer_pair_count = 2;
     plan = compiled(changed);
-    std::array<char, 400> text{};
-    std::size_t length = 0;
+    std::array<char, 2000> text{};
+    std::size_t length = 0, size = 0;
     EXPECT_EQ(cdprep_plan_text(plan, text.data(), text.size(), &length, nullptr), CDPREP_OK);
-    EXPECT_STREQ(text.data(),
-                 "layers 'floor' and 2: collide\n"
-                 "layers 'crates' and 'floor': collide\n"
-                 "not computed, for no pair of layers asks: overlap, within, distance, contacts, "
-                 "continuous, self, haptic\n"
-                 "layers that are never looked at together: 'floor' and 'floor', 'crates' and "
-                 "'crates', 'crates' and 2, 2 and 2\n");
+    const std::string told = text.data();
+    EXPECT_EQ(told.size(), length);
+    EXPECT_EQ(told.substr(0, told.find("models of layers ")),
+              "layers 'floor' and 2: collide\n"
+              "layers 'crates' and 'floor': collide\n"
+              "not computed, for no pair of layers asks: overlap, within, distance, contacts, "
+              "continuous, self, haptic\n"
+              "layers that are never looked at together: 'floor' and 'floor', 'crates' and "
+              "'crates', 'crates' and 2, 2 and 2\n"
+              "layers in no pair, whose objects are never looked at: 'debris'\n");
+    EXPECT_NE(told.find("models of layers 'floor', 'crates' and 2 must serve collide; "),
+              std::string::npos);
+    EXPECT_EQ(cdprep_scene_size(plan, &size, nullptr), CDPREP_OK);
+    EXPECT_NE(told.find("\nthe state of a scene: "), std::string::npos);
+    const std::string end =
+        "with the results of C: " + std::to_string(size) + " bytes, cdprep_scene_size()\n";
+    EXPECT_EQ(told.substr(told.size() - std::min(told.size(), end.size())), end);
     cdprep_plan_end(plan);
 }
 

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
+
+#include "cdprep/format/sections.h"
+#include "cdprep/scene.h"
 
 namespace cdprep {
 namespace {
@@ -21,6 +25,12 @@ Plan::Compiled compiled(const std::vector<LayerPair>& pairs,
 }
 
 using Sentences = std::vector<std::string>;
+
+/// Returns the text of a plan up to what it says of models, which TellsSectionsAndSize checks.
+std::string effects_of(const Plan& plan) {
+    const std::string text = plan.describe();
+    return text.substr(0, std::min(text.find("models of layer"), text.find("the state of")));
+}
 
 TEST(Plan, DropsWhatNobodyAsksFor) {
     const Plan::Compiled made = compiled({{.a = 0, .b = 1, .effects = Ask::collide},
@@ -45,12 +55,13 @@ TEST(Plan, DropsWhatNobodyAsksFor) {
     EXPECT_FALSE(plan.filter_of(0).allows(plan.filter_of(3)));
     EXPECT_TRUE(plan.filter_of(3).allows(plan.filter_of(1)));
     EXPECT_EQ(
-        plan.describe(),
+        effects_of(plan),
         "layers 0 and 1: collide\n"
         "layers 3 and 1: within 0.5 (mostly from distance), distance up to 2\n"
         "not computed, for no pair of layers asks: overlap, contacts, continuous, self, haptic\n"
-        "layers that are never looked at together: 0 and 0, 0 and 3, 1 and 1, 3 and 3\n");
-    EXPECT_EQ(compiled({}).plan->describe(),
+        "layers that are never looked at together: 0 and 0, 0 and 3, 1 and 1, 3 and 3\n"
+        "layers in no pair, whose objects are never looked at: 2\n");
+    EXPECT_EQ(effects_of(*compiled({}).plan),
               "not computed, for no pair of layers asks: collide, overlap, within, distance, "
               "contacts, continuous, self, haptic\n");
 }
@@ -79,7 +90,7 @@ TEST(Plan, DescribesListsAndTheirLimits) {
     const auto made = compiled({{.effects = Ask::collide | Ask::overlap | Ask::contacts,
                                  .overlap = Overlap::proper,
                                  .contacts = {.tolerance = 0.25, .most = 8, .work = 1000}}});
-    EXPECT_EQ(made.plan->describe(),
+    EXPECT_EQ(effects_of(*made.plan),
               "layers 0 and 0: collide, proper (from overlap), overlap, proper, contacts within "
               "0.25, at most 8, work 1000\n"
               "not computed, for no pair of layers asks: within, distance, continuous, self, "
@@ -181,7 +192,7 @@ TEST(Plan, DescribesMotionsChangesAndSingleObjects) {
                    .impact = {.tolerance = 0.5}},
                   {.a = 2, .b = 3, .effects = Ask::haptic, .max_distance = 4, .work = 300}});
     ASSERT_TRUE(made.plan);
-    EXPECT_EQ(made.plan->describe(),
+    EXPECT_EQ(effects_of(*made.plan),
               "layers 0 and 0: models may deform, self (each object)\n"
               "layers 0 and 1: models may tear, and whether solids touch may then be unknown, "
               "collide of solids\n"
@@ -271,6 +282,71 @@ TEST(Plan, NamesEveryRefusal) {
                          "Pair 5 of layers: contacts.most is 257; it must be 1 to 256."}));
 }
 
+// By hand: the third layer has no name. No pair names 'debris', nor the layer of a model.
+TEST(Plan, TellsLayersInNoPair) {
+    const std::vector<std::string_view> names = {"floor", "crates", "", "debris"};
+    const std::vector<LayerPair> pairs = {{.a = 0, .b = 1, .effects = Ask::collide},
+                                          {.a = 2, .b = 2, .effects = Ask::self}};
+    const std::vector<ModelUse> models = {
+        {.name = "arm.cdp.h5", .serves = Ask::collide, .layers = 1U << 9 | 1U << 31}};
+    const auto made =
+        Plan::compile({.pairs = pairs, .models = models, .limits = kLimits, .layer_names = names});
+    ASSERT_TRUE(made.plan);
+    EXPECT_EQ(effects_of(*made.plan),
+              "layers 'floor' and 'crates': collide\n"
+              "layers 2 and 2: self (each object)\n"
+              "not computed, for no pair of layers asks: overlap, within, distance, contacts, "
+              "continuous, haptic\n"
+              "layers that are never looked at together: 'floor' and 'floor', 'floor' and 2, "
+              "'crates' and 'crates', 'crates' and 2, 2 and 2\n"
+              "layers in no pair, whose objects are never looked at: 'debris', 9 and 31\n");
+}
+
+/// The line of a text that begins so, or nothing.
+std::string line_of(const std::string& text, const std::string& begin) {
+    const std::size_t at = text.find("\n" + begin);
+    if (at == std::string::npos) return {};
+    return text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+}
+
+// The sections are those of the table of needs: each name is told, and no other.
+TEST(Plan, TellsSectionsAndSize) {
+    const auto made = compiled({{.a = 0, .b = 1, .effects = Ask::collide},
+                                {.a = 1, .b = 2, .effects = Ask::collide},
+                                {.a = 3,
+                                 .b = 3,
+                                 .effects = Ask::overlap | Ask::contacts,
+                                 .body = Body::solid,
+                                 .contacts = {.most = 4}}});
+    ASSERT_TRUE(made.plan);
+    const std::string text = made.plan->describe();
+    const std::string flags = line_of(text, "models of layers 0, 1 and 2 must serve collide; ");
+    const std::string lists =
+        line_of(text, "models of layer 3 must serve overlap, contacts and solid; ");
+    const auto expect_sections = [](const std::string& line, Ask asks) {
+        std::vector<std::string> names;
+        for (const format::SectionKind& kind : format::section_kinds()) {
+            if (sections_for(asks).contains(kind.id)) names.emplace_back(kind.name);
+        }
+        std::string expected;
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            expected += (i == 0 ? "" : i + 1 < names.size() ? ", " : " and ") + names[i];
+        }
+        EXPECT_GT(names.size(), 2U);
+        EXPECT_EQ(line.substr(std::min(line.size(), line.find(": ") + 2)), expected);
+    };
+    expect_sections(flags, Ask::collide);
+    expect_sections(lists, Ask::overlap | Ask::contacts | Ask::solid);
+    EXPECT_EQ(line_of(text, "the state of a scene: "),
+              "the state of a scene: " + std::to_string(Scene::size(*made.plan)) +
+                  " bytes for 10 objects, 100 pairs of boxes and 1 thread, 0 listed triangle "
+                  "pairs, 0 listed contacts");
+    // A plan that asks for nothing tells its size as well.
+    const std::string none = compiled({}).plan->describe();
+    EXPECT_EQ(none.find("models of"), std::string::npos);
+    EXPECT_NE(none.find("the state of a scene: "), std::string::npos);
+}
+
 // By hand: the third layer has no name.
 TEST(Plan, NamesLayers) {
     const std::vector<std::string_view> names = {"floor", "crates"};
@@ -279,7 +355,7 @@ TEST(Plan, NamesLayers) {
         {.a = 1, .b = 2, .effects = Ask::within, .tolerance = 0.5}};
     const auto made = Plan::compile({.pairs = pairs, .limits = kLimits, .layer_names = names});
     ASSERT_TRUE(made.plan);
-    EXPECT_EQ(made.plan->describe(),
+    EXPECT_EQ(effects_of(*made.plan),
               "layers 'floor' and 'crates': collide\n"
               "layers 'crates' and 2: within 0.5\n"
               "not computed, for no pair of layers asks: overlap, distance, contacts, continuous, "
