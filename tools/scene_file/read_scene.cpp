@@ -48,6 +48,7 @@ private:
     void read_root(const JsonElement& root) {
         // Other errors of a file that is no scene would mislead.
         const auto version = root.require("cdprep_scene");
+        if (!root.keys()) return;
         if (!version || !is_one(*version)) return;
         // Unknown keys are errors, but hide no others.
         static_cast<void>(

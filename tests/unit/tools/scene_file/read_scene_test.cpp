@@ -148,7 +148,8 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
         "collide, overlap, distance, within, contacts, response, continuous, self, deform, tear, "
         "inside or haptic.";
     const std::vector<Mistake> mistakes = {
-        {"[]", {"line 1: the key 'cdprep_scene' is missing."}},
+        {"[]", {"line 1: found []; expected an object."}},
+        {"3", {"line 1: found 3; expected an object."}},
         {"{\"a\": 3}", {"line 1: the key 'cdprep_scene' is missing."}},
         {"{\n\"cdprep_scene\": 2}",
          {"line 2: /cdprep_scene: found version 2; this program reads version 1."}},
