@@ -233,6 +233,35 @@ def the_thousand(program, folder):
     must(first[0] == one[0] == again[0], "the cache changes events")
     must(baked.stat().st_mtime_ns == changed_at, "the cache was not used")
     origin = plan_of(program, folder / "thousand.json", "--cache", cache)["models"][0]["origin"]
+def the_clusters(program, folder):
+    """Contacts that are joined are as many as those of a single query, and fewer than without."""
+    meshes = [ROOT / f"samples/meshes/{name}.obj" for name in ("bracket", "bolt")]
+    files = [folder / f"{mesh.stem}.cdp.h5" for mesh in meshes]
+    for mesh, file in zip(meshes, files):
+        bake(program, mesh, "-o", file, "--effects", "contacts")
+    at, listed = (23, 15, -19.5), []
+    objects = [{"name": "bracket", "model": str(meshes[0]), "layer": "a"},
+               {"name": "bolt", "model": str(meshes[1]), "layer": "b",
+                "pose": {"translation": at}}]
+    for given in ({}, {"cluster_deg": 30, "manifold": True}):
+        contacts = {"tolerance": 2, "most": 64, **given}
+        scene = write_scene(folder / "clusters.json", layers=["a", "b"], objects=objects, pairs=[
+            {"layers": ["a", "b"], "effects": ["contacts"], "contacts": contacts}])
+        check_schema(SCENE_SCHEMA, json.loads(scene.read_text()), scene)
+        (event,), _ = simulate(program, scene)
+        options = ["--cluster-deg", 30, "--manifold"] if given else []
+        found, = asked(program, "contacts", *files, folder, [pose_text(0, at)], "--tolerance", 2,
+                       "--most", 64, *options)
+        must(event["contacts"] == found["count"], f"{event} is not {found['count']}")
+        listed.append(found["count"])
+        planned = plan_of(program, scene)["pairs"][0]["contacts"]
+        text = run(program, "simulate", scene, "--plan").stdout
+        must(("manifold" in planned) == ("with manifolds, clusters of 0.52359877559" in text) ==
+             bool(given), f"{planned} {text}")
+        must(not given or math.isclose(planned["cluster_angle_rad"], math.pi / 6), f"{planned}")
+    must(0 < listed[1] < listed[0], f"nothing was joined: {listed}")
+
+
     must(origin == "cached", origin)
     larger = (folder / "crate.obj").read_text().replace("0.5", "0.75")
     (folder / "crate.obj").write_text(larger)
@@ -416,7 +445,7 @@ def main():
     for scene in scenes:
         check_schema(SCENE_SCHEMA, json.loads(scene.read_text()), scene)
     the_plans(program)
-    for check in (the_crates, the_assembly, the_lists, the_thousand):
+    for check in (the_crates, the_assembly, the_lists, the_clusters, the_thousand):
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))
     with tempfile.TemporaryDirectory() as scratch:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numbers>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -47,8 +48,8 @@ public:
 private:
     void read_root(const JsonElement& root) {
         // Other errors of a file that is no scene would mislead.
-        const auto version = root.require("cdprep_scene");
         if (!root.keys()) return;
+        const auto version = root.require("cdprep_scene");
         if (!version || !is_one(*version)) return;
         // Unknown keys are errors, but hide no others.
         static_cast<void>(
@@ -180,15 +181,23 @@ private:
     }
 
     static void read_contacts(const JsonElement& element, ContactOptions& options) {
-        if (!element.is_object_of({"tolerance", "most", "work"})) return;
+        if (!element.is_object_of({"tolerance", "manifold", "most", "work", "cluster_deg"})) return;
         if (const auto tolerance = element.find("tolerance")) {
             options.tolerance = tolerance->number(Range::zero_or_more).value_or(0);
+        }
+        if (const auto manifold = element.find("manifold")) {
+            options.manifold =
+                manifold->boolean().value_or(false) ? Manifold::four : Manifold::none;
         }
         if (const auto most = element.find("most")) {
             options.most = most->whole(1, kMostListedContacts).value_or(1);
         }
         if (const auto work = element.find("work")) {
             options.work = work->whole(1).value_or(1);
+        }
+        if (const auto cluster = element.find("cluster_deg")) {
+            const double degrees = cluster->number(Range::zero_or_more).value_or(0);
+            options.cluster_angle = degrees * std::numbers::pi / 180;
         }
     }
 

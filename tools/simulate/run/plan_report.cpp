@@ -128,6 +128,10 @@ Json pair_json(const SceneFile& scene, const LayerPair& pair) {
         json["contacts"] = {{"tolerance", pair.contacts.tolerance}, {"most", pair.contacts.most}};
         if (pair.contacts.work > 0) json["contacts"]["work"] = pair.contacts.work;
     }
+        if (pair.contacts.manifold == Manifold::four) json["contacts"]["manifold"] = true;
+        if (pair.contacts.cluster_angle > 0) {
+            json["contacts"]["cluster_angle_rad"] = pair.contacts.cluster_angle;
+        }
     if (contains(pair.effects, Ask::continuous)) {
         json["impact"] = {{"tolerance", pair.impact.tolerance},
                           {"most_steps", pair.impact.most_steps}};

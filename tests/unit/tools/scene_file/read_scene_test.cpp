@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -117,6 +118,30 @@ TEST(ReadScene, ReadsOptionsOfEffects) {
     EXPECT_EQ(pair.impact.most_steps, 7u);
 }
 
+// An angle in degrees, as `query contacts` takes it.
+TEST(ReadScene, ReadsOptionsOfContacts) {
+    const Folder folder;
+    const auto contacts_of = [&](const std::string& options) {
+        const SceneFile scene =
+            folder.scene(one_object("", R"("effects": ["contacts"])" + options));
+        return scene.pairs[0].asked.contacts;
+    };
+    const ContactOptions given = contacts_of(
+        R"(, "contacts": {"tolerance": 0.25, "manifold": true, "most": 8, "work": 900,
+            "cluster_deg": 180})");
+    EXPECT_EQ(given.tolerance, 0.25);
+    EXPECT_EQ(given.manifold, Manifold::four);
+    EXPECT_EQ(given.most, 8u);
+    EXPECT_EQ(given.work, 900u);
+    EXPECT_EQ(given.cluster_angle, std::numbers::pi);
+    for (const char* options :
+         {"", R"(, "contacts": {})", R"(, "contacts": {"manifold": false})"}) {
+        EXPECT_EQ(contacts_of(options).manifold, Manifold::none);
+        EXPECT_EQ(contacts_of(options).cluster_angle, 0);
+        EXPECT_EQ(contacts_of(options).most, 16u);
+    }
+}
+
 TEST(ReadScene, HasDefaults) {
     const Folder folder;
     const SceneFile scene = folder.scene(one_object(""));
@@ -192,9 +217,13 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
           "line 3: /pairs/0/impact/most_steps: found 0; expected a whole number from 1 to "
           "2147483648."}},
         {one_object("", "\"effects\": [\"contacts\"], \"contacts\": {\"depth\": 2}"),
-         {"line 3: /pairs/0/contacts/depth: 'depth' is not a key here. Choose from tolerance, most "
-          "or "
-          "work."}},
+         {"line 3: /pairs/0/contacts/depth: 'depth' is not a key here. Choose from tolerance, "
+          "manifold, most, work or cluster_deg."}},
+        {one_object("",
+                    "\"effects\": [\"contacts\"], \"contacts\": {\"manifold\": 4,\n"
+                    "\"cluster_deg\": -15}"),
+         {"line 3: /pairs/0/contacts/manifold: found 4; expected true or false.",
+          "line 4: /pairs/0/contacts/cluster_deg: found -15; expected a number, 0 or more."}},
         {one_object("",
                     "\"effects\": [\"contacts\"], \"contacts\": {\"most\": 0, \"tolerance\": -1}"),
          {"line 3: /pairs/0/contacts/tolerance: found -1; expected a number, 0 or more.",
