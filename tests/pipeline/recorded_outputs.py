@@ -340,12 +340,12 @@ def studies():
 def simulations():
     for scene in ("scenes/crates", "scenes/assembly", "parts", "unbuilt", "wrong", "none"):
         for form in ("text", "json"):
-            yield [f"simulate {scene}.json --plan --format {form}"]
+            yield [f"simulate {scene}.json --plan --format {form} -j 1"]
         for form in ("text", "json", "ndjson"):
             yield [f"simulate {scene}.json --format {form} --progress none -j 1"]
     yield ["simulate scenes/thousand.json --frames 2 -j 1"]  # each thread has memory of its own
     yield ["simulate parts.json --frames 3 --cache baked -j 1",
-           "simulate parts.json --plan --cache baked"]
+           "simulate parts.json --plan --cache baked -j 1"]
 
 
 def clashes():

@@ -72,6 +72,11 @@ def the_plans(program):
     must([layer["objects"] for layer in plan["layers"]] == [1, 2, 1, 60], f"{plan['layers']}")
     must(plan["not_computed"] == ["overlap", "distance", "contacts", "continuous", "self", "haptic",
                                   "response"], f"{plan['not_computed']}")
+    # Nobody asks for the debris: none of its 1770 pairs, nor those with other layers.
+    must(plan["layers_in_no_pair"] == ["debris"], f"{plan['layers_in_no_pair']}")
+    unpaired = {"-".join(layers["layers"]): layers["pairs"] for layers in plan["unpaired"]}
+    must(unpaired == {"ground-triggers": 1, "ground-debris": 60, "crates-debris": 120,
+                      "triggers-debris": 60, "debris-debris": 1770}, f"{unpaired}")
     must(plan["pairs"][0]["layers"] == ["crates", "triggers"], f"{plan['pairs']}")
     serves = {pathlib.Path(model["path"]).name: model["serves"] for model in plan["models"]}
     must(serves == {"ground.obj": ["within"], "gate.obj": ["collide", "solid"],
@@ -85,8 +90,30 @@ def the_plans(program):
     text = run(program, "simulate", SCENES / "crates.json", "--plan").stdout
     for words in ("layer 'debris': 60 objects", "layers 'crates' and 'triggers': collide of solids",
                   "not computed, for no pair of layers asks: overlap, distance, contacts, continuous, "
-                  "self, haptic", "never touched: 4 sections"):
+                  "self, haptic, response\n", "never touched: 4 sections",
+                  "layers in no pair, whose objects are never looked at: debris\n",
+                  "layers never paired: ground-triggers (1 pair of objects), ",
+                  "debris-debris (1770 pairs of objects)\n"):
         must(words in text, f"the plan does not say '{words}':\n{text}")
+    the_state(program)
+
+
+def the_state(program):
+    """The bytes of the scene are told. Effects, objects and threads add to them."""
+    one = plan_of(program, SCENES / "crates.json", "-j", 1)["state"]
+    text = run(program, "simulate", SCENES / "crates.json", "--plan", "-j", 1).stdout
+    must(f"the state of the scene: {one['bytes']} bytes for {one['pairs']} pairs of boxes and "
+         "1 thread\n" in text, text)
+    more = plan_of(program, SCENES / "crates.json", "-j", 4)["state"]
+    must(one["threads"] == 1 and more["threads"] == 4 and more["bytes"] > one["bytes"] > 10000,
+         f"{one} {more}")
+    less = plan_of(program, SCENES / "assembly.json", "-j", 1)["state"]
+    large = plan_of(program, SCENES / "thousand.json", "-j", 1)["state"]
+    must(large["pairs"] > less["pairs"] and large["bytes"] > less["bytes"], f"{less} {large}")
+    # What a run tells of an effect is the share of it.
+    _, summary = simulate(program, SCENES / "crates.json", "--frames", 1, "-j", 1)
+    shares = sum(effect["state_bytes"] for effect in summary["effects"])
+    must(0 < shares < one["bytes"], f"{shares} of {one}")
 
 
 def pose_text(angle, translation):
@@ -206,33 +233,6 @@ def the_lists(program, folder):
     must(kinds == {"begins", "stays", "ends"} and summary["grown_steps"] == 0, f"{kinds} {summary}")
 
 
-def the_thousand(program, folder):
-    """Neither threads nor the form of the output nor a cache change an event."""
-    scene = SCENES / "thousand.json"
-    one = simulate(program, scene, "-j", 1)
-    must(one[1]["objects"] == 1000 and one[1]["frames"] == 32, f"{one[1]}")
-    for effect in one[1]["effects"]:
-        must(effect["begins"] > 100 and effect["ends"] > 10, f"little happens: {effect}")
-    eight = simulate(program, scene, "-j", 8)
-    must(one[0] == eight[0], "events depend on threads")
-    must(without_times(one[1]) == without_times(eight[1]), f"{one[1]} {eight[1]}")
-
-    whole = run(program, "simulate", scene, "--format", "json", "-o", folder / "run.json")
-    must(whole.returncode == 0 and not whole.stdout, whole.stderr)
-    document = json.loads((folder / "run.json").read_text())
-    check_schema(OUTPUT_SCHEMA, {**document, "events": document["events"][:200]}, "--format json")
-    must(document["events"] == one[0], "json and ndjson differ")
-
-    for name in ("thousand.json", "crate.obj"):
-        shutil.copy(SCENES / name, folder / name)
-    cache = folder / "a cache/deep"
-    first = simulate(program, folder / "thousand.json", "--cache", cache)
-    baked, = cache.iterdir()
-    changed_at = baked.stat().st_mtime_ns
-    again = simulate(program, folder / "thousand.json", "--cache", cache)
-    must(first[0] == one[0] == again[0], "the cache changes events")
-    must(baked.stat().st_mtime_ns == changed_at, "the cache was not used")
-    origin = plan_of(program, folder / "thousand.json", "--cache", cache)["models"][0]["origin"]
 def the_clusters(program, folder):
     """Contacts that are joined are as many as those of a single query, and fewer than without."""
     meshes = [ROOT / f"samples/meshes/{name}.obj" for name in ("bracket", "bolt")]
@@ -262,6 +262,33 @@ def the_clusters(program, folder):
     must(0 < listed[1] < listed[0], f"nothing was joined: {listed}")
 
 
+def the_thousand(program, folder):
+    """Neither threads nor the form of the output nor a cache change an event."""
+    scene = SCENES / "thousand.json"
+    one = simulate(program, scene, "-j", 1)
+    must(one[1]["objects"] == 1000 and one[1]["frames"] == 32, f"{one[1]}")
+    for effect in one[1]["effects"]:
+        must(effect["begins"] > 100 and effect["ends"] > 10, f"little happens: {effect}")
+    eight = simulate(program, scene, "-j", 8)
+    must(one[0] == eight[0], "events depend on threads")
+    must(without_times(one[1]) == without_times(eight[1]), f"{one[1]} {eight[1]}")
+
+    whole = run(program, "simulate", scene, "--format", "json", "-o", folder / "run.json")
+    must(whole.returncode == 0 and not whole.stdout, whole.stderr)
+    document = json.loads((folder / "run.json").read_text())
+    check_schema(OUTPUT_SCHEMA, {**document, "events": document["events"][:200]}, "--format json")
+    must(document["events"] == one[0], "json and ndjson differ")
+
+    for name in ("thousand.json", "crate.obj"):
+        shutil.copy(SCENES / name, folder / name)
+    cache = folder / "a cache/deep"
+    first = simulate(program, folder / "thousand.json", "--cache", cache)
+    baked, = cache.iterdir()
+    changed_at = baked.stat().st_mtime_ns
+    again = simulate(program, folder / "thousand.json", "--cache", cache)
+    must(first[0] == one[0] == again[0], "the cache changes events")
+    must(baked.stat().st_mtime_ns == changed_at, "the cache was not used")
+    origin = plan_of(program, folder / "thousand.json", "--cache", cache)["models"][0]["origin"]
     must(origin == "cached", origin)
     larger = (folder / "crate.obj").read_text().replace("0.5", "0.75")
     (folder / "crate.obj").write_text(larger)

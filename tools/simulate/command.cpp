@@ -186,8 +186,7 @@ private:
     }
 
     [[nodiscard]] SceneLimits limits() const {
-        return {.objects = static_cast<std::uint32_t>(scene_.objects.size()),
-                .pairs = scene_.most_pairs.value_or(1)};
+        return scenes::first_limits(scene_, thread_count());
     }
 
     [[nodiscard]] Result<std::uint64_t> frame_count() const {
@@ -504,8 +503,9 @@ void add_simulate(const Command& app, Exit& exit) {
     const Option plan =
         command
             .add_flag("--plan", arguments->plan,
-                      "Print what would be computed and which sections of the models that reads, "
-                      "and exit. All reasons against a plan are listed (exit 2)")
+                      "Print what would be computed and what not, which sections of the models "
+                      "that reads, and how much memory the scene takes, and exit. All reasons "
+                      "against a plan are listed (exit 2)")
             .group("Simulation");
     const Option frames =
         command

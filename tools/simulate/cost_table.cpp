@@ -169,23 +169,4 @@ double CostTable::explained() const {
     return all > 0 ? static_cast<double>(rows) / static_cast<double>(all) : 1;
 }
 
-std::vector<UnpairedLayers> unpaired_layers(const scenes::SceneFile& scene) {
-    std::vector<std::uint64_t> objects(scene.layers.size());
-    for (const scenes::FileObject& object : scene.objects) ++objects[object.layer];
-    std::vector<UnpairedLayers> unpaired;
-    for (std::uint32_t a = 0; a < objects.size(); ++a) {
-        for (std::uint32_t b = a; b < objects.size(); ++b) {
-            const bool is_asked = std::ranges::any_of(scene.pairs, [&](const auto& pair) {
-                return std::minmax(pair.asked.a, pair.asked.b) == std::minmax(a, b) &&
-                       pair.asked.effects != Ask::nothing;
-            });
-            const std::uint64_t pairs =
-                a == b ? objects[a] * (std::max<std::uint64_t>(objects[a], 1) - 1) / 2
-                       : objects[a] * objects[b];
-            if (!is_asked && pairs > 0) unpaired.push_back({a, b, pairs});
-        }
-    }
-    return unpaired;
-}
-
 }  // namespace cdprep::report

@@ -87,14 +87,4 @@ private:
     std::uint64_t rest_nanoseconds_ = 0;  ///< of the pairs
 };
 
-/// Two layers that no pair names, or a pair without effects.
-struct UnpairedLayers {
-    std::uint32_t a;
-    std::uint32_t b;
-    std::uint64_t pairs;  ///< of their objects
-};
-
-/// Returns the layers whose objects are never looked at together, if they have any.
-[[nodiscard]] std::vector<UnpairedLayers> unpaired_layers(const scenes::SceneFile& scene);
-
 }  // namespace cdprep::report

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "simulate/run/section_use.h"
+#include "simulate/run/unpaired_layers.h"
 #include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"
@@ -213,23 +214,11 @@ std::string response_text(const RunSummary& summary) {
 
 /// What nobody asks for, and what is not read for it.
 std::string not_computed_text(const RunSummary& summary) {
-    std::string text;
-    for (const std::string& name : summary.not_computed) {
-        text += (text.empty() ? "not computed, for no pair of layers asks: " : ", ") + name;
-    }
-    if (!text.empty()) text += "\n";
+    std::string text = not_computed_line(summary.not_computed);
     const AllSections sections = sections_of_models(summary.simulation.models());
     text += "not read: " + counted(sections.unread, "section", "sections") + ", " +
             bytes_text(sections.unread_bytes) + " of " + bytes_text(sections.bytes) + "\n";
-    std::string layers_text;
-    for (const UnpairedLayers& layers : unpaired_layers(summary.scene)) {
-        layers_text += (layers_text.empty() ? "layers never paired: " : ", ") +
-                       printable(summary.scene.layers[layers.a]) + "-" +
-                       printable(summary.scene.layers[layers.b]) + " (" +
-                       counted(layers.pairs, "pair", "pairs") + " of objects)";
-    }
-    if (!layers_text.empty()) text += layers_text + "\n";
-    return text;
+    return text + unpaired_text(summary.scene);
 }
 
 // --- JSON -------------------------------------------------------------------------------
@@ -285,12 +274,7 @@ void add_not_computed(Json& json, const RunSummary& summary) {
     json["sections"] = {{"unread", sections.unread},
                         {"unread_bytes", sections.unread_bytes},
                         {"bytes", sections.bytes}};
-    json["unpaired"] = Json::array();
-    for (const UnpairedLayers& layers : unpaired_layers(summary.scene)) {
-        json["unpaired"].push_back(
-            {{"layers", {summary.scene.layers[layers.a], summary.scene.layers[layers.b]}},
-             {"pairs", layers.pairs}});
-    }
+    json["unpaired"] = unpaired_json(summary.scene);
 }
 
 void add_changes(Json& json, const RunSummary& summary) {

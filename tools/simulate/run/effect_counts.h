@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,15 @@ inline constexpr auto kSimulatedEffects = [] {
         if (!contains(asked, effect)) names.push_back(scenes::effect_name(effect));
     }
     return names;
+}
+
+/// Returns them as a line of text, or nothing.
+[[nodiscard]] inline std::string not_computed_line(std::span<const std::string> names) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "not computed, for no pair of layers asks: " : ", ") + name;
+    }
+    return text.empty() ? text : text + "\n";
 }
 
 }  // namespace cdprep::report

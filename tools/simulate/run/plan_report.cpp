@@ -7,6 +7,7 @@
 #include "scene_file/effect_words.h"
 #include "simulate/run/effect_counts.h"
 #include "simulate/run/section_use.h"
+#include "simulate/run/unpaired_layers.h"
 #include "text/json_layout.h"
 #include "text/number_text.h"
 #include "text/printable.h"
@@ -127,11 +128,11 @@ Json pair_json(const SceneFile& scene, const LayerPair& pair) {
     if (contains(pair.effects, Ask::contacts)) {
         json["contacts"] = {{"tolerance", pair.contacts.tolerance}, {"most", pair.contacts.most}};
         if (pair.contacts.work > 0) json["contacts"]["work"] = pair.contacts.work;
-    }
         if (pair.contacts.manifold == Manifold::four) json["contacts"]["manifold"] = true;
         if (pair.contacts.cluster_angle > 0) {
             json["contacts"]["cluster_angle_rad"] = pair.contacts.cluster_angle;
         }
+    }
     if (contains(pair.effects, Ask::continuous)) {
         json["impact"] = {{"tolerance", pair.impact.tolerance},
                           {"most_steps", pair.impact.most_steps}};
@@ -196,6 +197,43 @@ Json response_json(const SceneFile& scene) {
             {"sleeps", options.sleeps}};
 }
 
+/// Returns the lines of the plan about its pairs of layers. The rest is told here, of all that a
+/// simulation computes.
+std::string pairs_text(const Plan& plan) {
+    const std::string text = plan.describe();
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < plan.pairs().size(); ++i) end = text.find('\n', end) + 1;
+    return text.substr(0, end);
+}
+
+/// What the plan leaves out.
+std::string not_computed_text(const SceneFile& scene, const Plan& plan) {
+    std::string text = not_computed_line(not_computed(scene, plan));
+    std::string alone;
+    for (const std::string& name : layers_in_no_pair(scene)) {
+        alone += (alone.empty() ? "" : ", ") + printable(name);
+    }
+    if (!alone.empty())
+        text += "layers in no pair, whose objects are never looked at: " + alone + "\n";
+    return text + unpaired_text(scene);
+}
+
+std::string state_text(const Plan& plan) {
+    const SceneLimits& limits = plan.limits();
+    return "the state of the scene: " + counted(Scene::size(plan), "byte", "bytes") + " for " +
+           counted(limits.pairs, "pair", "pairs") + " of boxes and " +
+           counted(limits.threads, "thread", "threads") + "\n";
+}
+
+Json state_json(const Plan& plan) {
+    const SceneLimits& limits = plan.limits();
+    return {{"bytes", Scene::size(plan)},
+            {"pairs", limits.pairs},
+            {"triangle_pairs", limits.triangle_pairs},
+            {"contacts", limits.contacts},
+            {"threads", limits.threads}};
+}
+
 /// Returns the word of the scene file for a deformation, or nothing.
 const char* deform_word(const Change& change) {
     constexpr std::array kWords = {"shear", "twist", "stream"};
@@ -256,8 +294,9 @@ std::string plan_text(const SceneFile& scene, const Plan& plan, std::span<const 
         text += "layer '" + printable(scene.layers[i]) +
                 "': " + counted(objects[i], "object", "objects") + "\n";
     }
-    text += plan.describe();
+    text += pairs_text(plan);
     if (scenes::has_response(scene)) text += response_text(scene);
+    text += not_computed_text(scene, plan) + state_text(plan);
     for (std::size_t i = 0; i < models.size(); ++i) {
         text += model_text(scene.models[i].string(), models[i]);
     }
@@ -280,6 +319,9 @@ std::string plan_json(const SceneFile& scene, const Plan& plan, std::span<const 
     }
     if (scenes::has_response(scene)) json["response"] = response_json(scene);
     json["not_computed"] = not_computed(scene, plan);
+    json["layers_in_no_pair"] = layers_in_no_pair(scene);
+    json["unpaired"] = unpaired_json(scene);
+    json["state"] = state_json(plan);
     json["models"] = Json::array();
     for (std::size_t i = 0; i < models.size(); ++i) {
         json["models"].push_back(model_json(scene.models[i].string(), models[i]));

@@ -10,9 +10,10 @@
 
 namespace cdprep::report {
 
-/// Returns a page of text: layers, the plan and the models. For each model it lists what it must
-/// serve. It also lists the sections that are read and those never touched, with their bytes. For
-/// each live model it tells how it changes, and its bytes.
+/// Returns a page of text: layers, the plan, what is not computed and the bytes of the scene. Then
+/// follow the models. For each it lists what it must serve. It also lists the sections that are
+/// read and those never touched, with their bytes. For each live model it tells how it changes, and
+/// its bytes.
 [[nodiscard]] std::string plan_text(const scenes::SceneFile& scene, const Plan& plan,
                                     std::span<const scenes::SceneModel> models,
                                     std::span<const scenes::ChangingObjects> changing);

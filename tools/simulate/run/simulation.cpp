@@ -34,15 +34,23 @@ bool are_equal(const Pose& p, const Pose& q) noexcept {
     return p.rotation() == q.rotation() && p.translation() == q.translation();
 }
 
+SceneLimits first_limits(const SceneFile& file, std::uint32_t threads) {
+    SceneLimits limits;
+    limits.objects = static_cast<std::uint32_t>(file.objects.size());
+    limits.threads = threads;
+    limits.pairs = file.most_pairs.value_or(static_cast<std::uint32_t>(
+        std::max<std::uint64_t>(kFirstPairs, kPairsPerObject * limits.objects)));
+    limits.triangle_pairs = limits.contacts = kFirstPairs;
+    return limits;
+}
+
 Simulation::Simulation(const SceneFile& file, std::span<const SceneModel> models,
                        std::uint32_t threads, ParallelFor parallel_for)
-    : file_(&file), models_(models), parallel_for_(parallel_for), workspaces_(threads) {
-    limits_.objects = static_cast<std::uint32_t>(file.objects.size());
-    limits_.threads = threads;
-    limits_.pairs = file.most_pairs.value_or(static_cast<std::uint32_t>(
-        std::max<std::uint64_t>(kFirstPairs, kPairsPerObject * limits_.objects)));
-    limits_.triangle_pairs = limits_.contacts = kFirstPairs;
-}
+    : file_(&file),
+      models_(models),
+      parallel_for_(parallel_for),
+      limits_(first_limits(file, threads)),
+      workspaces_(threads) {}
 
 Result<Simulation> Simulation::make(const SceneFile& file, std::span<const SceneModel> models,
                                     std::uint32_t threads, ParallelFor parallel_for,

@@ -24,6 +24,9 @@ enum class BodyPoses : std::uint8_t {
 /// Returns whether two poses have the same numbers.
 [[nodiscard]] bool are_equal(const Pose& p, const Pose& q) noexcept;
 
+/// Returns the room that a simulation begins with.
+[[nodiscard]] SceneLimits first_limits(const SceneFile& file, std::uint32_t threads);
+
 /// The objects of a scene file, moved from frame to frame.
 class Simulation {
 public:

@@ -14,6 +14,7 @@
 #include "scene_file/read_scene.h"
 #include "simulate/cost_table.h"
 #include "simulate/run/section_use.h"
+#include "simulate/run/unpaired_layers.h"
 #include "support/guarded_pages.h"
 #include "support/more_sections.h"
 #include "support/run_threads.h"
