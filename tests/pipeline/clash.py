@@ -441,10 +441,63 @@ def the_pairs(program, folder):
          summary["max_distance"] == 0.5, f"{summary}")
     found, summary = ask([], "overlap")
     must(found == [] and summary["objects"] == summary["pairs_possible"] == 0, f"{summary}")
+    # A pair that states no tolerance is not asked, and a sentence says so.
+    mixed = {"layers": ["b", "b"], "effects": ["collide"]}
+    found, summary = ask([mixed, near], "within")
+    must(found == oracle({"a", "b"}, "within", "--tolerance", 0.25) and found and
+         summary["objects"] == 16 and summary["pairs_possible"] == 64, f"{summary}")
+    told = run(program, "query", "within", "--scene", scene).stderr
+    must("pairs.json: 1 of 2 pairs of layers states no tolerance, and is not queried. Give "
+         "--tolerance to query all." in told, told)
+    found, summary = ask([mixed, near], "within", "--tolerance", 0.5)
+    must(summary["pairs_possible"] == 64 + 28 and
+         choose(found, {"b"}) == oracle({"b"}, "within", "--tolerance", 0.5), f"{summary}")
     # The sample's layers state a tolerance and a distance. The bolt begins 40 mm above.
     found, summary = clashes(program, "distance", SCENES / "assembly.json", "--max-distance", 50)
     must(len(found) == 1 and summary["models"] == 2, f"{found} {summary}")
     must(clashes(program, "within", SCENES / "assembly.json")[0] == [], "the bolt is not near yet")
+
+
+def the_crates(program, folder):
+    """By hand: of the pairs of layers one has a tolerance. One of its two crates lies on the
+    ground."""
+    found, summary = clashes(program, "within", SCENES / "crates.json")
+    must([(line["a"], line["b"]) for line in found] == [("ground", "sliding")], f"{found}")
+    must(summary["objects"] == 3 and summary["pairs_possible"] == 2 and
+         summary["tolerance"] == 0.25, f"{summary}")
+
+
+def the_thousand(program, folder):
+    """Cubes of edge 1 with parallel faces: their surfaces meet if they do, and the distance of
+    others is that of their boxes."""
+    scene = json.loads((SCENES / "thousand.json").read_text())
+    layers, places = {}, []
+    for entry in scene["objects"]:
+        start = entry.get("pose", {"translation": [0, 0, 0]})["translation"]
+        grid = entry["instances"]
+        for z, y, x in itertools.product(*map(range, reversed(grid["counts"]))):
+            layers.setdefault(entry["layer"], []).append(len(places))
+            places.append((f"{entry['name']}[{x},{y},{z}]", tuple(
+                s + i * d for s, i, d in zip(start, (x, y, z), grid["spacing"]))))
+    must(len(places) == 1000, f"{len(places)} crates")
+    gap = lambda p, q: math.hypot(*(max(0, abs(x - y) - 1) for x, y in zip(p, q)))
+    both = (("resting", "flying"), ("flying", "crossing"))
+    for effect, reach, paired in (("overlap", 0, both), ("within", 0.25, both[1:]),
+                                  ("distance", 0.5, both)):
+        oracle = [(a, b) for first, second in paired
+                  for a, b in itertools.product(layers[first], layers[second])
+                  if abs(places[a][1][0] - places[b][1][0]) <= 1 + reach
+                  and gap(places[a][1], places[b][1]) <= reach]
+        arguments = ["--max-distance", reach] if effect == "distance" else []
+        found, _ = clashes(program, effect, SCENES / "thousand.json", *arguments)
+        must([(line["a"], line["b"]) for line in found] ==
+             [(places[a][0], places[b][0]) for a, b in sorted(oracle)],
+             f"{effect}: {len(found)} clashes, not {len(oracle)}")
+        must(len(oracle) > 50, f"{effect}: {len(oracle)} clashes say little")
+        for line, (a, b) in zip(found, sorted(oracle)):
+            exact = gap(places[a][1], places[b][1])
+            must(effect != "distance" or
+                 line["lower"] - 1e-12 <= exact <= line["upper"] + 1e-12, f"{line} is not {exact}")
 
 
 def mistakes(program, folder):
@@ -484,7 +537,8 @@ def mistakes(program, folder):
         ("distance", [unserved], 2, ["crate.cdp.h5: its layer 'a' asks for distance",
                                      "--effects distance."]),
         ("within", [good], 2, ["good.glb states no tolerance. Give --tolerance."]),
-        ("within", [no_tolerance], 2, ["tolerance.json: pair 0 of layers states no tolerance"]),
+        ("within", [no_tolerance], 2, ["tolerance.json: no pair of layers states a tolerance. Give "
+                                       "--tolerance."]),
         ("within", [good, "--tolerance", -1], 2, ["--tolerance", "0 or more"]),
         ("distance", [good, "--max-distance", -1], 2, ["--max-distance", "0 or more"]),
         ("overlap", [good, "--pose", "1 0 0 0 1 0 0 0 1 0 0 0"], 2,
@@ -531,7 +585,8 @@ def an_interrupt(program, folder):
 def main():
     program = sys.argv[1]
     for check in (the_heap, the_distant_heap, the_default_distance, the_forms, the_transforms,
-                  the_names, the_touching, the_pairs, mistakes, an_interrupt):
+                  the_names, the_touching, the_pairs, the_crates, the_thousand, mistakes,
+                  an_interrupt):
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))
 

@@ -393,7 +393,8 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
         command
             .add_option("--tolerance", arguments.tolerance,
                         "Largest distance that counts as within, in model units. Required, unless "
-                        "the pairs of a scene state theirs")
+                        "the pairs of a scene state theirs; pairs that state none are then not "
+                        "queried")
             .type_name("DISTANCE")
             .check(zero_or_more())
             .group("Query");

@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <functional>
+#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "query/clash_report.h"
 #include "query/part_pairs.h"
 #include "scene_file/read_scene.h"
+#include "text/printable.h"
 
 namespace cdprep::cli {
 namespace {
@@ -97,8 +99,8 @@ private:
 
     // --- What the layers ask ---------------------------------------------------------
 
-    /// Makes every pair of layers ask for the effect of the command, and nothing else. Without
-    /// pairs in the file, every layer asks about every other and itself.
+    /// Makes every pair of layers that states what is asked ask for the effect of the command, and
+    /// nothing else. Without pairs in the file, every layer asks about every other and itself.
     std::optional<Error> choose_pairs() {
         std::vector<AskedPair>& pairs = scene().pairs;
         if (!scene().has_pairs) {
@@ -109,28 +111,49 @@ private:
                 }
             }
         }
+        std::size_t chosen = 0, silent = 0;
         for (std::size_t i = 0; i < pairs.size(); ++i) {
             // The plan drops a pair without effects.
             if (scene().has_pairs && pairs[i].asked.effects == Ask::nothing) continue;
             LayerPair asked = {.a = pairs[i].asked.a, .b = pairs[i].asked.b};
-            if (const auto error = choose(i, pairs[i].asked, asked)) return *error;
+            if (has_tolerance(pairs[i].asked)) {
+                choose(i, pairs[i].asked, asked);
+                ++chosen;
+            } else {
+                ++silent;
+            }
             pairs[i] = {.asked = asked};
         }
+        if (silent == 0) return std::nullopt;
+        if (chosen == 0) return no_tolerance();
+        std::cerr << "cdprep query: " << report::printable(scene().name) << ": " << silent << " of "
+                  << silent + chosen << " pairs of layers " << (silent == 1 ? "states" : "state")
+                  << " no tolerance, and " << (silent == 1 ? "is" : "are")
+                  << " not queried. Give --tolerance to query all.\n";
         return std::nullopt;
     }
 
+    /// Returns whether a pair of the file or the command line states the tolerance of `within`.
+    /// Other effects need none.
+    [[nodiscard]] bool has_tolerance(const LayerPair& file) const {
+        return effect() != Ask::within || question_.tolerance ||
+               contains(file.effects, Ask::within);
+    }
+
+    [[nodiscard]] Error no_tolerance() {
+        return {ErrorCode::bad_argument,
+                scene().name +
+                    (scene().has_pairs ? ": no pair of layers states a tolerance."
+                                       : " states no tolerance.") +
+                    " Give --tolerance."};
+    }
+
     /// Takes from the file what the command line leaves open.
-    std::optional<Error> choose(std::size_t number, const LayerPair& file, LayerPair& asked) {
+    void choose(std::size_t number, const LayerPair& file, LayerPair& asked) {
         const Body body = question_.body.value_or(file.body);
         asked.effects = effect();
         switch (effect()) {
             case Ask::within:
-                if (!question_.tolerance && !contains(file.effects, Ask::within)) {
-                    const std::string pair =
-                        scene().has_pairs ? ": pair " + std::to_string(number) + " of layers" : "";
-                    return Error{ErrorCode::bad_argument,
-                                 scene().name + pair + " states no tolerance. Give --tolerance."};
-                }
                 asked.tolerance = question_.tolerance.value_or(file.tolerance);
                 break;
             case Ask::distance:
@@ -147,7 +170,6 @@ private:
                 // Of solids, collide() decides whether one contains the other.
                 if (body == Body::solid) asked.effects = Ask::overlap | Ask::collide;
         }
-        return std::nullopt;
     }
 
     void set_default_reach() {
