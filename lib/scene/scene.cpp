@@ -286,6 +286,8 @@ std::uint64_t Scene::state_hash() const noexcept {
     add_stream(distances(), [&](const SceneDistance& found) {
         hash.add(found.distance.lower);
         hash.add(found.distance.upper);
+        // Which of the triangles that touch is found first depends on the instruction set.
+        if (found.distance.upper == 0) return;
         hash.add(found.distance.triangle_a, found.distance.triangle_b);
     });
     add_stream(contacts(), [&](const SceneContacts& found) {

@@ -218,8 +218,8 @@ struct Distance {
 ///
 /// If several pairs of triangles have the least `upper`, the result is the first in the order of
 /// (triangle_a, triangle_b). Pairs that are equally near in exact arithmetic may differ in the last
-/// bits of `upper`. Any of them may be the result, but always the same one. Through
-/// Structure::pieces, the result may be another pair of touching triangles.
+/// bits of `upper`. Any of them may be the result, but always the same one. If the surfaces touch,
+/// the result is a pair that touches. Which one depends on the instruction set and the structure.
 ///
 /// The interval contains the exact distance of the surfaces whose vertices transform_point() moved.
 /// Without permitted errors, its width is at most 1e-12 d + 1e-15 c (triangle_distance_laws_test).

@@ -261,9 +261,10 @@ public:
     /// Returns the object in a slot, or the id of no object if there is none.
     [[nodiscard]] CDPREP_API ObjectId object_at(std::uint32_t slot) const noexcept;
     /// Returns a hash of all hits, lists, distances, impacts and events. It leaves out witness
-    /// points, features, the points of manifolds and the bounds of impacts. It is equal for any
-    /// number of threads and any instruction set. Exceptions are answers of `haptic` and impacts
-    /// that are `near`: they may differ between instruction sets.
+    /// points, features, the points of manifolds and the bounds of impacts. Of distances that are
+    /// 0, it leaves out the triangles. It is equal for any number of threads and any instruction
+    /// set. Exceptions are answers of `haptic` and impacts that are `near`: they may differ between
+    /// instruction sets.
     [[nodiscard]] CDPREP_API std::uint64_t state_hash() const noexcept;
 
 private:

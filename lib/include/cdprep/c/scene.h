@@ -371,9 +371,9 @@ CDPREP_API int cdprep_scene_events(const cdprep_scene* scene, const cdprep_event
                                    size_t* count, cdprep_error* error);
 
 /* Stores a hash of these arrays, without nearest points, features, the points of manifolds and the
- * bounds of impacts. It is equal on every machine and for any number of lanes. Exceptions are
- * bounded distances and impacts that are CDPREP_IMPACT_NEAR: they may differ between instruction
- * sets. Takes O(elements) time. */
+ * bounds of impacts. Of distances that are 0, it leaves out the triangles. It is equal on every
+ * machine and for any number of lanes. Exceptions are bounded distances and impacts that are
+ * CDPREP_IMPACT_NEAR: they may differ between instruction sets. Takes O(elements) time. */
 CDPREP_API int cdprep_scene_hash(const cdprep_scene* scene, uint64_t* hash, cdprep_error* error);
 
 /* Indices into cdprep_counts.n for cdprep_scene_counts(). All but the first are of the last step
