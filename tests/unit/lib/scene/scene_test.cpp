@@ -331,19 +331,77 @@ TEST(Scene, ThreadsGiveTheSame) {
     }
 }
 
+/// The numbers of poses that no library's functions round: they are the same everywhere.
+Pose coarse_pose(std::mt19937& random) {
+    const auto number = [&] { return (static_cast<double>(random() % 2001) - 1000) / 256; };
+    const double w = number(), x = number(), y = number(), z = number();
+    const Double3 translation = {number(), number(), number()};
+    return Pose::from_quaternion(w == 0 ? 1 : w, x, y, z, translation).value();
+}
+
+/// A ball with dents.
+test::TestMesh rough_ball(std::mt19937& random) {
+    test::TestMesh mesh = test::icosphere(2);
+    for (Double3& p : mesh.positions) {
+        const double radius = 0.75 + static_cast<double>(random() % 65) / 256;
+        p = {radius * p.x, radius * p.y, radius * p.z};
+    }
+    return mesh;
+}
+
+// The constants are the answers of the reference kernels: CDPREP_KERNELS=scalar lib_scene_tests
+// --gtest_filter=Scene.StatesAreThoseOfTheReference prints them where they differ. The test runs
+// again with each instruction set (tests/unit/lib/CMakeLists.txt). A result that is meant to change
+// changes them all.
+TEST(Scene, StatesAreThoseOfTheReference) {
+    constexpr std::array<std::uint64_t, 4> kStates = {0x41444487c7a90f7f, 0x9378876356a2e656,
+                                                      0x9aaf3c1ee4661992, 0x30507f067d7e8b7f};
+    std::mt19937 random(31);
+    std::vector<test::OpenModel> models;
+    models.push_back(open_convex(test::icosphere(2)));
+    models.push_back(open_with_pieces(rough_ball(random)));
+    models.push_back(open_convex(test::moved_by(test::unit_cube(), 0.5, {0, 0, 0})));
+    const Plan plan = plan_for(80, 3000);
+    Scene scene(plan);
+    std::vector<Workspace> workspaces(1);
+    std::vector<ObjectId> objects;
+    for (std::uint32_t i = 0; i < 80; ++i) {
+        objects.push_back(*scene.add({&models[i % 3].model, i / 3 % 3, coarse_pose(random)}));
+    }
+    for (const std::uint64_t state : kStates) {
+        ASSERT_TRUE(scene.step(workspaces).complete);
+        EXPECT_EQ(scene.state_hash(), state) << std::hex << scene.state_hash();
+        EXPECT_GT(scene.hits().size(), 50U);
+        EXPECT_GT(scene.overlaps().size(), 5U);
+        EXPECT_GT(scene.distances().size(), 5U);
+        EXPECT_GT(scene.contacts().size(), 5U);
+        for (int i = 0; i < 20; ++i) {
+            EXPECT_TRUE(scene.set_pose(objects[random() % 80], coarse_pose(random)));
+        }
+    }
+}
+
+bool are_same(const SceneHit& x, const SceneHit& y) {
+    const Containment &p = x.collision.containment, &q = y.collision.containment;
+    return x.a == y.a && x.b == y.b && x.pair == y.pair && x.holds == y.holds &&
+           x.collision.hit == y.collision.hit && p.answer == q.answer && p.winding == q.winding &&
+           p.a_inside_b == q.a_inside_b;
+}
+
 TEST(Scene, AStepWithoutChangesAsksNothing) {
     const Plan plan = plan_for(30, 500);
     World world(7, plan);
     for (int i = 0; i < 30; ++i) world.add();
     ASSERT_TRUE(world.step().complete);
-    const std::size_t hits = world.scene().hits().size();
-    EXPECT_GT(hits, 0U);
+    const std::vector<SceneHit> hits(world.scene().hits().begin(), world.scene().hits().end());
+    EXPECT_GT(hits.size(), 0U);
     EXPECT_GT(world.scene().counts().calls_of(Ask::collide), 0U);
     EXPECT_GT(world.scene().counts().triangle_pairs, 0U);
     const std::uint64_t triangle_pairs = world.scene().counts().triangle_pairs;
     const std::uint64_t contacts = world.scene().counts().contacts;
     ASSERT_TRUE(world.step().complete);
-    EXPECT_EQ(world.scene().hits().size(), hits);
+    EXPECT_TRUE(std::ranges::equal(world.scene().hits(), hits, are_same));
+    world.expect_single_answers();
     for (const SceneEvent& event : world.scene().events()) {
         EXPECT_EQ(event.kind, EventKind::stays);
         EXPECT_EQ(event.reason, EventReason::unchanged);
