@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +57,108 @@ std::vector<WorldBox> grid_boxes(std::size_t count, std::uint32_t seed) {
         }
     }
     return boxes;
+}
+
+bool boxes_meet(const WorldBox& a, const WorldBox& b) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis]) return false;
+    }
+    return true;
+}
+
+/// Plain spatial hashing: boxes in the cells of a grid, and the pairs of each cell. Another way to
+/// the same pairs, for more boxes than can be compared each with each.
+class SpatialHash {
+public:
+    explicit SpatialHash(std::span<const WorldBox> boxes)
+        : boxes_(boxes), buckets_(2 * boxes.size() + 1) {
+        double edges = 0;
+        for (const WorldBox& box : boxes) edges += double{box.upper[0]} - box.lower[0];
+        edge_ = 2 * edges / static_cast<double>(boxes.size());
+        for (std::uint32_t i = 0; i < boxes.size(); ++i) add(i);
+    }
+    [[nodiscard]] Pairs pairs() const {
+        Pairs pairs;
+        for (const std::vector<Entry>& bucket : buckets_) {
+            for (std::size_t i = 0; i < bucket.size(); ++i) {
+                for (std::size_t j = 0; j < i; ++j) add_pair(bucket[j], bucket[i], pairs);
+            }
+        }
+        std::sort(pairs.begin(), pairs.end());
+        return pairs;
+    }
+
+private:
+    using Cell = std::array<std::int64_t, 3>;
+    struct Entry {
+        Cell cell;
+        std::uint32_t box;
+    };
+
+    [[nodiscard]] Cell cell_of(const float* corner) const {
+        const auto place = [&](std::size_t axis) {
+            return static_cast<std::int64_t>(std::floor(corner[axis] / edge_));
+        };
+        return {place(0), place(1), place(2)};
+    }
+    void add(std::uint32_t number) {
+        const Cell first = cell_of(boxes_[number].lower), last = cell_of(boxes_[number].upper);
+        Cell cell = first;
+        for (cell[2] = first[2]; cell[2] <= last[2]; ++cell[2]) {
+            for (cell[1] = first[1]; cell[1] <= last[1]; ++cell[1]) {
+                for (cell[0] = first[0]; cell[0] <= last[0]; ++cell[0]) {
+                    bucket_of(cell).push_back({cell, number});
+                }
+            }
+        }
+    }
+    [[nodiscard]] std::vector<Entry>& bucket_of(const Cell& cell) {
+        const auto mixed = static_cast<std::uint64_t>(cell[0]) * 73856093U ^
+                           static_cast<std::uint64_t>(cell[1]) * 19349663U ^
+                           static_cast<std::uint64_t>(cell[2]) * 83492791U;
+        return buckets_[mixed % buckets_.size()];
+    }
+    /// Two boxes that meet share cells; the first of them in all three directions has the pair.
+    void add_pair(const Entry& a, const Entry& b, Pairs& pairs) const {
+        if (a.cell != b.cell || !boxes_meet(boxes_[a.box], boxes_[b.box])) return;
+        const Cell at = cell_of(boxes_[a.box].lower), to = cell_of(boxes_[b.box].lower);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (a.cell[axis] != std::max(at[axis], to[axis])) return;
+        }
+        pairs.push_back({a.box, b.box});
+    }
+
+    std::span<const WorldBox> boxes_;
+    std::vector<std::vector<Entry>> buckets_;
+    double edge_ = 0;  ///< of a cell: twice the mean edge of a box
+};
+
+// Both ways of an update: pairs that are kept, and walks over all.
+TEST(BroadPhase, EqualsSpatialHashing) {
+    for (const test::BoxScene scene : test::kBoxScenes) {
+        for (const std::size_t count : {1000, 10'000, 30'000}) {
+            SCOPED_TRACE(std::string(test::name_of(scene)) + " " + std::to_string(count));
+            test::MovingBoxes boxes(scene, count, 43);
+            BroadPhase all = made_for(count, 40 * count), some = made_for(count, 40 * count);
+            ASSERT_TRUE(some.update(boxes.boxes()).complete);
+            std::size_t most = 0;
+            for (int step = 0; step < 7; ++step) {
+                const Pairs found = pairs_of(all.update(boxes.boxes()));
+                const Pairs of_moved =
+                    pairs_of(some.update_moved(boxes.boxes(), {}, boxes.moved()));
+                ASSERT_TRUE(found == of_moved);
+                if (step % 3 == 0) {
+                    ASSERT_TRUE(found == SpatialHash(boxes.boxes()).pairs());
+                    if (count == 1000) {
+                        ASSERT_TRUE(found == test::brute_force_pairs(boxes.boxes()));
+                    }
+                }
+                most = std::max(most, found.size());
+                boxes.step();
+            }
+            ASSERT_GT(most, count / 4);
+        }
+    }
 }
 
 TEST(BroadPhase, EqualsBruteForceAsBoxesMove) {
