@@ -474,7 +474,10 @@ std::string Plan::models_text() const {
         const std::vector<std::string> names = names_in(layer_names_, alike);
         text += (names.size() == 1 ? "models of layer " : "models of layers ") + list_of(names) +
                 " must serve " + asks_text(asks) +
-                "; no sections are read but: " + sections_text(sections_for(asks)) + "\n";
+                "; no sections are read but: " + sections_text(sections_for(asks)) +
+                ((layers_of(kSceneChanges) & alike) == 0
+                     ? "\n"
+                     : "; models that deform or tear must serve that too\n");
     }
     return text;
 }

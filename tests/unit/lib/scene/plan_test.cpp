@@ -32,6 +32,13 @@ std::string effects_of(const Plan& plan) {
     return text.substr(0, std::min(text.find("models of layer"), text.find("the state of")));
 }
 
+/// The line of a text that begins so, or nothing.
+std::string line_of(const std::string& text, const std::string& begin) {
+    const std::size_t at = text.find("\n" + begin);
+    if (at == std::string::npos) return {};
+    return text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+}
+
 TEST(Plan, DropsWhatNobodyAsksFor) {
     const Plan::Compiled made = compiled({{.a = 0, .b = 1, .effects = Ask::collide},
                                           {.a = 2, .b = 2, .effects = Ask::nothing},
@@ -203,6 +210,12 @@ TEST(Plan, DescribesMotionsChangesAndSingleObjects) {
               "layers that are never looked at together: 0 and 0, 0 and 2, 0 and 3, 1 and 2, 1 "
               "and 3, 3 and 3\n");
     const Plan& plan = *made.plan;
+    // Layers 0 and 1 have models that change, 2 and 3 have none.
+    const std::string text = plan.describe();
+    EXPECT_TRUE(line_of(text, "models of layer 0 must").ends_with("must serve that too"));
+    EXPECT_TRUE(line_of(text, "models of layer 1 must").ends_with("must serve that too"));
+    EXPECT_EQ(line_of(text, "models of layer 2 must").find("that too"), std::string::npos);
+    EXPECT_GT(line_of(text, "models of layer 3 must serve haptic;").size(), 50U);
     EXPECT_EQ(plan.effects(), Ask::self | Ask::deform | Ask::tear | Ask::collide | Ask::overlap |
                                   Ask::continuous | Ask::haptic);
     // A rigid partner of a model that tears need not serve that.
@@ -300,13 +313,6 @@ TEST(Plan, TellsLayersInNoPair) {
               "layers that are never looked at together: 'floor' and 'floor', 'floor' and 2, "
               "'crates' and 'crates', 'crates' and 2, 2 and 2\n"
               "layers in no pair, whose objects are never looked at: 'debris', 9 and 31\n");
-}
-
-/// The line of a text that begins so, or nothing.
-std::string line_of(const std::string& text, const std::string& begin) {
-    const std::size_t at = text.find("\n" + begin);
-    if (at == std::string::npos) return {};
-    return text.substr(at + 1, text.find('\n', at + 1) - at - 1);
 }
 
 // The sections are those of the table of needs: each name is told, and no other.
