@@ -3,8 +3,10 @@
 // Tested with the npm package @babylonjs/havok 1.3.14. Havok builds its own hulls from the points.
 // It joins points that are some millimetres apart, so hulls are built large and scaled down. It
 // leaves a gap under bodies that are scaled by less than about a thousandth.
+import { massOf } from './mass.mjs';
+
 export function havokBody(havok, colliders, density) {
-    const unit = colliders.metres_per_unit ?? 1;
+    const unit = colliders.metres_per_unit ?? 1, mass = massOf(colliders, density);
     const container = havok.HP_Shape_CreateContainer()[1];
     for (const piece of colliders.pieces) {
         const size = unit * piece.points.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
@@ -20,11 +22,9 @@ export function havokBody(havok, colliders, density) {
     const body = havok.HP_Body_Create()[1];
     havok.HP_Body_SetShape(body, container);
     havok.HP_Body_SetMotionType(body, havok.MotionType.DYNAMIC);
-    const [, mass] = havok.HP_Shape_BuildMassProperties(container);
-    if (colliders.mass?.closed) {  // of the mesh; the inertia, for a mass of 1, is of the pieces
-        mass[0] = colliders.mass.centre.map((x) => unit * x);
-        mass[1] = density * unit ** 3 * colliders.mass.volume;
-    }
-    havok.HP_Body_SetMassProperties(body, mass);
+    const ofPieces = havok.HP_Shape_BuildMassProperties(container)[1];
+    havok.HP_Body_SetMassProperties(
+        body, mass ? [mass.centre, mass.mass, mass.moments.map((x) => x / mass.mass), mass.axes]
+                   : ofPieces);  // the inertia is for a mass of 1
     return body;
 }

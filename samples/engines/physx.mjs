@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
 // A moving body of PhysX from the JSON of `cdprep export NAME.cdp.h5 --for json`.
 // Tested with the npm package physx-js-webidl 2.7.3 (PhysX 5.6.1). PhysX cooks its own hulls from
-// the points, at most 255 for each. It would drop points nearer to a face than planeTolerance.
+// the points, at most 255 for each. By default it drops points that stand out by less than 0.0007
+// of half the sum of a hull's sides, but at least by less than 0.0007: PxTolerancesScale does
+// not change that. So hulls smaller than 1 are cooked larger, and scaled down.
+import { massOf } from './mass.mjs';
+
 export function physxBody(PhysX, physics, colliders, density, material, filter) {
-    const unit = colliders.metres_per_unit ?? 1;
+    const unit = colliders.metres_per_unit ?? 1, mass = massOf(colliders, density);
     const body = physics.createRigidDynamic(new PhysX.PxTransform(PhysX.PxIDENTITYEnum.PxIdentity));
     const params = new PhysX.PxCookingParams(physics.getTolerancesScale());
-    params.planeTolerance = 0;
     for (const { name, points } of colliders.pieces) {
+        const scale = Math.min(1, unit * halfSize(points));
         const list = new PhysX.PxArray_PxVec3(points.length / 3), p = new PhysX.PxVec3();
         for (let i = 0; i < points.length; i += 3) {
-            [p.x, p.y, p.z] = points.slice(i, i + 3).map((x) => unit * x);
+            [p.x, p.y, p.z] = points.slice(i, i + 3).map((x) => unit / scale * x);
             list.set(i / 3, p);
         }
         const hull = new PhysX.PxConvexMeshDesc();
@@ -20,16 +24,27 @@ export function physxBody(PhysX, physics, colliders, density, material, filter) 
         hull.points.data = list.begin();
         const mesh = PhysX.PxTopLevelFunctions.prototype.CreateConvexMesh(params, hull);
         if (!mesh?.ptr) throw new Error(`${colliders.name}: PhysX refuses ${name}`);
-        const shape = physics.createShape(new PhysX.PxConvexMeshGeometry(mesh), material, true);
+        const scaled = new PhysX.PxConvexMeshGeometry(mesh, new PhysX.PxMeshScale(scale));
+        const shape = physics.createShape(scaled, material, true);
         shape.setSimulationFilterData(filter);
         body.attachShape(shape);
     }
-    const masses = PhysX.PxRigidBodyExt.prototype;
-    if (colliders.mass?.closed) {  // of the mesh; the inertia is that of the pieces
-        const centre = new PhysX.PxVec3(...colliders.mass.centre.map((x) => unit * x));
-        masses.setMassAndUpdateInertia(body, density * unit ** 3 * colliders.mass.volume, centre);
+    if (mass) {
+        body.setMass(mass.mass);
+        body.setMassSpaceInertiaTensor(new PhysX.PxVec3(...mass.moments));
+        body.setCMassLocalPose(new PhysX.PxTransform(new PhysX.PxVec3(...mass.centre),
+                                                     new PhysX.PxQuat(...mass.axes)));
     } else {
-        masses.updateMassAndInertia(body, density);
+        PhysX.PxRigidBodyExt.prototype.updateMassAndInertia(body, density);
     }
     return body;
+}
+
+/** Half the sum of the sides of the box of points. */
+function halfSize(points) {
+    const sides = [0, 1, 2].map((k) => {
+        const values = points.filter((_, i) => i % 3 === k);
+        return Math.max(...values) - Math.min(...values);
+    });
+    return (sides[0] + sides[1] + sides[2]) / 2;
 }

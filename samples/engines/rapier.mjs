@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: MIT
 // A moving body of Rapier from the JSON of `cdprep export NAME.cdp.h5 --for json`.
-// Tested with the npm package @dimforge/rapier3d-compat 0.21.0. convexMesh() takes the triangles
-// as they are, and merges only what lies in one plane. convexHull() would build hulls again.
+// Tested with the npm package @dimforge/rapier3d-compat 0.21.0. Rapier builds its own hulls from
+// the points. convexMesh(points, triangles) would take the hulls as they are, and is faster.
+import { massOf } from './mass.mjs';
+
 export function rapierBody(RAPIER, world, colliders, density) {
-    const unit = colliders.metres_per_unit ?? 1;
-    const body = world.createRigidBody(RAPIER.RigidBodyDesc.dynamic());
-    const ofPieces = colliders.pieces.reduce((sum, piece) => sum + piece.volume, 0);
-    const volume = colliders.mass?.closed ? colliders.mass.volume : ofPieces;
-    for (const piece of colliders.pieces) {
-        const points = Float32Array.from(piece.points, (x) => unit * x);
-        const shape = RAPIER.ColliderDesc.convexMesh(points, Uint32Array.from(piece.triangles));
-        if (!shape) throw new Error(`${colliders.name}: Rapier refuses ${piece.name}`);
-        shape.setMass(density * unit ** 3 * volume * piece.volume / ofPieces);
+    const unit = colliders.metres_per_unit ?? 1, mass = massOf(colliders, density);
+    const vector = ([x, y, z]) => ({ x, y, z });
+    const description = RAPIER.RigidBodyDesc.dynamic();
+    if (mass) {
+        const [x, y, z, w] = mass.axes;
+        description.setAdditionalMassProperties(mass.mass, vector(mass.centre),
+                                                vector(mass.moments), { x, y, z, w });
+    }
+    const body = world.createRigidBody(description);
+    for (const { name, points } of colliders.pieces) {
+        const shape = RAPIER.ColliderDesc.convexHull(Float32Array.from(points, (x) => unit * x));
+        if (!shape) throw new Error(`${colliders.name}: Rapier refuses ${name}`);
+        shape.setDensity(mass ? 0 : density);
         world.createCollider(shape, body);
     }
     return body;
