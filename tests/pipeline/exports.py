@@ -100,6 +100,14 @@ def read_with(reader, path):
     return json.loads(done.stdout)
 
 
+def node_scales(path):
+    """The scales of the nodes of a GLB, by name; without those that have none."""
+    data = path.read_bytes()
+    size, = struct.unpack_from("<I", data, 12)
+    nodes = json.loads(data[20:20 + size])["nodes"]
+    return {node["name"]: node["scale"][0] for node in nodes if "scale" in node}
+
+
 def colliders(program, model, folder, *options):
     """The colliders of a model as JSON, and the report."""
     output = folder / "colliders.json"
@@ -184,7 +192,8 @@ def check_json(program, folder, model):
 
 
 def check_glb(program, reader, folder, model, pieces):
-    """Nodes have the names that engines know, and corners are those of the JSON in metres, y up."""
+    """Nodes have the names that engines know, and corners are those of the JSON in metres, y up.
+    Unity cooks meshes before nodes scale them: those that are small are written larger."""
     for engine in GLB:
         output = folder / f"{engine}.glb"
         report, said = export(program, model, engine, output)
@@ -198,10 +207,17 @@ def check_glb(program, reader, folder, model, pieces):
         must(all((p["parent"] == "colliders") == (engine == "unity") for p in found[1:]),
              f"{engine}: {[p['parent'] for p in found]}")
         must(len(found[0]["facets"]) == len(l_prism()[1]), f"{engine}: {len(found[0]['facets'])}")
+        scales = node_scales(output)
+        must(set(scales) == (set(names) if engine == "unity" else set()), f"{engine}: {scales}")
         for part, piece in zip(found[1:], pieces):
+            half = sum(max(p[k] for p in part["vertices"]) - min(p[k] for p in part["vertices"])
+                       for k in range(3)) / 2
+            must(engine != "unity" or 1 <= half < 2, f"{engine}: {part['name']} is {half} large")
+            scale = scales.get(part["name"], 1)
             wanted = {tuple(map(to_float, (x * .001, z * .001, -y * .001)))
                       for x, y, z in points_of(piece)}
-            must({tuple(p) for p in part["vertices"]} == wanted, f"{engine}: {part['name']}")
+            must({tuple(scale * x for x in p) for p in part["vertices"]} == wanted,
+                 f"{engine}: {part['name']}")
         alone, _ = (export(program, model, engine, output, "--no-visual") if engine != "unreal"
                     else (None, None))
         if alone:
@@ -240,6 +256,49 @@ def check_import_knows_tags(program, folder):
         must(done.returncode == (1 if count == 1 else 0), f"{name}: {done.stderr}")
         rows = [r for r in json.loads(done.stdout)["table"] if r.get("node", "").endswith(name)]
         must(len(rows) == count, f"{name}: {rows}")
+
+
+def baked_mesh(program, source, folder, *options):
+    """The report of a bake of a mesh file, and its volume in cubic metres."""
+    model = folder / "again.cdp.h5"
+    report = bake(program, source, "-o", model, "--structures", "hull", *options)
+    found, _ = colliders(program, model, folder)
+    return report, found["metres_per_unit"] ** 3 * found["mass"]["volume"]
+
+
+def check_bake_leaves_colliders_out(program, folder):
+    """What bake and validate read of an exported bolt is the bolt: its parts are left out, and
+    named. They are not the bolt: its thread has grooves."""
+    bolt = folder / "thread.cdp.h5"
+    bake(program, SAMPLES / "bolt.obj", "-o", bolt, "--structures", "hull", "--max-error", 0.5,
+         "--unit", "mm")
+    kept, _ = colliders(program, bolt, folder)
+    wanted, triangles = 1e-9 * kept["mass"]["volume"], 212
+    of_parts = 1e-9 * sum(piece["volume"] for piece in kept["pieces"])
+    must(of_parts > 1.01 * wanted, f"{of_parts} is the volume of the bolt too")
+    names = {"godot": "left_godot_00-convcolonly", "unreal": "UCX_left_unreal_00",
+             "unity": "colliders/left_unity_00"}
+    for engine, name in names.items():
+        output = folder / f"left_{engine}.glb"
+        export(program, bolt, engine, output)
+        report, volume = baked_mesh(program, output, folder)
+        must(report["triangles"] == triangles and near([volume], [wanted], 1e-6),
+             f"{engine}: {volume}, not {wanted}: {report}")
+        said = " ".join(report["remarks"])
+        must("2 colliders were left out" in said and name in said, f"{engine}: {said}")
+        whole, volume = baked_mesh(program, output, folder, "--with-colliders")
+        must(whole["triangles"] > triangles and "remarks" not in whole, f"{engine}: {whole}")
+        must(near([volume], [wanted + of_parts], 1e-4), f"{engine}: {volume} with the parts")
+        for options, count in (((), triangles), (("--with-colliders",), whole["triangles"])):
+            done = run(program, "validate", output, "--format", "json", *options)
+            found, = json.loads(done.stdout)["files"]
+            must(found["triangles"] == count, f"{engine}: {found['triangles']} triangles")
+            told = "colliders were left out" in " ".join(found.get("remarks", []))
+            must(told == (not options), f"{engine}: {found.get('remarks')}")
+    output = folder / "alone.glb"
+    export(program, bolt, "godot", output, "--no-visual")
+    report, volume = baked_mesh(program, output, folder)
+    must("remarks" not in report and near([volume], [of_parts], 1e-4), f"{report}")
 
 
 def check_robots(program, reader, folder, model, pieces):
@@ -459,6 +518,7 @@ def main():
         check_glb(program, reader, folder, model, found["pieces"])
         check_import_knows_names(program, folder, model, found["pieces"])
         check_import_knows_tags(program, folder)
+        check_bake_leaves_colliders_out(program, folder)
         check_robots(program, reader, folder, model, found["pieces"])
         check_mujoco(program, reader, folder, model)
         check_points_are_dropped(program, folder)

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "bake/pipeline.h"
+#include "cli/colliders.h"
 #include "cli/command.h"
 #include "cli/import_arguments.h"
 #include "cli/progress.h"
@@ -34,6 +35,7 @@ struct Arguments {
     bool timings = false;
     bool dry_run = false;
     ImportArguments import;
+    bool with_colliders = false;
     StructureArguments structures;
     BakeOptions options;
 };
@@ -84,12 +86,41 @@ Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
     return outputs;
 }
 
+/// Returns what is left without colliders, for the provenance.
+std::string part_without(const std::vector<std::string>& colliders) {
+    std::string part;
+    for (const std::string& path : colliders) part += (part.empty() ? "without " : ", ") + path;
+    return part;
+}
+
+/// Bakes one file without its colliders, unless the arguments keep them.
+Result<report::BakeReport> bake_shown(const fs::path& input, const fs::path& output,
+                                      const Arguments& arguments, const Threads& threads,
+                                      const std::function<void(const char*)>& begins) {
+    if (arguments.with_colliders) {
+        return bake(input, output, arguments.options, threads, begins);
+    }
+    BakeOptions options = arguments.options;
+    std::vector<std::string> colliders;
+    options.read = [&](const fs::path& path, const import::ImportOptions& limits) {
+        Result<mesh::TriangleSoup> soup = import::import_file(path, limits);
+        if (soup) colliders = leave_out_colliders(*soup);
+        options.part = part_without(colliders);
+        return soup;
+    };
+    Result<report::BakeReport> baked = bake(input, output, options, threads, begins);
+    if (baked && !colliders.empty()) {
+        baked->remarks.insert(baked->remarks.begin(), left_out_text(colliders));
+    }
+    return baked;
+}
+
 /// Bakes one file. Returns exceptions as errors.
 Result<report::BakeReport> bake_one(const fs::path& input, const fs::path& output,
                                     const Arguments& arguments, const Threads& threads,
                                     const std::function<void(const char*)>& begins) {
     try {
-        return bake(input, output, arguments.options, threads, begins);
+        return bake_shown(input, output, arguments, threads, begins);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::over_budget,
                      input.string() + ": needs more memory than the machine has."};
@@ -235,7 +266,10 @@ void add_bake(const Command& app, Exit& exit) {
     const Command command = app.add_command("bake", "Convert mesh files to baked files");
     command.set_notes(
         "The same input, options and version give the same sections, byte for byte. Answers "
-        "never depend on --bounds, --structures or their options: those change speed alone.",
+        "never depend on --bounds, --structures or their options: those change speed alone.\n\n"
+        "Nodes and groups that are colliders of an engine are left out, and named: UCX_..., "
+        "UBX_..., USP_..., UCP_..., ...-colonly, ...-convcolonly, and all below a node named "
+        "colliders. Triangles and vertices are then numbered without them.",
         {"cdprep bake arm.glb", "cdprep bake *.obj --output-dir baked --effects all",
          "cdprep bake scan.ply --repair solid --unit mm"});
     command
@@ -260,6 +294,7 @@ void add_bake(const Command& app, Exit& exit) {
     add_jobs(command, arguments->threads);
     add_progress(command, arguments->progress);
     add_import_arguments(command, arguments->import);
+    add_with_colliders(command, arguments->with_colliders);
     command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 

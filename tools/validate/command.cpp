@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 
+#include "cli/colliders.h"
 #include "cli/colour.h"
 #include "cli/command.h"
 #include "cli/import_arguments.h"
@@ -59,6 +60,7 @@ struct ValidateArguments {
     bool null = false;
     bool no_crossings = false;
     ImportArguments import;
+    bool with_colliders = false;
     ValidationOptions options;
 };
 
@@ -242,6 +244,7 @@ Result<Done> settle(ValidateArguments& arguments) {
     run.coloured = arguments.output.empty() && is_coloured(arguments.colour);
     run.max_pairs = defects.max_pairs;
     arguments.options.import = arguments.import.options();
+    arguments.options.leaves_out_colliders = !arguments.with_colliders;
     return Done{};
 }
 
@@ -335,7 +338,9 @@ void add_validate(const Command& app, Exit& exit) {
     const Command command = app.add_command("validate", "Report defects of meshes");
     command.set_notes(
         "Triangles and vertices are numbered from 0, as in the file. Without --fail-on the "
-        "exit code is 1 when an error was found.",
+        "exit code is 1 when an error was found.\n\n"
+        "Nodes and groups that are colliders of an engine are left out, as by 'cdprep bake'. "
+        "Triangles and vertices are then numbered without them.",
         {"cdprep validate model.obj", "cdprep validate assets --format sarif -o meshes.sarif",
          "git diff --name-only -z main | cdprep validate --files-from - -0",
          "cdprep validate scan.ply --html scan.html"});
@@ -371,6 +376,7 @@ void add_validate(const Command& app, Exit& exit) {
     add_progress(command, arguments->progress);
     add_colour(command, arguments->colour);
     add_import_arguments(command, arguments->import);
+    add_with_colliders(command, arguments->with_colliders);
     command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 

@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "cli/colliders.h"
 #include "cli/command.h"
 #include "cli/signals.h"
 #include "text/file_uri.h"
@@ -67,6 +68,10 @@ void examine(Validation& result, const Input& input, const ValidationOptions& op
     if (!imported) return fail(report, imported.error(), known);
     if (is_interrupted()) return;
     result.soup = std::move(imported).value();
+    if (options.leaves_out_colliders) {
+        const std::vector<std::string> colliders = leave_out_colliders(result.soup);
+        if (!colliders.empty()) report.remarks.push_back(left_out_text(colliders));
+    }
     const mesh::TriangleSoup& soup = result.soup;
     report.triangles = soup.triangles.size();
     report.vertices = soup.positions.size();

@@ -17,6 +17,7 @@ namespace cdprep::cli {
 struct ValidationOptions {
     mesh::DefectOptions defects;  ///< max_places, stop and parallel_for are set by validate()
     import::ImportOptions import;
+    bool leaves_out_colliders = false;  ///< as leave_out_colliders() does
     report::ValidationRun run;
     std::size_t kept_places = 0;                 ///< per finding, for reports written later
     const report::Baseline* baseline = nullptr;  ///< null: all findings are new
