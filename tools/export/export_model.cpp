@@ -107,7 +107,7 @@ double diagonal_of(std::span<const Double3> points) {
 void drop_low_points(Body& body, const EngineForm& form, bool keeps_points, const Threads& threads,
                      report::ExportReport& report) {
     const double least_size =
-        report.metres_per_unit > 0 ? form.least_size / report.metres_per_unit : 0;
+        form.least_size / (report.metres_per_unit > 0 ? report.metres_per_unit : 1);
     const double stated = *std::max_element(body.errors.begin(), body.errors.end());
     std::vector<convex::DroppedPoints> dropped(body.parts.size());
     threads.parallel_for()(body.parts.size(), [&](std::size_t i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -102,7 +103,31 @@ std::size_t add_node(Glb& glb, const std::string& name, std::span<const Double3>
     return append(glb.document, "nodes", {{"name", name}, {"mesh", mesh}});
 }
 
-/// Adds the shown mesh, then the hulls, which may have a node above them.
+/// Returns the power of two that makes a hull at least 1 and less than 2 large, but at most 1.
+/// Unity cooks a mesh before its node scales it, and PhysX drops points of smaller hulls by an
+/// absolute height: 0.0007. The size is half the sum of the sides of the box.
+double node_scale(std::span<const Double3> points) {
+    if (points.empty()) return 1;
+    Double3 lower = points.front(), upper = lower;
+    for (const Double3& p : points) {
+        lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
+        upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+    }
+    const double size = (upper.x - lower.x) / 2 + (upper.y - lower.y) / 2 + (upper.z - lower.z) / 2;
+    return size > 0 ? std::min(1.0, std::ldexp(1.0, std::ilogb(size))) : 1;
+}
+
+/// Adds a node whose mesh is written larger where node_scale() is less than 1.
+std::size_t add_scaled_node(Glb& glb, const HullArrays& hull) {
+    const double scale = node_scale(hull.points);
+    std::vector<Double3> points;
+    for (const Double3& p : hull.points) points.push_back({p.x / scale, p.y / scale, p.z / scale});
+    const std::size_t node = add_node(glb, hull.name, points, hull.facets);
+    if (scale < 1) glb.document["nodes"][node]["scale"] = Json::array({scale, scale, scale});
+    return node;
+}
+
+/// Adds the shown mesh, then the hulls, which may have a node above them. Those are for Unity.
 void add_nodes(Glb& glb, const RobotFile& file) {
     std::vector<std::size_t> roots;
     if (file.options.visual) {
@@ -110,10 +135,12 @@ void add_nodes(Glb& glb, const RobotFile& file) {
         roots.push_back(add_node(glb, file.name, shown.positions, shown.triangles));
     }
     std::vector<std::size_t> hulls;
+    const bool is_below_node = !file.options.hulls_node.empty();
     for (const HullArrays& hull : file.hulls) {
-        hulls.push_back(add_node(glb, hull.name, hull.points, hull.facets));
+        hulls.push_back(is_below_node ? add_scaled_node(glb, hull)
+                                      : add_node(glb, hull.name, hull.points, hull.facets));
     }
-    if (!hulls.empty() && !file.options.hulls_node.empty()) {
+    if (!hulls.empty() && is_below_node) {
         hulls = {append(glb.document, "nodes",
                         {{"name", file.options.hulls_node}, {"children", hulls}})};
     }
