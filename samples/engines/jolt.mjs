@@ -3,10 +3,11 @@
 // Tested with the npm package jolt-physics 1.1.0. Jolt builds its own hulls from the points. Its
 // tolerances are metres, and would lose points of small pieces or refuse them. So each hull is
 // built 100 metres large, and scaled down. Bodies much smaller than a metre also need a
-// smaller mPenetrationSlop and mSpeculativeContactDistance than those of Jolt.
+// smaller mPenetrationSlop and mSpeculativeContactDistance than those of Jolt. It
+// takes inertia below some 1e-6 kg m^2 for none, and uses that of a sphere: so the body gets it.
 import { massOf } from './mass.mjs';
 
-export function joltBody(Jolt, colliders, density, position, layer) {
+export function joltBody(Jolt, bodies, colliders, density, position, layer) {
     const unit = colliders.metres_per_unit ?? 1, mass = massOf(colliders, density);
     const turn = Jolt.Quat.prototype.sIdentity(), p = new Jolt.Vec3(0, 0, 0);
     const compound = new Jolt.StaticCompoundShapeSettings();
@@ -30,15 +31,16 @@ export function joltBody(Jolt, colliders, density, position, layer) {
         p.Set(x - at.GetX(), y - at.GetY(), z - at.GetZ());
         shape = new Jolt.OffsetCenterOfMassShape(shape, p);
     }
-    const body = new Jolt.BodyCreationSettings(shape, position, turn, Jolt.EMotionType_Dynamic,
-                                               layer);
+    const settings = new Jolt.BodyCreationSettings(shape, position, turn,
+                                                   Jolt.EMotionType_Dynamic, layer);
     if (mass) {
-        body.mOverrideMassProperties = Jolt.EOverrideMassProperties_MassAndInertiaProvided;
-        body.mMassPropertiesOverride.mMass = mass.mass;
-        mass.inertia.forEach((column, i) => {
-            p.Set(...column);
-            body.mMassPropertiesOverride.mInertia.SetColumn3(i, p);
-        });
+        settings.mOverrideMassProperties = Jolt.EOverrideMassProperties_CalculateInertia;
+        settings.mMassPropertiesOverride.mMass = mass.mass;
+    }
+    const body = bodies.CreateBody(settings);
+    if (mass) {
+        p.Set(...mass.moments.map((x) => 1 / x));
+        body.GetMotionProperties().SetInverseInertia(p, new Jolt.Quat(...mass.axes));
     }
     return body;
 }

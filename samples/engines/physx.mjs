@@ -2,8 +2,8 @@
 // A moving body of PhysX from the JSON of `cdprep export NAME.cdp.h5 --for json`.
 // Tested with the npm package physx-js-webidl 2.7.3 (PhysX 5.6.1). PhysX cooks its own hulls from
 // the points, at most 255 for each. By default it drops points that stand out by less than 0.0007
-// of half the sum of a hull's sides, but at least by less than 0.0007: PxTolerancesScale does
-// not change that. So hulls smaller than 1 are cooked larger, and scaled down.
+// of half the sum of a hull's sides. A half sum below 1 counts as 1, whatever PxTolerancesScale is.
+// So hulls smaller than 1 are cooked larger, and scaled down.
 import { massOf } from './mass.mjs';
 
 export function physxBody(PhysX, physics, colliders, density, material, filter) {

@@ -5,6 +5,7 @@
 // Usage: node drop.mjs ENGINE COLLIDERS.json MODEL.mjcf X Y Z QX QY QZ QW
 // where the body starts; only MuJoCo reads the MJCF file, and not the colliders.
 import { readFileSync } from 'node:fs';
+import { createPhysX, packaged } from './physx_engine.mjs';
 
 const DENSITY = 1000, GRAVITY = -9.81, SECONDS = 2, STEP = 1 / 240;
 const SLOP = 0.002;  // metres: of Jolt
@@ -12,7 +13,6 @@ const HALF = [50, 50, 1];  // the floor's box, in metres
 const DOWN = [0, 0, -HALF[2]], UPRIGHT = [0, 0, 0, 1];
 
 const list = (v) => [v.x, v.y, v.z];
-const packaged = (name) => readFileSync(new URL(`node_modules/${name}`, import.meta.url));
 
 /** The number of different points in a flat list. */
 function different(flat) {
@@ -21,8 +21,17 @@ function different(flat) {
     return seen.size;
 }
 
-// Each engine returns the points that it keeps, the body's mass, how to make a step, and
-// the state: position, quaternion, velocity and angular velocity.
+/** The tensor of principal moments, whose axes a quaternion x, y, z, w turns into the model. */
+function tensor(moments, [x, y, z, w]) {
+    const r = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+               [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+               [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]];
+    const of = (i, j) => moments.reduce((sum, m, k) => sum + r[i][k] * m * r[j][k], 0);
+    return [0, 1, 2].map((i) => [0, 1, 2].map((j) => of(i, j)));
+}
+
+// Each engine returns the points that it keeps, and the body's mass, centre and inertia in the model.
+// It also returns how to make a step, and the state: position, quaternion and both velocities.
 
 async function jolt(colliders, start, turn) {
     const { joltBody } = await import('./jolt.mjs');
@@ -47,25 +56,31 @@ async function jolt(colliders, start, turn) {
         new Jolt.BodyCreationSettings(floor, new Jolt.RVec3(...DOWN), upright,
                                       Jolt.EMotionType_Static, 0),
         Jolt.EActivation_DontActivate);
-    const made = joltBody(Jolt, colliders, DENSITY, new Jolt.RVec3(...start), 1);
-    made.mRotation = new Jolt.Quat(...turn);
-    const body = bodies.CreateBody(made);
+    const place = new Jolt.RVec3(...start);
+    const body = joltBody(Jolt, bodies, colliders, DENSITY, place, 1);
+    bodies.SetPositionAndRotation(body.GetID(), place, new Jolt.Quat(...turn),
+                                  Jolt.EActivation_DontActivate);
     bodies.AddBody(body.GetID(), Jolt.EActivation_Activate);
     // Jolt does not list the points of a hull, but the triangles of a shape.
-    let kept = 0;
-    const compound = Jolt.castObject(body.GetShape(), Jolt.StaticCompoundShape);
-    const is_compound = body.GetShape().GetSubType() === Jolt.EShapeSubType_StaticCompound;
+    let kept = 0, shape = body.GetShape();
+    if (shape.GetSubType() === Jolt.EShapeSubType_OffsetCenterOfMass) {
+        shape = Jolt.castObject(shape, Jolt.OffsetCenterOfMassShape).GetInnerShape();
+    }
+    const compound = Jolt.castObject(shape, Jolt.StaticCompoundShape);
+    const is_compound = shape.GetSubType() === Jolt.EShapeSubType_StaticCompound;
     for (let i = 0; i < (is_compound ? compound.GetNumSubShapes() : 1); ++i) {
-        const hull = is_compound ? compound.GetSubShape(i).mShape : body.GetShape();
+        const hull = is_compound ? compound.GetSubShape(i).mShape : shape;
         const all = new Jolt.ShapeGetTriangles(hull, Jolt.AABox.prototype.sBiggest(),
                                                new Jolt.Vec3(0, 0, 0), upright,
                                                new Jolt.Vec3(1, 1, 1));
         const at = all.GetVerticesData() / 4;
         kept += different(Jolt.HEAPF32.subarray(at, at + all.GetVerticesSize() / 4));
     }
-    const of = (v) => [v.GetX(), v.GetY(), v.GetZ()];
+    const of = (v) => [v.GetX(), v.GetY(), v.GetZ()], motion = body.GetMotionProperties();
+    const axes = motion.GetInertiaRotation(), q = [...of(axes), axes.GetW()];
     return {
-        kept, mass: 1 / body.GetMotionProperties().GetInverseMass(),
+        kept, mass: 1 / motion.GetInverseMass(), centre: of(body.GetShape().GetCenterOfMass()),
+        inertia: tensor(of(motion.GetInverseInertiaDiagonal()).map((x) => 1 / x), q),
         step: () => engine.Step(STEP, 1),
         state: () => {
             const q = body.GetRotation();
@@ -77,17 +92,7 @@ async function jolt(colliders, start, turn) {
 
 async function physx(colliders, start, turn) {
     const { physxBody } = await import('./physx.mjs');
-    // The package is built for browsers: it looks for a window, and refuses to run in node.
-    const versions = Object.getOwnPropertyDescriptor(process, 'versions');
-    globalThis.window = globalThis;
-    Object.defineProperty(process, 'versions', { value: {}, configurable: true });
-    const PhysX = await (await import('physx-js-webidl')).default(
-        { wasmBinary: packaged('physx-js-webidl/physx-js-webidl.wasm') });
-    Object.defineProperty(process, 'versions', versions);
-    const top = PhysX.PxTopLevelFunctions.prototype, scale = new PhysX.PxTolerancesScale();
-    const foundation = top.CreateFoundation(PhysX.PHYSICS_VERSION, new PhysX.PxDefaultAllocator(),
-                                            new PhysX.PxDefaultErrorCallback());
-    const physics = top.CreatePhysics(PhysX.PHYSICS_VERSION, foundation, scale);
+    const { PhysX, physics, scale, top } = await createPhysX();
     const description = new PhysX.PxSceneDesc(scale);
     description.gravity = new PhysX.PxVec3(0, 0, GRAVITY);
     description.cpuDispatcher = top.DefaultCpuDispatcherCreate(0);
@@ -109,8 +114,10 @@ async function physx(colliders, start, turn) {
         const hull = PhysX.castObject(shape.getGeometry(), PhysX.PxConvexMeshGeometry);
         kept += hull.convexMesh.getNbVertices();
     }
+    const centre = body.getCMassLocalPose();
     return {
-        kept, mass: body.getMass(),
+        kept, mass: body.getMass(), centre: list(centre.p),
+        inertia: tensor(list(body.getMassSpaceInertiaTensor()), [...list(centre.q), centre.q.w]),
         step: () => { scene.simulate(STEP); scene.fetchResults(true); },
         state: () => {
             const { p, q } = body.getGlobalPose();
@@ -133,8 +140,10 @@ async function rapier(colliders, start, turn) {
     body.recomputeMassPropertiesFromColliders();
     let kept = 0;
     for (let i = 0; i < body.numColliders(); ++i) kept += body.collider(i).vertices().length / 3;
+    const axes = body.principalInertiaLocalFrame();
     return {
-        kept, mass: body.mass(),
+        kept, mass: body.mass(), centre: list(body.localCom()),
+        inertia: tensor(list(body.principalInertia()), [...list(axes), axes.w]),
         step: () => world.step(),
         state: () => [list(body.translation()), [...list(body.rotation()), body.rotation().w],
                       list(body.linvel()), list(body.angvel())],
@@ -157,9 +166,10 @@ async function havok(colliders, start, turn) {
     // Havok does not list the points of a hull, but the triangles that it displays.
     const geometry = hp.HP_Shape_CreateDebugDisplayGeometry(hp.HP_Body_GetShape(body)[1])[1];
     const [at, count] = hp.HP_DebugGeometry_GetInfo(geometry)[1];
+    const [centre, mass, moments, axes] = hp.HP_Body_GetMassProperties(body)[1];
     return {
-        kept: different(new Float32Array(hp.HEAPU8.buffer, at, 3 * count)),
-        mass: hp.HP_Body_GetMassProperties(body)[1][1],
+        kept: different(new Float32Array(hp.HEAPU8.buffer, at, 3 * count)), mass, centre,
+        inertia: tensor(moments.map((x) => mass * x), axes),
         step: () => hp.HP_World_Step(world, STEP),
         state: () => [...hp.HP_Body_GetQTransform(body)[1], hp.HP_Body_GetLinearVelocity(body)[1],
                       hp.HP_Body_GetAngularVelocity(body)[1]],
@@ -174,7 +184,10 @@ async function mujoco(colliders, start, [x, y, z, w], mjcf) {
     data.qpos.set([...start, w, x, y, z]);
     let kept = 0;
     for (const place of model.mesh_graphadr) kept += place < 0 ? 0 : model.mesh_graph[place];
+    const [iw, ix, iy, iz] = model.body_iquat.slice(4, 8);
     return {
+        centre: Array.from(model.body_ipos.slice(3, 6)),
+        inertia: tensor(Array.from(model.body_inertia.slice(3, 6)), [ix, iy, iz, iw]),
         kept, given: Array.from(model.mesh_vertnum).reduce((sum, n) => sum + n, 0),
         mass: model.body_mass[1], pieces: model.mesh_graphadr.length,
         steps: Math.round(SECONDS / model.opt.timestep),
@@ -201,7 +214,8 @@ async function main() {
     const points = colliders.pieces.reduce((sum, piece) => sum + piece.points.length / 3, 0);
     console.log(JSON.stringify({
         pieces: body.pieces ?? colliders.pieces.length, given: body.given ?? points,
-        kept: body.kept, mass: body.mass, is_finite: isFinite, position, quaternion,
+        kept: body.kept, mass: body.mass, centre: body.centre, inertia: body.inertia,
+        is_finite: isFinite, position, quaternion,
         speed: Math.hypot(...velocity), spin: Math.hypot(...spin),
     }));
     process.exit(0);  // some engines leave timers behind

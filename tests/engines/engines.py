@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Pieces of three models in the engines that they are for: a bolt, a bracket and a kettle. Each
 engine must accept every piece. The body that falls onto a floor must come to rest on it, within
-what the engine allows. Prints a table: points given and kept, depth and speed after two seconds.
+what the engine allows. It must have the mass, the centre and the inertia of the mesh. Prints a
+table: points given and kept, depth and speed after two seconds. Sizes are true, and engines build
+their own hulls with their default tolerances. "unity" is PhysX with the parts that Unity gets.
 
 Usage: engines.py native CDPREP FOLDER DROP_BULLET DROP_MUJOCO SIMULATOR_READERS
        engines.py npm CDPREP FOLDER
@@ -31,12 +33,14 @@ LEAST_KEPT = 0.95  # of the points that are given
 # its allowed error. MuJoCo's contacts are soft by design. The others state nothing.
 SLOP = {"Bullet 3.24": 0.001, "MuJoCo 2.2.2": 0.005, "jolt": 0.002, "physx": 0.001, "rapier": 0.002,
         "havok": 0.002, "mujoco": 0.005}
+CENTRE_ERROR = 1e-5  # as a share of the distance from the origin: engines take floats
+INERTIA_ERROR = 1e-4  # as a share of the largest entry
 MODELS = {
-    "bolt": ("cm", ["--max-error", 0.5]),
-    "bracket": ("cm", ["--max-error", 0.5]),
+    "bolt": ("mm", ["--max-error", 0.5]),
+    "bracket": ("mm", ["--max-error", 0.5]),
     "kettle": ("m", ["--parts", 32]),
 }
-METRES = {"cm": 0.01, "m": 1}
+METRES = {"mm": 0.001, "m": 1}
 
 
 def exported(program, source, folder, kinds, unit, limits):
@@ -47,9 +51,10 @@ def exported(program, source, folder, kinds, unit, limits):
     must(done.returncode in (0, 1), f"bake {source.name}: {done.stderr}")
     outputs = {kind: folder / f"{source.stem}_pieces.{kind}" for kind in ("json", *kinds)}
     engines = {"json": ["json"], "glb": ["godot", "--no-visual"], "sdf": ["gazebo", "--no-visual"],
-               "mjcf": ["mujoco", "--no-visual", "--floating"]}
+               "mjcf": ["mujoco", "--no-visual", "--floating"], "unity": ["unity", "--no-visual"]}
     for kind, output in outputs.items():
-        written = output.with_suffix(".xml") if kind == "mjcf" else output
+        written = {"mjcf": output.with_suffix(".xml"),
+                   "unity": output.with_name(f"{source.stem}_unity.glb")}.get(kind, output)
         done = run(program, "export", baked, "--for", *engines[kind], "-o", written)
         must(done.returncode == 0, f"export {source.name} for {engines[kind]}: {done.stderr}")
         outputs[kind] = written
@@ -66,10 +71,15 @@ class Exported:
             source = folder / "kettle.obj"
             subprocess.run([sys.executable, HERE / "make_kettle.py", source], check=True)
         outputs = exported(program, source, folder, kinds, unit, limits)
-        self.json, self.glb, self.sdf = (outputs.get(kind) for kind in ("json", "glb", "sdf"))
+        self.json, self.glb, self.sdf, self.unity = (
+            outputs.get(kind) for kind in ("json", "glb", "sdf", "unity"))
         self.mjcf = with_floor(outputs["mjcf"], folder / f"{name}_floor.mjcf")
         self.colliders = json.loads(self.json.read_text())
-        self.mass = DENSITY * METRES[unit] ** 3 * self.colliders["mass"]["volume"]
+        of_mesh, metres = self.colliders["mass"], METRES[unit]
+        must(of_mesh["closed"], f"{name} is not closed")
+        self.mass = DENSITY * metres ** 3 * of_mesh["volume"]
+        self.centre = [metres * x for x in of_mesh["centre"]]
+        self.inertia = [[DENSITY * metres ** 5 * x for x in row] for row in of_mesh["inertia"]]
         self.start = [0, 0, DROP - lowest(self.colliders, TURN, (0, 0, 0))]
 
     def place(self):
@@ -96,7 +106,7 @@ class Table:
     def __init__(self):
         self.faults = []
         print(f"{'engine':14}{'model':9}{'pieces':>7}{'given':>7}{'kept':>6}{'':>7}"
-              f"{'depth mm':>10}{'speed m/s':>11}")
+              f"{'depth mm':>10}{'speed m/s':>11}{'centre um':>11}{'inertia':>10}")
 
     def fault(self, condition, sentence):
         if not condition:
@@ -108,7 +118,7 @@ class Table:
         kept = result["kept"] / result["given"]
         print(f"{engine:14}{model.name:9}{result['pieces']:7}{result['given']:7}"
               f"{result['kept']:6}{100 * kept:6.1f}%{1000 * depth:10.3f}{result['speed']:11.4f}"
-              f"", flush=True)
+              f"{self.weight(name, model, result)}", flush=True)
         self.fault(result["pieces"] == len(model.colliders["pieces"]), f"{name}: pieces are lost")
         self.fault(result["is_finite"], f"{name}: a number is not finite")
         self.fault(abs(result["mass"] - model.mass) <= 1e-4 * model.mass,
@@ -118,6 +128,31 @@ class Table:
         self.fault(result["speed"] <= MOST_SPEED, f"{name}: {result['speed']} m/s after 2 s")
         self.fault(depth <= SLOP[engine], f"{name}: {depth} m deep")
         self.fault(-depth <= MOST_GAP, f"{name}: {-depth} m above the floor")
+
+    def weight(self, name, model, result):
+        """How far centre and inertia are from those of the mesh, where the engine tells them."""
+        if "centre" not in result:
+            return f"{'-':>11}{'-':>10}"
+        centre = math.dist(result["centre"], model.centre)
+        flat, wanted = sum(result["inertia"], []), sum(model.inertia, [])
+        inertia = max(abs(x - y) for x, y in zip(flat, wanted, strict=True)) / max(wanted)
+        self.fault(centre <= CENTRE_ERROR * math.hypot(*model.centre),
+                   f"{name}: centre {result['centre']}, not {model.centre}")
+        self.fault(inertia <= INERTIA_ERROR,
+                   f"{name}: inertia {result['inertia']}, not {model.inertia}")
+        return f"{1e6 * centre:11.4f}{inertia:10.1e}"
+
+    def add_unity(self, model, result):
+        """Unity cooks a mesh as it is stored. PhysX drops points of hulls smaller than 1 by an
+        absolute height, so a bolt of 34 mm loses many when it is cooked in metres."""
+        kept, metres = (result[k] / result["given"] for k in ("kept", "kept_in_metres"))
+        print(f"{'unity':14}{model.name:9}{result['pieces']:7}{result['given']:7}{result['kept']:6}"
+              f"{100 * kept:6.1f}%   (cooked in metres: {result['kept_in_metres']}, "
+              f"{100 * metres:.1f}%)", flush=True)
+        self.fault(result["pieces"] == len(model.colliders["pieces"]), f"unity, {model.name}: lost")
+        self.fault(kept >= LEAST_KEPT, f"unity, {model.name}: keeps {100 * kept:.1f}%")
+        self.fault(metres < LEAST_KEPT or kept == 1,
+                   f"unity, {model.name}: PhysX keeps {100 * metres:.1f}% in metres too")
 
     def end(self):
         for sentence in self.faults:
@@ -181,6 +216,8 @@ def npm(models, folder):
             done = run("node", "drop.mjs", engine, model.json, model.mjcf, *model.place(),
                        cwd=folder)
             table.add(engine, model, must_read(done, f"{engine}, {model.name}"))
+        done = run("node", "cook.mjs", model.unity, cwd=folder)
+        table.add_unity(model, must_read(done, f"unity, {model.name}"))
         read_glb(model, folder)
     table.end()
 
@@ -191,7 +228,7 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     if kind == "npm":
         install(folder)
-    kinds = ("mjcf", "glb" if kind == "npm" else "sdf")
+    kinds = ("mjcf", "glb", "unity") if kind == "npm" else ("mjcf", "sdf")
     models = [Exported(program, folder, name, kinds) for name in MODELS]
     if kind == "npm":
         npm(models, folder)
