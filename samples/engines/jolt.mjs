@@ -12,7 +12,7 @@ export function joltBody(Jolt, bodies, colliders, density, position, layer) {
     const turn = Jolt.Quat.prototype.sIdentity(), p = new Jolt.Vec3(0, 0, 0);
     const compound = new Jolt.StaticCompoundShapeSettings();
     for (const { points } of colliders.pieces) {
-        const grow = 100 / points.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
+        const grow = 10 / points.reduce((most, x) => Math.max(most, Math.abs(x)), 0);
         const hull = new Jolt.ConvexHullShapeSettings();
         for (let i = 0; i < points.length; i += 3) {
             p.Set(grow * points[i], grow * points[i + 1], grow * points[i + 2]);

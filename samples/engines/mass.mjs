@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The mass of a body from the JSON of `cdprep export NAME.cdp.h5 --for json`. The loaders beside this
-// file give it to their engines. In kilograms and metres, and along the axes of the model.
+// The mass of a body from the JSON of `cdprep export NAME.cdp.h5 --for json`. The loaders beside
+// this file give it to their engines. In kilograms and metres, and along the axes of the model.
 
 /** Mass, centre, inertia about the centre, and the principal moments. `axes` is the quaternion
  *  x, y, z, w that turns the principal axes into the model. Null for a mesh that is not closed:

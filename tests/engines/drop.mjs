@@ -30,8 +30,8 @@ function tensor(moments, [x, y, z, w]) {
     return [0, 1, 2].map((i) => [0, 1, 2].map((j) => of(i, j)));
 }
 
-// Each engine returns the points that it keeps, and the body's mass, centre and inertia in the model.
-// It also returns how to make a step, and the state: position, quaternion and both velocities.
+// Each engine returns the points that it keeps, and the body's mass, centre and inertia in the
+// model. It also returns how to make a step, and the state: position, quaternion and velocities.
 
 async function jolt(colliders, start, turn) {
     const { joltBody } = await import('./jolt.mjs');

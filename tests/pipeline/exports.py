@@ -261,7 +261,8 @@ def check_import_knows_tags(program, folder):
 def baked_mesh(program, source, folder, *options):
     """The report of a bake of a mesh file, and its volume in cubic metres."""
     model = folder / "again.cdp.h5"
-    report = bake(program, source, "-o", model, "--structures", "hull", *options)
+    done = bake(program, source, "-o", model, "--structures", "hull", "--format", "json", *options)
+    report, = json.loads(done.stdout)["models"]
     found, _ = colliders(program, model, folder)
     return report, found["metres_per_unit"] ** 3 * found["mass"]["volume"]
 
@@ -291,7 +292,7 @@ def check_bake_leaves_colliders_out(program, folder):
         must(near([volume], [wanted + of_parts], 1e-4), f"{engine}: {volume} with the parts")
         for options, count in (((), triangles), (("--with-colliders",), whole["triangles"])):
             done = run(program, "validate", output, "--format", "json", *options)
-            found, = json.loads(done.stdout)["files"]
+            found, = json.loads(done.stdout)["meshes"]
             must(found["triangles"] == count, f"{engine}: {found['triangles']} triangles")
             told = "colliders were left out" in " ".join(found.get("remarks", []))
             must(told == (not options), f"{engine}: {found.get('remarks')}")

@@ -30,7 +30,7 @@ struct BakeOptions {
     std::function<Result<mesh::TriangleSoup>(const std::filesystem::path& input,
                                              const import::ImportOptions& options)>
         read = import::import_file;
-    std::string part;  ///< for the provenance; empty: the whole input
+    std::string part;  ///< for the provenance, after reading; empty: the whole input
 };
 
 }  // namespace cdprep::cli

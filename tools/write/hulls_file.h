@@ -70,13 +70,15 @@ struct HullsFileOptions {
 /// A shown mesh becomes the first node of a GLB, named as the model, or a geom without collisions.
 ///
 /// Coordinates are written in the fewest digits that read back bit for bit. GLB has only
-/// floats: its corners are rounded to the nearest float. URDF and SDF refer to mesh files by
-/// paths relative to their own. Each hull is written beside the file as STEM_NAME.obj. The mesh
-/// that URDF, SDF and MJCF show is written as STEM_visual.obj. STEM is model_name(); if that
-/// replaced characters, a number distinguishes such names. URDF, SDF and MJCF omit hulls of fewer
-/// than three dimensions, because their readers require a volume. Returns the number of omitted
-/// hulls. Fails with `bad_argument` if a GLB would exceed 4 GiB. All files appear when they are
-/// complete, or none does (write_all()).
+/// floats: its corners are rounded to the nearest float. Hulls below HullsFileOptions::hulls_node
+/// are for Unity, which cooks a mesh before its node scales it. Small ones are stored larger by a
+/// power of two, below a node that scales them down: PhysX drops points of small ones. URDF and SDF
+/// refer to mesh files by paths relative to their own. Each hull is written beside the file as
+/// STEM_NAME.obj. The mesh that URDF, SDF and MJCF show is written as STEM_visual.obj. STEM is
+/// model_name(); if that replaced characters, a number distinguishes such names. URDF, SDF and MJCF
+/// omit hulls of fewer than three dimensions, because their readers require a volume. Returns the
+/// number of omitted hulls. Fails with `bad_argument` if a GLB would exceed 4 GiB. All files appear
+/// when they are complete, or none does (write_all()).
 [[nodiscard]] Result<std::size_t> write_hulls(const std::filesystem::path& path, HullsFormat format,
                                               std::span<const HullArrays> hulls,
                                               const HullsFileOptions& options = {});

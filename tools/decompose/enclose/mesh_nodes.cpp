@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "cli/colliders.h"
 #include "decompose/enclose/part_nodes.h"
 #include "mesh/component_numbers.h"
 #include "mesh/topology.h"
@@ -27,7 +28,7 @@ bool is_tagged_convex(const std::string& path) {
 
 /// Returns true if the name marks a collider. Godot takes ...-colonly as it is, convex or not.
 bool is_tagged_collider(const std::string& path) {
-    return is_tagged_convex(path) || last_name(path).ends_with("-colonly");
+    return is_tagged_convex(path) || is_collider(path);
 }
 
 template <class Run>

@@ -19,8 +19,8 @@ struct MeshNodes {
 /// Returns the nodes of the imported file. Without nodes, returns its groups that are closed by
 /// themselves or have names that mark them as colliders. Other groups are parts of one surface and
 /// stay together. A name marks a node as convex if it starts with UCX_ or ends in -convcol,
-/// -convcolonly, -convex or _convex. Convex nodes are colliders, and so are those whose name ends
-/// in -colonly. `mesh` is the welded soup.
+/// -convcolonly, -convex or _convex. Convex nodes are colliders, and so are those of is_collider().
+/// `mesh` is the welded soup.
 [[nodiscard]] MeshNodes find_nodes(const mesh::TriangleSoup& soup, const mesh::Mesh& mesh);
 
 }  // namespace cdprep::cli

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -141,6 +142,39 @@ TEST(HullsFile, AGlbShowsTheMeshBesideTheHulls) {
     EXPECT_EQ(document["nodes"][3]["name"], "colliders");
     EXPECT_EQ(document["nodes"][3]["children"], nlohmann::json({1, 2}));
     EXPECT_FALSE(document["nodes"][3].contains("mesh"));
+}
+
+// PhysX drops points by an absolute height from hulls smaller than 1, and Unity cooks the stored
+// mesh.
+TEST(HullsFile, SmallHullsBelowANodeAreStoredLarger) {
+    const test::ScratchFolder folder;
+    const auto path = folder.path() / "bolt.glb";
+    HullsFileOptions options;
+    options.hulls_node = "colliders";
+    for (const double size : {1e-9, 0.034, 0.49, 0.51, 0.7, 1.01, 40.0}) {
+        // Half the sum of the sides of this tetrahedron is its size.
+        const double side = 2 * size / 3;
+        const std::array<Double3, 4> corners = {
+            {{0, 0, 0}, {side, 0, 0}, {0, side, 0}, {0, 0, side}}};
+        const std::array<HullArrays, 1> hulls = {{{"solid", corners, kFacets, 3}}};
+        ASSERT_TRUE(write_hulls(path, HullsFormat::glb, hulls, options).ok());
+        const nlohmann::json document = document_of(test::content_of(path.string()));
+        const nlohmann::json& node = document["nodes"][0];
+        const double scale = node.contains("scale") ? node["scale"][0].get<double>() : 1;
+        const double stored = document["accessors"][0]["max"][0].get<double>();
+        EXPECT_EQ(static_cast<float>(scale * stored), static_cast<float>(side)) << size;
+        EXPECT_EQ(std::exp2(std::round(std::log2(scale))), scale) << "no power of two";
+        EXPECT_GE(1.5 * stored, 0.999999) << size;
+        EXPECT_EQ(node.contains("scale"), size < 0.99) << size;
+        if (size > 0.99) continue;
+        EXPECT_LT(1.5 * stored, 2) << size;
+        EXPECT_EQ(node["scale"], nlohmann::json({scale, scale, scale}));
+    }
+    options.hulls_node.clear();
+    ASSERT_TRUE(write_hulls(path, HullsFormat::glb, solid_and_flat(), options).ok());
+    for (const auto& node : document_of(test::content_of(path.string()))["nodes"]) {
+        EXPECT_FALSE(node.contains("scale"));
+    }
 }
 
 TEST(HullsFile, AnMjcfShowsTheMeshAndFloats) {

@@ -100,6 +100,10 @@ TEST(FindNodes, CollidersOfAnyShapeStayApart) {
     EXPECT_EQ(groups.is_convex, (std::vector<std::uint8_t>{0, 0, 0}));
     EXPECT_EQ(nodes_of(with_instances("root/a-colonly", "b")).is_convex,
               (std::vector<std::uint8_t>{0, 0}));
+    const MeshNodes below = nodes_of(with_groups("a", "colliders/b"));
+    EXPECT_EQ(runs_of(below.node_of),
+              (std::vector<std::pair<std::uint32_t, int>>{{0, 12}, {1, 8}}));
+    EXPECT_EQ(below.is_convex, (std::vector<std::uint8_t>{0, 0, 0}));
     const MeshNodes others = nodes_of(with_groups("a", "b-colonly.001"));
     EXPECT_EQ(runs_of(others.node_of),
               (std::vector<std::pair<std::uint32_t, int>>{{0, 12}, {2, 8}}));
