@@ -302,6 +302,18 @@ def check_bake_leaves_colliders_out(program, folder):
     must("remarks" not in report and near([volume], [of_parts], 1e-4), f"{report}")
 
 
+def check_package(program, model, output, names):
+    """Meshes of a URDF in a ROS package; nothing else changes."""
+    before = output.read_text()
+    for package in ("my_robot", "my-robot.2/meshes/new"):
+        export(program, model, "urdf", output, "--package", package, "--density", 8000)
+        found = [e.get("filename") for e in xml.parse(output).getroot().iter("mesh")]
+        must(found == [f"package://{package}/{name}" for name in names], f"{found}")
+        must(output.read_text().replace(f"package://{package}/", "") == before, f"{package}")
+    done = run("check_urdf", output)
+    must(done.returncode == 0, f"check_urdf: {done.stderr}{done.stdout}")
+
+
 def check_robots(program, reader, folder, model, pieces):
     """Mass by hand: 1,000 kg a cubic metre of 3 mm^3; density 8,000 gives eight times that."""
     for engine in ROBOTS:
@@ -322,6 +334,7 @@ def check_robots(program, reader, folder, model, pieces):
             must(names == ["urdf_visual.obj", "urdf_collider_00.obj", "urdf_collider_01.obj"],
                  f"{names}")
             must(all((folder / n).is_file() for n in names), "a mesh of the URDF is missing")
+            check_package(program, model, output, names)
             continue
         must(near([found["mass"]], [mass]), f"{engine}: mass {found['mass']}")
         must(near(found["centre"], [0.5e-3 * 5 / 3, 0.5e-3 * 5 / 3, 0.5e-3]), f"{found['centre']}")
@@ -478,6 +491,11 @@ def check_refusals(program, folder, model):
     for engine in GLB + ("json",):
         refused(2, "--density", model, "--for", engine, "--density", 9)
     refused(2, "above 0", model, "--for", "urdf", "--density", "0")
+    for engine in ("gazebo", "mujoco", "json"):
+        refused(2, "--package", model, "--for", engine, "--package", "robot")
+    for package in ("", "/robot", "robot/", "a//b", "../a", "a b", "package://a"):
+        refused(2, "--package", model, "--for", "urdf", "-o", folder / "x.urdf", "--package",
+                package)
     for engine, extension in EXTENSION.items():
         output = folder / "no folder" / f"x.{extension}"
         refused(4, "no folder", model, "--for", engine, "-o", output)

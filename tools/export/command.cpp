@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "cli/command.h"
 #include "cli/output_path.h"
@@ -24,6 +27,16 @@ struct Arguments {
     ExportOptions options;
 };
 
+/// Returns true for names with '/' between them, of letters, digits, '_', '-' and '.'.
+bool is_package(const std::string& text) {
+    const bool is_plain = std::all_of(text.begin(), text.end(), [](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view("_-./").find(static_cast<char>(c)) != std::string_view::npos;
+    });
+    return is_plain && !text.empty() && text.front() != '/' && text.back() != '/' &&
+           text.find("//") == std::string::npos && text.find("..") == std::string::npos;
+}
+
 /// Returns an error for an option without effect: the user expected one.
 std::optional<Error> find_idle_option(const Command& command, const EngineForm& form) {
     const auto idle = [&](const char* option, const std::string& why) {
@@ -32,6 +45,9 @@ std::optional<Error> find_idle_option(const Command& command, const EngineForm& 
     const std::string name = form.name;
     if (command.count("--floating") > 0 && form.engine != Engine::mujoco) {
         return idle("--floating", "only MJCF, for mujoco, has a joint to the world.");
+    }
+    if (command.count("--package") > 0 && form.engine != Engine::urdf) {
+        return idle("--package", "only a URDF, for urdf, names meshes in a package.");
     }
     if (command.count("--density") > 0 && !form.has_mass) {
         return idle("--density", "the file for " + name + " has no mass in kilograms.");
@@ -50,6 +66,13 @@ std::optional<Error> find_idle_option(const Command& command, const EngineForm& 
 Result<report::ExportReport> export_file(const Command& command, const Arguments& arguments) {
     const EngineForm& form = *find_engine(arguments.engine);
     if (const auto error = find_idle_option(command, form)) return *error;
+    const std::string& package = arguments.options.package;
+    if (command.count("--package") > 0 && !is_package(package)) {
+        return Error{ErrorCode::bad_argument,
+                     "--package '" + package +
+                         "': is no name of a package, such as my_robot, or of a folder in it, such "
+                         "as my_robot/meshes."};
+    }
     const auto output = output_for(form, arguments.file, arguments.options.output);
     if (!output) return output.error();
     ExportOptions options = arguments.options;
@@ -88,6 +111,12 @@ void add_content_options(const Command& command, ExportOptions& options) {
                   "For mujoco: add a free joint. Without one, the body is fixed to the world")
         .group(content);
     command
+        .add_option("--package", options.package,
+                    "For urdf: name meshes as package://NAME/FILE, as ROS does. NAME may have "
+                    "folders, as in my_robot/meshes")
+        .type_name("NAME")
+        .group(content);
+    command
         .add_option("--density", options.density,
                     "For mujoco, gazebo and urdf: density for the mass, in kg per cubic metre")
         .check(above_zero())
@@ -121,7 +150,7 @@ void add_export(const Command& app, Exit& exit) {
         "engines.\n\n"
         "Unity reads GLB by a package such as glTFast, and makes no colliders by itself: add a "
         "convex MeshCollider to each node below colliders. A URDF names its meshes by paths "
-        "relative to itself. ROS tools want package:// or file:// before them.\n\n"
+        "relative to itself. ROS tools want --package, or file:// before the paths.\n\n"
         "All but json are in metres and turned to the up axis of the engine. Points that "
         "hull builders of engines ignore are dropped: the others move out by less than the stated "
         "error, so that the colliders still enclose the mesh.",

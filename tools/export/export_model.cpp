@@ -162,6 +162,7 @@ Result<Done> write_for_engine(Body& body, const EngineForm& form, const ExportOp
     write::HullsFileOptions how;
     how.metres_per_unit = report.metres_per_unit;
     how.is_floating = options.is_floating;
+    how.package = options.package;
     how.hulls_node = form.parts_node;
     if (form.has_mass) {
         const auto weighed =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "cli/program_threads.h"
 #include "export/engine.h"
@@ -14,6 +15,7 @@ struct ExportOptions {
     double density = 1000;         ///< kilograms per cubic metre; the default is that of water
     bool has_visual = true;        ///< writes the mesh that is shown
     bool is_floating = false;      ///< MJCF: a free joint
+    std::string package;           ///< URDF: HullsFileOptions::package
     bool keeps_points = false;     ///< writes every point of the parts
     bool strict = false;           ///< refuses to take an unknown unit as the metre
 };

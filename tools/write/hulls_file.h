@@ -55,6 +55,9 @@ struct HullsFileOptions {
     std::optional<MeshArrays> visual = {};
     bool is_floating = false;     ///< MJCF: a free joint; otherwise the body is fixed to the world
     std::string hulls_node = {};  ///< GLB: the name of a node above the hulls; empty: none
+    /// URDF: the package and the folder in it, as in package://PACKAGE/FOLDER, where the meshes are
+    /// found. Empty: paths relative to the file.
+    std::string package = {};
 };
 
 /// Returns the name of the robot, model or body in a file: the file's name without its extension.

@@ -77,7 +77,9 @@ void add_urdf_shape(xml_node link, const RobotFile& file, const char* kind,
     const xml_node shape = add_named(link, kind, name);
     add_urdf_origin(shape, {});
     const xml_node mesh = add(add(shape, "geometry"), "mesh");
-    set(mesh, "filename", mesh_name(file, name));
+    const std::string& package = file.options.package;
+    set(mesh, "filename",
+        (package.empty() ? "" : "package://" + package + "/") + mesh_name(file, name));
     set(mesh, "scale", file.scale);
 }
 
