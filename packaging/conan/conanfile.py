@@ -3,6 +3,7 @@
 import os
 
 from conan import ConanFile
+from conan.tools.build import stdcpp_library
 from conan.tools.cmake import CMake, CMakeToolchain
 from conan.tools.files import copy
 
@@ -19,8 +20,9 @@ class Cdprep(ConanFile):
 
     def export_sources(self):
         top = os.path.join(self.recipe_folder, "..", "..")
-        for part in ["CMakeLists.txt", "*.md", "LICENSES/*", "cmake/*", "format/*", "lib/*",
-                     "docs/*", "samples/*"]:
+        # A pattern matches in all folders below its own.
+        for part in ["CMakeLists.txt", "README.md", "GLOSSARY.md", "CHANGELOG.md", "LICENSES/*",
+                     "cmake/*", "format/*", "lib/*", "docs/*", "samples/*"]:
             copy(self, part, src=top, dst=self.export_sources_folder)
 
     def generate(self):
@@ -43,6 +45,10 @@ class Cdprep(ConanFile):
         runtime.set_property("cmake_target_name", "cdprep::cdprep")
         if self.settings.os == "Windows" and self.options.shared:
             runtime.defines = ["CDPREP_SHARED"]
+        if not self.options.shared:  # a program in C links what the library needs of C++
+            runtime.system_libs = [name for name in [stdcpp_library(self)] if name]
+            if self.settings.os in ["Linux", "FreeBSD"]:
+                runtime.system_libs.append("m")
         cells = self.cpp_info.components["cells"]
         cells.libs = ["cdprep_cells"]
         cells.requires = ["cdprep"]
