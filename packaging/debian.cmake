@@ -2,7 +2,9 @@
 # Debian packages of a build that is configured for them: packaging/README.md has the commands.
 # Without CDPREP_TOOLS, they are those of the library alone.
 if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr" OR NOT BUILD_SHARED_LIBS)
-    return()
+    message(FATAL_ERROR "CDPREP_DEBIAN needs the prefix /usr and shared libraries, but "
+        "CMAKE_INSTALL_PREFIX is \"${CMAKE_INSTALL_PREFIX}\" and BUILD_SHARED_LIBS is "
+        "\"${BUILD_SHARED_LIBS}\": use `cmake --preset debian`.")
 endif()
 
 set(CDPREP_PACKAGE_CONTACT "The cdprep developers <cdprep@localhost>"
@@ -62,14 +64,15 @@ set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/triggers)
 
-# A changelog of Debian's form, which names the version alone: CHANGELOG.md has the changes.
-string(TIMESTAMP date "%a, %d %b %Y 00:00:00 +0000" UTC)
-file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian "cdprep (${version}) unstable; urgency=low
-
-  * See /usr/share/doc/cdprep/CHANGELOG.md of the package cdprep-doc.
-
- -- ${CDPREP_PACKAGE_CONTACT}  ${date}
-")
+# A changelog of Debian's form, which names the version alone: CHANGELOG.md has the changes. Its date
+# is as it is written, or that of SOURCE_DATE_EPOCH: the same sources give the same file.
+file(READ packaging/debian/changelog changelog)
+string(CONFIGURE "${changelog}" changelog @ONLY)
+if(DEFINED ENV{SOURCE_DATE_EPOCH})
+    string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+    string(REGEX REPLACE "(\n -- [^\n]*>  )[^\n]*" "\\1${date}" changelog "${changelog}")
+endif()
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian "${changelog}")
 execute_process(COMMAND gzip -9nf ${CMAKE_CURRENT_BINARY_DIR}/changelog.Debian
     COMMAND_ERROR_IS_FATAL ANY)
 
