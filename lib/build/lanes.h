@@ -4,10 +4,12 @@
 #include <array>
 #include <cstddef>
 
+#include "cdprep/format/portable.h"
+
 namespace cdprep::build {
 
 /// Numbers side by side. GCC unrolls loops of four and eight before it looks for vectors, and then
-/// finds none. The pragma keeps the loops, so that one vector instruction replaces four scalar
+/// finds none. The hint keeps the loops, so that one vector instruction replaces four scalar
 /// ones.
 template <class T, std::size_t kCount>
 using Lanes = std::array<T, kCount>;
@@ -27,7 +29,7 @@ inline void for_lanes(const Body& body) {
         for_lanes<4>(body);
         for_lanes<4>([&](std::size_t lane) { body(lane + 4); });
     } else {
-#pragma GCC unroll 1
+        CDPREP_KEEP_LOOP
         for (std::size_t lane = 0; lane < kCount; ++lane) body(lane);
     }
 }
