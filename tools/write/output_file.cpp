@@ -107,11 +107,16 @@ int open_nameless(const std::filesystem::path& folder) {
 }
 
 /// Returns a clause that explains why a file was not created. It names a missing folder, which is
-/// a likelier misspelling than the file.
+/// a likelier misspelling than the file. A folder of the kernel, such as /proc, fails in the same
+/// way, but exists.
 std::string why_not_created(const std::filesystem::path& target, int error) {
     const std::filesystem::path folder = folder_of(target);
-    if (error == ENOENT)
-        return "cannot be written, for the folder " + folder.string() + " does not exist";
+    std::error_code unknown;
+    if (error == ENOENT) {
+        return "cannot be written, for the folder " + folder.string() +
+               (std::filesystem::is_directory(folder, unknown) ? " takes no new files"
+                                                               : " does not exist");
+    }
     return std::string("cannot be written: ") + std::strerror(error);
 }
 

@@ -106,6 +106,19 @@ TEST_P(OutputFileOf, NeitherAPipeNorAFolderIsReplaced) {
     EXPECT_EQ(folder.names(), (std::set<std::string>{"folder", "pipe"}));
 }
 
+TEST_P(OutputFileOf, AFolderThatTakesNoFilesIsNotCalledMissing) {
+    const Result<OutputFile> missing = create("no/out");
+    ASSERT_FALSE(missing);
+    EXPECT_NE(missing.error().message.find("no does not exist"), std::string::npos);
+    if (!std::filesystem::is_directory("/proc/self")) GTEST_SKIP() << "/proc is not mounted";
+    const Result<OutputFile> file = OutputFile::create("/proc/out", GetParam());
+    ASSERT_FALSE(file);
+    EXPECT_EQ(file.error().code, ErrorCode::unwritable);
+    EXPECT_EQ(file.error().message,
+              "/proc/out: cannot be written, for the folder /proc takes no new files. "
+              "Nothing was written.");
+}
+
 TEST_P(OutputFileOf, AnAbandonedTemporaryIsTakenOver) {
     const std::string stray = folder.file(".out.tmp");
     test::put_content(stray, "a much longer half of something");
