@@ -409,6 +409,7 @@ def check_units(program, folder):
         output = folder / f"unit.{EXTENSION[engine]}"
         _, said = export(program, model, engine, output)
         must(said.count("\n") == 1 and "states no unit" in said and "2 x 3 x 4 m" in said, said)
+        must("Bake it with --unit mm" in said, said)
         must(("24000 kg" in said) == (engine in ROBOTS), said)
         for old in folder.glob("unit*"):
             old.unlink()
@@ -422,8 +423,15 @@ def check_units(program, folder):
     bake(program, source, "-o", normal, "--structures", "hull", "--parts", 1, "--unit", "mm",
          "--normalize")
     report, said = export(program, normal, "godot", folder / "unit.glb")
-    must(report["metres_per_unit"] == 0 and "has no unit" in said, said)
-    must(said.rstrip().endswith("Bake it without --normalize."), said)
+    # Its unit was given, but is not that of its lengths: its box has a diagonal of 1.
+    must(report["metres_per_unit"] == 0 and said.count("\n") == 1, said)
+    must("states no unit" not in said, said)
+    for words in ("baked with --normalize, so its lengths have no unit; ",
+                  "takes them as metres, 0.371391 x 0.557086 x 0.742781 m. ",
+                  "Bake it without --normalize and with --unit mm"):
+        must(words in said, said)
+    report, said = export(program, normal, "urdf", folder / "unit.urdf", "--strict", code=1)
+    must("lengths have no unit" in report["error"] and "without --normalize" in said, said)
     # The sample bolt weighs 5 g, not 5,000 t.
     bolt = folder / "bolt.cdp.h5"
     bake(program, SAMPLES / "bolt.obj", "-o", bolt, "--structures", "hull", "--unit", "mm")

@@ -51,25 +51,30 @@ std::string visual_text(const ExportReport& report) {
     return report.has_visual ? "  with the mesh itself, without normals and materials\n" : "";
 }
 
+/// Returns why the unit is unknown: a --unit that was given does not help if all is normalised.
+std::string lack_of_unit(const ExportReport& report) {
+    return report.input + (report.is_normalized
+                               ? ": was baked with --normalize, so its lengths have no unit"
+                               : ": states no unit");
+}
+
+std::string how_to_state_it(const ExportReport& report) {
+    return std::string("Bake it ") + (report.is_normalized ? "without --normalize and " : "") +
+           "with --unit mm, cm, m, in or ft.";
+}
+
 }  // namespace
 
 std::string unknown_unit(const ExportReport& report) {
-    return report.input +
-           (report.is_normalized ? ": was baked with --normalize and has no unit"
-                                 : ": states no unit") +
-           ", which " + report.output + " needs. Bake it " +
-           (report.is_normalized ? "without --normalize and " : "") +
-           "with --unit mm, cm, m, in or ft.";
+    return lack_of_unit(report) + ", which " + report.output + " needs. " + how_to_state_it(report);
 }
 
 std::string unit_warning(const ExportReport& report) {
     if (!report.is_in_metres || report.metres_per_unit > 0) return {};
-    return report.input +
-           (report.is_normalized ? ": was baked with --normalize and has no unit; "
-                                 : ": states no unit; ") +
-           report.output + " takes it as metres, " + size_text(report) +
-           (report.mass ? " and " + in_six_digits(*report.mass) + " kg" : std::string()) +
-           (report.is_normalized ? ". Bake it without --normalize." : ". Bake with --unit.");
+    return lack_of_unit(report) + "; " + report.output + " takes " +
+           (report.is_normalized ? "them" : "it") + " as metres, " + size_text(report) +
+           (report.mass ? " and " + in_six_digits(*report.mass) + " kg" : std::string()) + ". " +
+           how_to_state_it(report);
 }
 
 std::string export_text(const ExportReport& report) {
