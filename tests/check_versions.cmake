@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+# Fails when a file names another version than CMakeLists.txt.
+# Run by ctest as: cmake -D ROOT=<source dir> -P check_versions.cmake
+cmake_minimum_required(VERSION 3.25)
+
+# Stores in result what stands where pattern has its parentheses, which must be found in the file.
+function(read_version path pattern result)
+    file(READ ${ROOT}/${path} text)
+    if(NOT text MATCHES "${pattern}")
+        message(FATAL_ERROR "${path}: no version was found. It is looked for as ${pattern}")
+    endif()
+    set(${result} "${CMAKE_MATCH_1}" PARENT_SCOPE)
+endfunction()
+
+read_version(CMakeLists.txt "project\\(cdprep VERSION ([^ \n]+)" expected)
+set(wrong "")
+function(compare path found)
+    if(NOT found STREQUAL expected)
+        string(APPEND wrong "\n  ${path}: the version is ${found}, but that of CMakeLists.txt is "
+            "${expected}")
+        set(wrong "${wrong}" PARENT_SCOPE)
+    endif()
+endfunction()
+function(check path pattern)
+    read_version(${path} "${pattern}" found)
+    compare(${path} "${found}")
+    set(wrong "${wrong}" PARENT_SCOPE)
+endfunction()
+
+check(CITATION.cff "\nversion: ([^\n]+)\n")
+check(lib/bindings/wasm/package.json "\n  \"version\": \"([^\"]*)\"")
+check(packaging/conan/conanfile.py "\n    version = \"([^\"]*)\"")
+check(packaging/debian/changelog "^cdprep \\(([^)]*)-[^-)]*\\)")
+check(packaging/vcpkg/cdprep/vcpkg.json "\n  \"version\": \"([^\"]*)\"")
+set(header lib/include/cdprep/c/base.h)
+set(numbers "")
+foreach(part MAJOR MINOR PATCH)
+    read_version(${header} "\n#define CDPREP_VERSION_${part} ([^ \n]+)\n" number)
+    list(APPEND numbers "${number}")
+endforeach()
+list(JOIN numbers "." numbers)
+compare(${header} "${numbers}")
+if(wrong)
+    message(FATAL_ERROR "Versions differ:${wrong}")
+endif()
