@@ -30,9 +30,9 @@ public:
         contains.fill(~0U);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             for (std::size_t box = 0; box < format::kBvhWidth; ++box) {
-                const bool is_out =
-                    (node.lower[axis][box] > upper_[axis]) | (node.upper[axis][box] < lower_[axis]);
-                contains[box] &= is_out ? 0U : ~0U;
+                const bool is_above = node.lower[axis][box] > upper_[axis];
+                const bool is_below = node.upper[axis][box] < lower_[axis];
+                contains[box] &= (is_above | is_below) ? 0U : ~0U;  // without a branch
             }
         }
         BoxVerdict verdict;
