@@ -29,7 +29,9 @@ inline void for_lanes(const Body& body) {
         for_lanes<4>(body);
         for_lanes<4>([&](std::size_t lane) { body(lane + 4); });
     } else {
-        CDPREP_KEEP_LOOP
+#if defined(__GNUC__)
+#pragma GCC unroll 1
+#endif
         for (std::size_t lane = 0; lane < kCount; ++lane) body(lane);
     }
 }

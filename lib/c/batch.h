@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <span>
@@ -30,7 +31,7 @@ int check_arrays(Call& call, const Batch<Query, Answer>& batch) noexcept {
         if (const int code = call.need(batch.queries, {batch.queries_name})) return code;
         if (const int code = call.need(batch.answers, {batch.answers_name})) return code;
     }
-    if (batch.count <= kMostAnswers<Answer>) return CDPREP_OK;
+    if (batch.count <= std::min(kMostAnswers<Answer>, kMostAnswers<Query>)) return CDPREP_OK;
     return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"count"}, "is more than memory holds.");
 }
 

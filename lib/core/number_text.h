@@ -15,9 +15,10 @@
 
 namespace cdprep {
 
-#ifdef __wasm__
-/// As below, but some powers of two have a digit more. The tables of std::to_chars() would be 36
+/// Returns the fewest digits that read back as the same number: 1e-12, not 9.9999999999999998e-13.
+/// In WebAssembly, some powers of two have a digit more: the tables of std::to_chars() would be 36
 /// kB, by Brotli, of the module that a page loads.
+#ifdef __wasm__
 inline std::string number_text(double value) {
     std::array<char, 32> digits{};  // holds 17 digits and an exponent
     std::array<char, 32> fixed{};
@@ -37,7 +38,6 @@ inline std::string number_text(double value) {
     return shorter ? fixed.data() : digits.data();
 }
 #else
-/// Returns the fewest digits that read back as the same number: 1e-12, not 9.9999999999999998e-13.
 inline std::string number_text(double value) {
     std::array<char, 32> digits{};
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;

@@ -285,7 +285,7 @@ struct BoxTree {
 
 /// One instruction set's kernels.
 struct Table {
-    const char* name;  ///< "scalar", "avx2", "avx512": shown in tests and benchmarks
+    const char* name;  ///< "scalar", "avx2", "neon" and so on: shown in tests
 
     /// Returns the pairs of chosen boxes that none of their face directions separates. These
     /// directions are six of the axis-aligned boxes and, if both nodes have oriented boxes, six of
@@ -383,7 +383,7 @@ struct Table {
                                  std::size_t count, std::uint32_t* numbers) noexcept;
 };
 
-extern const Table kScalar;  ///< the reference, for any processor
+extern const Table kScalar;  ///< the reference, for any processor; WebAssembly leaves it out
 #ifdef CDPREP_HAVE_AVX2
 extern const Table kAvx2;    ///< call through it only if available() lists it
 extern const Table kAvx512;  ///< likewise

@@ -2,9 +2,9 @@
 // A moving body of Jolt from the JSON of `cdprep export NAME.cdp.h5 --for json`.
 // Tested with the npm package jolt-physics 1.1.0. Jolt builds its own hulls from the points. Its
 // tolerances are metres, and would lose points of small pieces or refuse them. So each hull is
-// built 100 metres large, and scaled down. Bodies much smaller than a metre also need a
-// smaller mPenetrationSlop and mSpeculativeContactDistance than those of Jolt. It
-// takes inertia below some 1e-6 kg m^2 for none, and uses that of a sphere: so the body gets it.
+// built with coordinates of up to 10 metres, and scaled down. Bodies much smaller than a metre also
+// need a smaller mPenetrationSlop and mSpeculativeContactDistance than those of Jolt. It takes
+// inertia below some 1e-6 kg m^2 for none, and uses that of a sphere: so the body gets it.
 import { massOf } from './mass.mjs';
 
 export function joltBody(Jolt, bodies, colliders, density, position, layer) {

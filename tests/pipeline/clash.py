@@ -536,7 +536,7 @@ def mistakes(program, folder):
                                "/objects/0/layer: 'b' is not a layer"]),
         ("distance", [unserved], 2, ["crate.cdp.h5: its layer 'a' asks for distance",
                                      "--effects distance."]),
-        ("within", [good], 2, ["good.glb states no tolerance. Give --tolerance."]),
+        ("within", [good], 2, ["good.glb: the scene states no tolerance. Give --tolerance."]),
         ("within", [no_tolerance], 2, ["tolerance.json: no pair of layers states a tolerance. Give "
                                        "--tolerance."]),
         ("within", [good, "--tolerance", -1], 2, ["--tolerance", "0 or more"]),

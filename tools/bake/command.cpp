@@ -86,11 +86,15 @@ Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
     return outputs;
 }
 
-/// Returns what is left without colliders, for the provenance.
+/// Returns what is left without colliders, for the provenance: a file may have very many.
 std::string part_without(const std::vector<std::string>& colliders) {
+    constexpr std::size_t kMostNames = 8;
     std::string part;
-    for (const std::string& path : colliders) part += (part.empty() ? "without " : ", ") + path;
-    return part;
+    for (std::size_t i = 0; i < std::min(colliders.size(), kMostNames); ++i) {
+        part += (i == 0 ? "without " : ", ") + colliders[i];
+    }
+    if (colliders.size() <= kMostNames) return part;
+    return part + " and " + std::to_string(colliders.size() - kMostNames) + " more";
 }
 
 /// Bakes one file without its colliders, unless the arguments keep them.
@@ -267,9 +271,10 @@ void add_bake(const Command& app, Exit& exit) {
     command.set_notes(
         "The same input, options and version give the same sections, byte for byte. Answers "
         "never depend on --bounds, --structures or their options: those change speed alone.\n\n"
-        "Nodes and groups that are colliders of an engine are left out, and named: UCX_..., "
-        "UBX_..., USP_..., UCP_..., ...-colonly, ...-convcolonly, and all below a node named "
-        "colliders. Triangles and vertices are then numbered without them.",
+        "Colliders of engines are left out, and the report lists them. They are nodes and groups "
+        "named UCX_..., UBX_..., USP_..., UCP_..., ...-colonly or ...-convcolonly, and all nodes "
+        "below one named colliders. Triangles and vertices are then numbered without them. "
+        "'validate' leaves them out too; other commands and scene files keep them.",
         {"cdprep bake arm.glb", "cdprep bake *.obj --output-dir baked --effects all",
          "cdprep bake scan.ply --repair solid --unit mm"});
     command

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "text/number_text.h"
+#include "text/printable.h"
 
 namespace cdprep::cli {
 namespace {
@@ -164,7 +165,7 @@ std::string left_out_text(std::span<const std::string> paths) {
     std::string names;
     for (std::size_t i = 0; i < shown; ++i) {
         const bool is_last = i + 1 == paths.size();
-        names += (i == 0 ? "" : is_last ? " and " : ", ") + paths[i];
+        names += (i == 0 ? "" : is_last ? " and " : ", ") + report::printable(paths[i]);
     }
     if (shown < paths.size()) names += " and " + std::to_string(paths.size() - shown) + " more";
     return report::counted(paths.size(), "collider was", "colliders were") + " left out: " + names +

@@ -282,8 +282,8 @@ void add_decompose(const Command& app, Exit& exit) {
         "--max-error or --parts, encloses the solid in few convex pieces instead. The distance by "
         "which they stick out is proved and reported. Components and nodes stay separate. A node "
         "named UCX_..., ...-convcolonly, ...-convcol, ...-convex or ..._convex is replaced by its "
-        "convex hull. Groups that are other colliders, as for 'cdprep bake', stay separate even if "
-        "they are open.\n\nIf the request cannot be met, the best result is written and the exit "
+        "convex hull. Other groups that 'cdprep bake' would leave out stay separate even if they "
+        "are open.\n\nIf the request cannot be met, the best result is written and the exit "
         "code is 1.",
         {"cdprep decompose part.obj -o pieces.ply",
          "cdprep decompose robot.obj -o robot.urdf --max-error 0.5 --unit mm",

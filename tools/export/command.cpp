@@ -148,7 +148,7 @@ void add_export(const Command& app, Exit& exit) {
         "a GLB with the parts below a node named colliders. mujoco: MJCF. gazebo: SDF. urdf: URDF. "
         "All have the mesh itself too. json: points, triangles and mass, for loaders of other "
         "engines.\n\n"
-        "Unity reads GLB by a package such as glTFast, and makes no colliders by itself: add a "
+        "Unity reads GLB by a package such as glTFast. It makes no colliders by itself: add a "
         "convex MeshCollider to each node below colliders. A URDF names its meshes by paths "
         "relative to itself. ROS tools want --package, or file:// before the paths.\n\n"
         "All but json are in metres and turned to the up axis of the engine. Points that "

@@ -144,7 +144,7 @@ private:
         return {ErrorCode::bad_argument,
                 scene().name +
                     (scene().has_pairs ? ": no pair of layers states a tolerance."
-                                       : " states no tolerance.") +
+                                       : ": the scene states no tolerance.") +
                     " Give --tolerance."};
     }
 

@@ -503,8 +503,8 @@ void add_simulate(const Command& app, Exit& exit) {
     const Option plan =
         command
             .add_flag("--plan", arguments->plan,
-                      "Print what would be computed and what not, which sections of the models "
-                      "that reads, and how much memory the scene takes, and exit. All reasons "
+                      "Print what would be computed and what not, and exit. Lists the sections "
+                      "of the models that are read, and the memory of the scene. All reasons "
                       "against a plan are listed (exit 2)")
             .group("Simulation");
     const Option frames =

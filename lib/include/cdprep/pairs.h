@@ -216,8 +216,8 @@ struct Distance {
 /// the other. If the surfaces touch, both witnesses are a common point. For contained solids, they
 /// are the surfaces' nearest points.
 ///
-/// If several pairs of triangles have the least `upper`, the result is the first in the order of
-/// (triangle_a, triangle_b). Pairs that are equally near in exact arithmetic may differ in the last
+/// If the surfaces are apart and several pairs of triangles have the least `upper`, the result is
+/// the first in the order of (triangle_a, triangle_b). Pairs that are equally near in exact arithmetic may differ in the last
 /// bits of `upper`. Any of them may be the result, but always the same one. If the surfaces touch,
 /// the result is a pair that touches. Which one depends on the instruction set and the structure.
 ///

@@ -24,9 +24,9 @@ struct DroppedPoints {
 
 /// Returns the height below which hull builders of physics engines ignore a point. PhysX 5 ignores
 /// points within 0.0007 of half the sum of the box's sides (PxCookingParams::planeTolerance);
-/// Rapier ignores points that are nearer. The result is larger by a margin for their floats. That
-/// half sum counts as `least_size` if it is smaller: to PhysX it is at least 1, in the unit in
-/// which it cooks, whatever PxTolerancesScale is.
+/// Rapier ignores points that are nearer. The result is larger by a margin for their floats. If
+/// that half sum is smaller than `least_size`, it counts as that. To PhysX it is at least 1, in the
+/// unit in which it cooks. PxTolerancesScale does not change this.
 [[nodiscard]] double ignored_height(std::span<const Double3> points, double least_size = 0);
 
 /// Returns a hull of fewer points around a hull of dimension 3. Each step replaces a low point and

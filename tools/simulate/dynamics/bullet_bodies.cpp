@@ -23,7 +23,8 @@ namespace {
 constexpr double kImpactTolerance = 1e-3;
 /// A body that turns farther goes its way in parts, each by less than pi.
 constexpr double kPartTurn = 2;
-constexpr double kMostTurn = 1000;  ///< in a substep
+constexpr double kMostTurn = 1000;    ///< in a substep
+constexpr double kMostSteps = 20000;  ///< of a body's turn in a substep
 
 Error refused(const std::string& sentence) {
     return {ErrorCode::bad_argument, sentence};
@@ -155,6 +156,7 @@ private:
     void set_paces();
     Result<std::uint32_t> turn_parts(const BulletBody& body, const Double3& spin,
                                      double substep_s) const;
+    static std::uint32_t turn_steps(const BulletBody& body, const Double3& spin, double seconds);
     static Result<Done> add_motion(const BulletBody& body, const Pose& start, const Pose& end,
                                    std::vector<Motion>* way);
     Result<Done> fly(std::uint32_t number, double substep_s, std::vector<Motion>* way);
@@ -308,6 +310,15 @@ Result<std::uint32_t> BulletBodies::turn_parts(const BulletBody& body, const Dou
                    ". Take more substeps.");
 }
 
+/// Returns in how many steps moved_freely() computes a turn of some seconds. Beyond kMostSteps, the
+/// turn is less exact.
+std::uint32_t BulletBodies::turn_steps(const BulletBody& body, const Double3& spin,
+                                       double seconds) {
+    const double change = most_spin_change(body.mass, body.state, spin) * seconds;
+    const double steps = std::min(std::ceil(change / kMostSpinChange), kMostSteps);
+    return steps >= 1 ? static_cast<std::uint32_t>(steps) : 1;
+}
+
 /// Adds the end of a free body. `way` gets its motions, unless it is null.
 Result<Done> BulletBodies::fly(std::uint32_t number, double substep_s, std::vector<Motion>* way) {
     BulletBody& body = *bodies_[number];
@@ -328,11 +339,15 @@ Result<Done> BulletBodies::fly(std::uint32_t number, double substep_s, std::vect
         if (!needed) return needed.error();
         parts = *needed;
     }
-    const double share = 1.0 / parts;
+    const std::uint32_t steps = turn_steps(body, motion.spin, substep_s / parts);
+    const double share = 1.0 / parts / steps;
     Pose pose = body.pose;
     for (std::uint32_t part = 0; part < parts; ++part) {
-        motion = moved_freely(body.mass, motion.state, mesh::scaled(shift, share), motion.spin,
-                              mesh::scaled(body.push_turn, substep_s * share), substep_s * share);
+        for (std::uint32_t step = 0; step < steps; ++step) {
+            motion =
+                moved_freely(body.mass, motion.state, mesh::scaled(shift, share), motion.spin,
+                             mesh::scaled(body.push_turn, substep_s * share), substep_s * share);
+        }
         const Result<Pose> next = pose_of(motion.state, body.mass.centre);
         if (!next) {
             return refused(body.given.name + ": the body flew away. " + next.error().message);

@@ -32,9 +32,10 @@ struct FreeMotion {
 };
 
 /// Moves a body by a shift and turns it freely. `push` is a turn in addition, which is no velocity:
-/// as long as its angle. The angular momentum stays, but for rounding. Euler's equations are solved
-/// by the implicit midpoint rule, composed to the fourth order (Hairer, Lubich and Wanner,
-/// Geometric Numerical Integration, II.4 and VII.5).
+/// as long as its angle. The angular momentum stays, but for rounding. `seconds` must be at most
+/// kMostSpinChange / most_spin_change(). Euler's equations are solved by the implicit midpoint
+/// rule, composed to the fourth order (Hairer, Lubich and Wanner, Geometric Numerical Integration,
+/// II.4 and VII.5).
 [[nodiscard]] FreeMotion moved_freely(const BodyMass& mass, const RigidState& state,
                                       const Double3& shift, const Double3& spin,
                                       const Double3& push, double seconds) noexcept;
@@ -43,6 +44,12 @@ struct FreeMotion {
 /// and the angular momentum, which stay.
 [[nodiscard]] double most_spin(const BodyMass& mass, const RigidState& state,
                                const Double3& spin) noexcept;
+
+/// Returns a bound of the change of a free body's spin, in radians per second, for each radian that
+/// the body turns.
+[[nodiscard]] double most_spin_change(const BodyMass& mass, const RigidState& state,
+                                      const Double3& spin) noexcept;
+inline constexpr double kMostSpinChange = 0.25;
 
 /// Returns R p for a rotation, row by row.
 [[nodiscard]] inline Double3 rotated(const std::array<double, 9>& r, const Double3& p) noexcept {

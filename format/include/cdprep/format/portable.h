@@ -68,14 +68,6 @@ inline void prefetch_line([[maybe_unused]] const void* address) noexcept {
 #endif
 }
 
-/// Stands in front of a loop that the compiler is to keep as a loop: it is not to unroll it. Visual
-/// C++ has no such hint.
-#if defined(__GNUC__)
-#define CDPREP_KEEP_LOOP _Pragma("GCC unroll 1")
-#else
-#define CDPREP_KEEP_LOOP
-#endif
-
 /// A signed integer of 128 bits for compilers that have none. Wraps around.
 class TwoWordInteger {
 public:

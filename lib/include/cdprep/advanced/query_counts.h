@@ -8,7 +8,8 @@
 namespace cdprep {
 
 /// Returns the name of the instruction set that queries use on this machine: "scalar", "avx2",
-/// "avx512". The environment variable CDPREP_KERNELS chooses another.
+/// "avx512", "neon" or "simd128". The environment variable CDPREP_KERNELS chooses another, if there
+/// is one.
 [[nodiscard]] CDPREP_API const char* kernel_name() noexcept;
 
 /// Work of queries about two models, and of points_inside(). The counts serve tuning and

@@ -515,7 +515,8 @@ private:
     std::atomic<int> taken_ = 0;
 };
 
-#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__linux__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 /// Runs `loop` where every system call but exit kills the process. Returns the wait status; the
 /// exit status is 77 where that cannot be had.
 template <class Loop>

@@ -147,6 +147,18 @@ TEST(MovedFreely, KeepsMomentumAndEnergy) {
     // The rule keeps the energy to the fourth order in the angle of a step: (2 / 240)^4 = 5e-9.
     EXPECT_NEAR(last[3] / first[3], 1, 3e-8);
     EXPECT_EQ(motion.state.centre.x, 10'000);
+
+    // As far as a step may go.
+    motion = {{}, {200, 30, -10}};
+    const auto fast = momentum_and_energy(motion);
+    const double most = most_spin(mass, motion.state, motion.spin);
+    const double step = kMostSpinChange / most_spin_change(mass, motion.state, motion.spin);
+    for (int i = 0; i < 10'000; ++i) {
+        motion = moved_freely(mass, motion.state, {}, motion.spin, {}, step);
+        const Double3& w = motion.spin;
+        ASSERT_LE(std::sqrt(w.x * w.x + w.y * w.y + w.z * w.z), 1.01 * most);
+        ASSERT_NEAR(momentum_and_energy(motion)[3] / fast[3], 1, 1e-3);
+    }
 }
 
 // The bound holds along the way, and is the spin itself about a principal axis.

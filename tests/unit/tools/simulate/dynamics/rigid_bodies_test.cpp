@@ -333,6 +333,25 @@ TEST_F(RigidBodiesTest, AContinuousBodyTurnsFartherThanPi) {
     EXPECT_NE(refused.error().message.find("up to 1000. Take more substeps."), std::string::npos);
 }
 
+// Turns by more than a radian in a substep, about no principal axis.
+TEST_F(RigidBodiesTest, ATumblingBodyKeepsItsEnergy) {
+    test::TestMesh mesh = test::moved_by(test::unit_cube(), 1, {-0.5, -0.5, -0.5});
+    for (Double3& p : mesh.positions) p = {8 * p.x, p.y, 0.5 * p.z};
+    const study::MemoryModel bar = Models::baked(mesh);
+    for (const bool is_continuous : {false, true}) {
+        const auto bodies = make({.gravity = {0, 0, 0}, .sleeps = false});
+        ASSERT_TRUE(bodies->add_body({.model = &bar.model,
+                                      .name = "bar",
+                                      .is_continuous = is_continuous,
+                                      .angular_velocity = {700, 90, 40}}));
+        const double first = bodies->kinetic_energy();
+        for (int frame = 0; frame < 30; ++frame) {
+            ASSERT_TRUE(bodies->step());
+            ASSERT_NEAR(bodies->kinetic_energy() / first, 1, 0.01) << frame;
+        }
+    }
+}
+
 TEST_F(RigidBodiesTest, RefuseNumbersThatBulletCannotHold) {
     const auto bodies = make();
     const auto sentence_of = [&](auto change) {
