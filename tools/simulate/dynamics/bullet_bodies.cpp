@@ -156,7 +156,8 @@ private:
     void set_paces();
     Result<std::uint32_t> turn_parts(const BulletBody& body, const Double3& spin,
                                      double substep_s) const;
-    static std::uint32_t turn_steps(const BulletBody& body, const Double3& spin, double seconds);
+    static std::uint32_t turn_steps(const BulletBody& body, const Double3& spin, double substep_s,
+                                    std::uint32_t parts);
     static Result<Done> add_motion(const BulletBody& body, const Pose& start, const Pose& end,
                                    std::vector<Motion>* way);
     Result<Done> fly(std::uint32_t number, double substep_s, std::vector<Motion>* way);
@@ -310,13 +311,13 @@ Result<std::uint32_t> BulletBodies::turn_parts(const BulletBody& body, const Dou
                    ". Take more substeps.");
 }
 
-/// Returns in how many steps moved_freely() computes a turn of some seconds. Beyond kMostSteps, the
-/// turn is less exact.
+/// Returns in how many steps moved_freely() computes one of some equal parts of a turn. Beyond
+/// kMostSteps in all, the turn is less exact.
 std::uint32_t BulletBodies::turn_steps(const BulletBody& body, const Double3& spin,
-                                       double seconds) {
-    const double change = most_spin_change(body.mass, body.state, spin) * seconds;
-    const double steps = std::min(std::ceil(change / kMostSpinChange), kMostSteps);
-    return steps >= 1 ? static_cast<std::uint32_t>(steps) : 1;
+                                       double substep_s, std::uint32_t parts) {
+    const double change = most_spin_change(body.mass, body.state, spin) * substep_s;
+    const double steps = std::min(std::ceil(change / kMostSpinChange), kMostSteps) / parts;
+    return steps > 1 ? static_cast<std::uint32_t>(std::ceil(steps)) : 1;
 }
 
 /// Adds the end of a free body. `way` gets its motions, unless it is null.
@@ -339,7 +340,7 @@ Result<Done> BulletBodies::fly(std::uint32_t number, double substep_s, std::vect
         if (!needed) return needed.error();
         parts = *needed;
     }
-    const std::uint32_t steps = turn_steps(body, motion.spin, substep_s / parts);
+    const std::uint32_t steps = turn_steps(body, motion.spin, substep_s, parts);
     const double share = 1.0 / parts / steps;
     Pose pose = body.pose;
     for (std::uint32_t part = 0; part < parts; ++part) {
