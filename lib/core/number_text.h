@@ -16,7 +16,7 @@
 namespace cdprep {
 
 /// Returns the fewest digits that read back as the same number: 1e-12, not 9.9999999999999998e-13.
-/// In WebAssembly, some powers of two have a digit more: the tables of std::to_chars() would be 36
+/// In WebAssembly, some powers of two have a digit more. The tables of std::to_chars() would be 36
 /// kB, by Brotli, of the module that a page loads.
 #ifdef __wasm__
 inline std::string number_text(double value) {

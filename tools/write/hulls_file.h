@@ -75,7 +75,7 @@ struct HullsFileOptions {
 /// Coordinates are written in the fewest digits that read back bit for bit. GLB has only
 /// floats: its corners are rounded to the nearest float. Hulls below HullsFileOptions::hulls_node
 /// are for Unity, which cooks a mesh before its node scales it. Small ones are stored larger by a
-/// power of two, below a node that scales them down: PhysX drops points of small ones. URDF and SDF
+/// power of two, below a node that scales them down. PhysX drops points of small ones. URDF and SDF
 /// refer to mesh files by paths relative to their own. Each hull is written beside the file as
 /// STEM_NAME.obj. The mesh that URDF, SDF and MJCF show is written as STEM_visual.obj. STEM is
 /// model_name(); if that replaced characters, a number distinguishes such names. URDF, SDF and MJCF

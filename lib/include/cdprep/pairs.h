@@ -216,10 +216,11 @@ struct Distance {
 /// the other. If the surfaces touch, both witnesses are a common point. For contained solids, they
 /// are the surfaces' nearest points.
 ///
-/// If the surfaces are apart and several pairs of triangles have the least `upper`, the result is
-/// the first in the order of (triangle_a, triangle_b). Pairs that are equally near in exact arithmetic may differ in the last
-/// bits of `upper`. Any of them may be the result, but always the same one. If the surfaces touch,
-/// the result is a pair that touches. Which one depends on the instruction set and the structure.
+/// If the surfaces are apart, several pairs of triangles may have the least `upper`. The result is
+/// the first of these in the order of (triangle_a, triangle_b). Pairs that are equally near in
+/// exact arithmetic may differ in the last bits of `upper`. Any of them may be the result, but
+/// always the same one. If the surfaces touch, the result is a pair that touches. Which one depends
+/// on the instruction set and the structure.
 ///
 /// The interval contains the exact distance of the surfaces whose vertices transform_point() moved.
 /// Without permitted errors, its width is at most 1e-12 d + 1e-15 c (triangle_distance_laws_test).

@@ -67,12 +67,11 @@ struct RigidBody {
     double restitution = 0;     ///< of two bodies: the larger one
     double linear_damping = 0;  ///< the share of the velocity lost in a second, 0 to 1
     double angular_damping = 0;
-    /// It passes through nothing, and no body passes through it, except for bodies that it touches
-    /// when a substep begins: contacts alone keep these apart. Where it first meets another one in
-    /// a substep, the motions of both end. A driven body goes on and takes it along. Between two
-    /// driven or fixed bodies it may be squeezed. In a substep, centres move along straight lines,
-    /// and no body may turn by more than 1000 radians. The models of all bodies must then serve
-    /// Ask::distance.
+    /// It passes through nothing, and no body passes through it. Contacts alone keep out what it
+    /// touches when a substep begins. Where it first meets another one in a substep, the motions
+    /// of both end. A driven body goes on and takes it along. Between two driven or fixed bodies it
+    /// may be squeezed. In a substep, centres move along straight lines, and no body may turn by
+    /// more than 1000 radians. The models of all bodies must then serve Ask::distance.
     bool is_continuous = false;
     Double3 velocity = {0, 0, 0};          ///< of the centre of mass
     Double3 angular_velocity = {0, 0, 0};  ///< radians per second, in the world

@@ -227,11 +227,10 @@ typedef struct cdprep_nearest {
 /* Stores the distance of two models. It is 0, exactly, for surfaces that touch. It is also 0 if one
  * solid is proven inside the other; the points are then the surfaces' nearest points. Without
  * permitted errors, the interval's width is at most 1e-12 d + 1e-15 c. Here d is the distance, and
- * c the largest absolute coordinate of the moved vertices. If the surfaces are apart and several
- * pairs of triangles have the least `upper`, the result is the first in the order of (triangle_a,
- * triangle_b). Surfaces that
- * touch give a pair of triangles that touches. Which one depends on the instruction set and the
- * structure. `options` may be null.
+ * c the largest absolute coordinate of the moved vertices. If the surfaces are apart, several
+ * pairs of triangles may have the least `upper`. The result is the first of these in the order of
+ * (triangle_a, triangle_b). Surfaces that touch give a pair of triangles that touches. Which one
+ * depends on the instruction set and the structure. `options` may be null.
  * Uses body; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Takes O(log n) time for typical meshes; visits every triangle in the worst case.
  * Needs: CDPREP_ASK_DISTANCE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
