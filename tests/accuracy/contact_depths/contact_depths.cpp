@@ -12,8 +12,8 @@
 // breaks: a depth of more than twice the truth, an interval that does not hold the pieces' own
 // depth, a normal that is no unit vector.
 //
-// Usage: contact_depths [POSES]: a sixteenth of 1,000 by default, all with CDPREP_ALL_POSES=yes. The models are
-// those beside the checkout, or in CDPREP_SHARED
+// Usage: contact_depths [POSES]: a sixteenth of 1,000 by default, all with CDPREP_ALL_POSES=yes.
+// The models are those beside the checkout, or in CDPREP_SHARED.
 #include <algorithm>
 #include <array>
 #include <cmath>
