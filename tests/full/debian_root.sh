@@ -6,6 +6,7 @@
 # make_root PACKAGE,...
 make_root() {
     root=$(mktemp -d)
+    chmod 755 "$root"  # users of the root pass through it too
     trap 'umount --recursive "$root/dev" "$root/proc" 2> /dev/null || true; rm -rf --one-file-system "$root"' EXIT INT TERM
     archive=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Codename: bookworm' | head -n 1)
     debootstrap --variant=minbase --include="$1" bookworm "$root" "$archive" > "$root.log" 2>&1 || {
