@@ -88,7 +88,6 @@ constexpr std::array<const char*, 3> kHow = {"the models are not in the processo
 struct Said {
     double lower;
     double upper;
-    friend bool operator==(const Said&, const Said&) = default;
 };
 
 class Asker {
