@@ -32,7 +32,7 @@ struct FreeMotion {
 };
 
 /// Moves a body by a shift and turns it freely. `push` is a turn in addition, which is no velocity:
-/// as long as its angle. The angular momentum stays, but for rounding. `seconds` must be at most
+/// as long as its angle. The angular momentum stays, up to rounding. `seconds` must be at most
 /// kMostSpinChange / most_spin_change(). Euler's equations are solved by the implicit midpoint
 /// rule, composed to the fourth order (Hairer, Lubich and Wanner, Geometric Numerical Integration,
 /// II.4 and VII.5).

@@ -131,7 +131,7 @@ TEST_F(BodyWaysTest, AStoppedBodyIsMetInItsTurn) {
 }
 
 // By hand: a plate that is not free comes from 3 to -7. It meets the cube at 0.25 and takes it 7.5
-// along, but for a wall.
+// along. A wall at -4 stops the cube.
 TEST_F(BodyWaysTest, ABodyThatIsNotFreeTakesAlong) {
     for (const bool has_wall : {false, true}) {
         std::vector<BodyWay> ways = {cube({0, 0, 0}, {}), plate({3, 0, 0}, {-10, 0, 0}),
