@@ -201,14 +201,14 @@ void add_cell_rules(const Command& command, StructureArguments& arguments) {
         .add_option("--split", arguments.split,
                     "Split planes of octree-adaptive. median: at the median of the triangles' "
                     "centres; area: where the sum of area times triangles over both sides is "
-                    "least. Default: by the preset")
+                    "least. Default: set by the preset")
         .type_name("RULE")
         .check(one_of({"median", "area"}))
         .group(kGroup);
     command
         .add_option("--octree-bounding", arguments.octree_bounding,
                     "Bounds of an octree cell's triangles. boxes: their bounding box; cells: the "
-                    "cell itself. Default: by the preset")
+                    "cell itself. Default: set by the preset")
         .type_name("BOUNDS")
         .check(one_of({"boxes", "cells"}))
         .group(kGroup);
@@ -217,7 +217,7 @@ void add_cell_rules(const Command& command, StructureArguments& arguments) {
             "--bounding", arguments.bounding,
             "Bounds of a tetra-tree cone's triangles. boxes: bounding boxes, the fastest; caps: "
             "from the nearest to the farthest point; tetra: from the centre to the farthest point. "
-            "Default: by the preset")
+            "Default: set by the preset")
         .type_name("BOUNDS")
         .check(one_of({"boxes", "caps", "tetra"}))
         .group(kGroup);
@@ -268,11 +268,11 @@ void add_structure_options(const Command& command, StructureArguments& arguments
         command.add_option(name, value, description).check(whole_from(least, most)).group(kGroup);
     };
     number("--octree-level", arguments.octree_level, 0, format::kOctreeBits,
-           "Maximum depth of octrees. Default: by the preset");
+           "Maximum depth of octrees. Default: set by the preset");
     number("--octree-threshold", arguments.octree_threshold, 1, format::kMaxTriangles,
            "Octrees: do not divide a cell with fewer triangles");
     number("--tetra-level", arguments.tetra_level, 0, format::kMaxTetraLevel,
-           "Maximum depth of the tetra-tree. Default: by the preset");
+           "Maximum depth of the tetra-tree. Default: set by the preset");
     number("--tetra-threshold", arguments.tetra_threshold, 1, format::kMaxTriangles,
            "Tetra-tree: do not split a cone with fewer triangles");
     add_cell_rules(command, arguments);

@@ -175,7 +175,7 @@ std::string left_out_text(std::span<const std::string> paths) {
 void add_with_colliders(const Command& command, bool& with_colliders) {
     command
         .add_flag("--with-colliders", with_colliders,
-                  "Keep nodes and groups that are colliders of an engine as a part of the mesh")
+                  "Treat nodes and groups that are colliders of an engine as parts of the mesh")
         .group("Import");
 }
 

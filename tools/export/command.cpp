@@ -150,9 +150,9 @@ void add_export(const Command& app, Exit& exit) {
         "engines.\n\n"
         "Unity reads GLB by a package such as glTFast. It makes no colliders by itself: add a "
         "convex MeshCollider to each node below colliders. A URDF names its meshes by paths "
-        "relative to itself. ROS tools want --package, or file:// before the paths.\n\n"
+        "relative to itself. ROS tools expect --package, or file:// before the paths.\n\n"
         "All but json are in metres and turned to the up axis of the engine. Points that "
-        "hull builders of engines ignore are dropped: the others move out by less than the stated "
+        "hull builders of engines ignore are dropped. The others move out by less than the stated "
         "error, so that the colliders still enclose the mesh.",
         {"cdprep bake chair.glb --structures hull --parts 16",
          "cdprep export chair.cdp.h5 --for godot -o game/chair.glb",

@@ -101,13 +101,13 @@ void add_contacts(const Command& query, Exit& exit) {
         "'point_a' and 'point_b' are the nearest or deepest points. 'feature_a' and 'feature_b' "
         "are the vertices, edges or triangles there, numbered as in the imported files. "
         "'internal_edge' is true if the normal was turned so that nothing catches on an edge "
-        "inside the surface. 'from_behind' is true if a surface is met from its back. 'members' "
-        "counts the contacts that --cluster-deg joined into this one. With --manifold, 'points' "
-        "lists the deepest point first. Each has a place on either model, a distance, and an 'id' "
-        "in hexadecimal. With --as solid, a component inside the other model makes a contact with "
-        "'deep' true. Moving B by -lower along the normal frees the component. For this, the "
-        "files must be baked with --effects contacts,collide. The translation can be shorter if "
-        "the enclosing model is baked with parts: --structures hull --parts N.",
+        "inside the surface. 'from_behind' is true if the contact is on the back of a surface. "
+        "'members' counts the contacts that --cluster-deg joined into this one. With --manifold, "
+        "'points' lists the deepest point first. Each has a point on each model, a distance, and "
+        "an 'id' in hexadecimal. With --as solid, a component inside the other model makes a "
+        "contact with 'deep' true. Moving B by -lower along the normal frees the component. For "
+        "this, the files must be baked with --effects contacts,collide. The translation can be "
+        "shorter if the enclosing model is baked with parts: --structures hull --parts N.",
         {"cdprep query contacts arm.cdp.h5 part.cdp.h5 --poses poses.txt --tolerance 0.01",
          "cdprep query contacts a.cdp.h5 b.cdp.h5 --tolerance 0.01 --most 16 --cluster-deg 15"});
     command.add_option("a", arguments->a, "A file baked with --effects contacts").required();

@@ -77,7 +77,7 @@ void add_inaccessible(const Command& query, Exit& exit) {
     auto arguments = std::make_shared<InaccessibleArguments>();
     const Command command = query.add_command(
         "inaccessible",
-        "List triangles that others hide along all rays from outside to the tetra-tree's centre");
+        "List triangles occluded along every ray from outside to the tetra-tree's centre");
     command.set_notes("", {"cdprep query inaccessible arm.cdp.h5 --export occluded.ply"});
     command.add_option("model", arguments->model, "A file baked with --structures tetra-tree")
         .required();

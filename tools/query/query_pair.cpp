@@ -393,8 +393,7 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
         command
             .add_option("--tolerance", arguments.tolerance,
                         "Largest distance that counts as within, in model units. Required, unless "
-                        "the pairs of a scene state theirs; pairs that state none are then not "
-                        "queried")
+                        "a scene file states tolerances; pairs without one are then not queried")
             .type_name("DISTANCE")
             .check(zero_or_more())
             .group("Query");
@@ -462,9 +461,8 @@ constexpr const char* kSceneNotes =
     "part, named by its path. Later nodes of the same path get #2, #3 and so on. Nodes that use "
     "one mesh share its model. A transform that is not rigid is applied to the vertices. One that "
     "deviates from a rigid one by at most 1e-5 is rounded to it; the summary states the largest "
-    "deviation as 'rounding'. The answers are exact for these parts. Touching parts clash. The "
-    "lines "
-    "do not depend on the number of threads.";
+    "deviation as 'rounding'. The answers are exact for the resulting parts. Touching parts clash. "
+    "The lines do not depend on the number of threads.";
 
 void add_pair_format(const Command& command, std::string& word, bool serves_scenes) {
     if (!serves_scenes) {

@@ -294,9 +294,10 @@ void add_scene(const Command& command, SceneArguments& arguments) {
         .type_name("SCENE")
         .group("Scene");
     command
-        .add_option("--cache", arguments.cache,
-                    "Folder for baked files of the meshes of a scene. It is made if there is none. "
-                    "Default: bake into memory")
+        .add_option(
+            "--cache", arguments.cache,
+            "Folder for baked files of the meshes of a scene. It is created if it does not exist. "
+            "Default: bake into memory")
         .type_name("FOLDER")
         .group("Scene");
     add_jobs(command, arguments.threads);

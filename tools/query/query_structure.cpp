@@ -48,8 +48,9 @@ std::optional<Error> find_idle_option(const StructureWords& words, Structure str
 
 void add_body(const Command& command, std::string& word) {
     command
-        .add_option("--as", word,
-                    "Points of a model. surface: its triangles; solid: also what they enclose")
+        .add_option(
+            "--as", word,
+            "Points that belong to a model. surface: its triangles; solid: also what they enclose")
         .type_name("BODY")
         .check(one_of({"surface", "solid"}))
         .show_default()
@@ -93,17 +94,19 @@ void add_structure_steps(const Command& command, StructureWords& words) {
         .check(one_of({"guigue-devillers", "feito"}))
         .group("Structure");
     command
-        .add_option("--descent", words.descent,
-                    "Order of descent in octree, octree-adaptive and tetra-tree: into the larger "
-                    "cell, A's first, B's first, or both (default). Answers do not change")
+        .add_option(
+            "--descent", words.descent,
+            "Cell to divide first in octree, octree-adaptive and tetra-tree: the larger one, A's, "
+            "B's, or both (default). Answers do not change")
         .type_name("ORDER")
         .check(one_of({"larger", "a-first", "b-first", "both"}))
         .group("Structure");
     command
-        .add_option("--search", words.search,
-                    "Cell search of hashed-octree. sorted: binary search of sorted leaves; "
-                    "modulus: hash by the key's remainder; mixed: hash by a mixed key (default). "
-                    "Answers do not change")
+        .add_option(
+            "--search", words.search,
+            "Method to find a cell of hashed-octree. sorted: binary search of sorted leaves; "
+            "modulus: hash by the key's remainder; mixed: hash by a mixed key (default). "
+            "Answers do not change")
         .type_name("SEARCH")
         .check(one_of({"sorted", "modulus", "mixed"}))
         .group("Structure");

@@ -12,8 +12,7 @@
 namespace cdprep {
 
 /// The features of a model, one bit each. A feature is a query, another effect, or a structure that
-/// a query may use. Values are never reused. Bits 19 and 24 to 29 are reserved for what is not
-/// built yet.
+/// a query may use. Values are never reused. Bits 19 and 24 to 29 are reserved for future features.
 enum class Ask : std::uint32_t {
     nothing = 0,
     collide = 1U << 0,
@@ -31,7 +30,7 @@ enum class Ask : std::uint32_t {
     ray = 1U << 12,
     closest = 1U << 13,
     touch = 1U << 14,    ///< queries with a box, sphere, capsule or triangle
-    hulls = 1U << 15,    ///< convex hulls of the whole, of components, instances and parts
+    hulls = 1U << 15,    ///< convex hulls of the whole model, components, instances and parts
     pieces = 1U << 16,   ///< convex pieces of the surface, and queries through them
     corners = 1U << 17,  ///< access to geometry: corners, numbers and names of the imported file
     inaccessible = 1U << 18,

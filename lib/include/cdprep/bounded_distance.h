@@ -10,7 +10,7 @@
 
 namespace cdprep {
 
-// Distances for loops that must answer in time: work is counted, never measured by a clock. So the
+// Distances for loops that must answer in time. Work is counted, not measured by a clock. So the
 // same machine gives the same answer each time.
 
 // The units of work. A pair of nodes, which have up to 64 pairs of boxes, counts 1.
@@ -18,10 +18,10 @@ inline constexpr std::uint64_t kWorkOfLeaves = 2;     ///< a pair of leaves: up 
 inline constexpr std::uint64_t kWorkOfTriangles = 4;  ///< a pair of triangles, tested in double
 inline constexpr std::uint64_t kWorkOfExact = 16;     ///< one tested beyond double
 
-/// The distance of two surfaces, as far as a search came.
+/// The distance of two surfaces, or bounds of it if the search ended early.
 struct BoundedDistance {
-    /// True: the search came to its end, and `nearest` is what distance() returns. False: the
-    /// answer is late. Its bounds hold, but they may be wide.
+    /// True: the search was completed, and `nearest` is what distance() returns. False: the answer
+    /// is late. Its bounds hold, but they may be wide.
     bool is_complete = false;
     /// The exact distance is in [lower, upper], model units. 0 and infinity if nothing is known.
     double lower = 0;
@@ -29,7 +29,7 @@ struct BoundedDistance {
     /// The nearest pair of triangles found, with the same bounds. Nothing if none was found, or
     /// none is within max_distance.
     std::optional<Distance> nearest;
-    std::uint64_t work = 0;  ///< as DistanceBudget::work counts it
+    std::uint64_t work = 0;  ///< counted as in DistanceBudget::work
 };
 
 /// The last complete answer about a pair, which the caller keeps beside late ones.
@@ -46,10 +46,10 @@ struct LastDistance {
 /// The limits of the work of one query.
 struct DistanceBudget {
     /// The maximum work, 0 for no limit. The search ends as soon as its work is at least this. Up
-    /// to 64 pairs of triangles may exceed it. They are in the last pair of leaves of a search for
-    /// contact. Or they are about equally near, and are measured again at the end.
+    /// to 64 pairs of triangles may exceed it. These are in the last pair of leaves of a search for
+    /// contact, or are about equally near. The latter are measured again at the end.
     std::uint64_t work = 0;
-    /// Gets each complete answer, and counts late ones; or null.
+    /// Receives each complete answer, and counts late ones; or null.
     LastDistance* last = nullptr;
 };
 
@@ -58,12 +58,12 @@ struct DistanceBudget {
 /// A complete answer is that of distance(), bit for bit. If errors are permitted, it may be another
 /// answer within them. A late answer has the bounds of the search so far. `upper` is that of the
 /// nearest pair found. `lower` is the least bound of the pairs found and of all pairs of boxes not
-/// yet visited. If rounding cannot exclude that triangles touch, contact is searched for in exact
-/// arithmetic. `lower` is 0 if this search does not end.
+/// yet visited. If rounding hides whether triangles touch, a search in exact arithmetic decides.
+/// `lower` is 0 if this search does not end.
 ///
 /// With a cache, `lower` is at least the last proven gap minus the motion since then. The pair that
-/// was nearest before is measured first. So late bounds are close if the models moved little. If no
-/// gap is left, contact is searched for first, with about half of the work.
+/// was nearest before is measured first. So late bounds are close if the models moved little. If
+/// nothing of the gap is left, a search for contact comes first, with about half of the work.
 ///
 /// Reads no pair options: it is about surfaces, through the BVHs. `options` are read as in
 /// distance(). With max_distance NaN or negative, nothing is found. Needs Ask::distance of both

@@ -22,7 +22,7 @@ struct WorldBox {
     float upper[3];
 };
 
-/// The boxes with which a box may form pairs. Two boxes form one only if each accepts a layer of
+/// The boxes with which a box may form pairs. Two boxes form a pair only if each accepts a layer of
 /// the other. Layers are bits.
 struct BoxFilter {
     std::uint32_t layers = 1;
@@ -41,24 +41,26 @@ struct BoxPair {
     auto operator<=>(const BoxPair&) const = default;
 };
 
-/// The most boxes of a broad phase, and objects of a scene.
+/// The maximum number of boxes of a broad phase, and of objects of a scene.
 inline constexpr std::uint32_t kMostWorldBoxes = std::uint32_t{1} << 29;
 
 struct BroadPhaseLimits {
     std::uint32_t boxes;  ///< at most kMostWorldBoxes
-    /// Pairs that meet at a time. If boxes move little, room for twice as many makes it faster.
+    /// The maximum number of pairs of boxes that meet. If boxes move little, room for twice as many
+    /// makes updates faster.
     std::uint32_t pairs;
-    std::uint32_t threads = 1;  ///< tasks that an update runs at a time; at least one
+    std::uint32_t threads = 1;  ///< the maximum number of tasks at once; at least one
 };
 
 /// The result of BroadPhase::update().
 struct BroadPhaseUpdate {
-    /// All pairs of boxes that meet, sorted. They stay until the next update that is not refused.
+    /// All pairs of boxes that meet, sorted. They stay valid until the next update that is not
+    /// refused.
     std::span<const BoxPair> pairs = {};
     bool complete = true;      ///< otherwise `pairs` is empty; the next two say why
-    std::uint64_t needed = 0;  ///< limits.pairs for this update, if there are too many pairs
-    /// The first box with a number that is NaN, in the order of `moved` if that is given. The
-    /// update has changed nothing.
+    std::uint64_t needed = 0;  ///< the limits.pairs that suffices, if there are too many pairs
+    /// The first box with a NaN, in the order of `moved` if that is given. The update has changed
+    /// nothing.
     std::optional<std::uint32_t> refused = std::nullopt;
     /// Boxes that left the larger box around them, or whose filter has changed.
     std::uint32_t escaped = 0;
@@ -82,17 +84,16 @@ struct BroadPhaseUpdate {
 ///     for (const cdprep::BoxPair& pair : update.pairs) ...
 class BroadPhase {
 public:
-    /// Allocates memory once; updates never allocate. Stops the program if the limits are not
-    /// possible.
+    /// Allocates memory once; updates never allocate. Aborts the program if the limits are invalid.
     CDPREP_API explicit BroadPhase(const BroadPhaseLimits& limits);
 
     /// Makes a broad phase in the caller's memory, which must outlive it. Allocates nothing.
     /// Returns nothing if the memory is smaller than size() or not aligned to alignment(), or the
-    /// limits are not possible.
+    /// limits are invalid.
     [[nodiscard]] CDPREP_API static std::optional<BroadPhase> in_memory(
         std::span<std::byte> memory, const BroadPhaseLimits& limits) noexcept;
-    /// Returns the bytes that it takes: about 150 for each box and 24 for each pair. Each thread
-    /// but the first adds 4 for each box.
+    /// Returns the number of bytes that it takes: about 150 for each box and 24 for each pair. Each
+    /// thread but the first adds 4 for each box.
     [[nodiscard]] CDPREP_API static std::size_t size(const BroadPhaseLimits& limits) noexcept;
     [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two
 
@@ -101,15 +102,16 @@ public:
     CDPREP_API ~BroadPhase();
 
     /// Returns the pairs of boxes that meet. Any box may have moved since the last update. There
-    /// are at most limits.boxes boxes, and as many filters, or none: then all boxes form pairs.
-    /// Calls `parallel_for` at most twice, each time for at most limits.threads tasks.
+    /// are at most limits.boxes boxes. There is one filter for each box, or none: then all boxes
+    /// may form pairs. Calls `parallel_for` at most twice, each time for at most limits.threads
+    /// tasks.
     [[nodiscard]] CDPREP_API BroadPhaseUpdate
     update(std::span<const WorldBox> boxes, std::span<const BoxFilter> filters = {},
            ParallelFor parallel_for = serial_for) noexcept;
 
-    /// The same if only the boxes with these numbers have changed, or their filters. The number of
-    /// boxes must be that of the last update. The numbers may be in any order, and repeat. This
-    /// takes less time if few boxes move.
+    /// The same, if only the boxes with these numbers, or their filters, have changed. The number
+    /// of boxes must be that of the last update. The numbers may be in any order, and may repeat.
+    /// This takes less time if few boxes move.
     [[nodiscard]] CDPREP_API BroadPhaseUpdate update_moved(
         std::span<const WorldBox> boxes, std::span<const BoxFilter> filters,
         std::span<const std::uint32_t> moved, ParallelFor parallel_for = serial_for) noexcept;

@@ -101,9 +101,9 @@ struct ContactOptions {
     /// work. If the work allows all contacts, and `most` fewer than half of them, some depths are
     /// bounded more closely first. Each such bound counts kWorkOfBound.
     std::uint64_t work = 0;
-    /// Joins contacts that are linked by common pieces. Their normals differ from the normal of the
-    /// deepest by at most this, in radians. A joined contact has at most four points. 0: joins
-    /// none. Needs `most`.
+    /// Joins contacts that are linked by common pieces, if their normals differ little. The limit
+    /// is the angle to the normal of the deepest one, in radians. A joined contact has at most four
+    /// points. 0: joins none. Needs `most`.
     double cluster_angle = 0;
 };
 
@@ -111,14 +111,14 @@ inline constexpr std::uint64_t kWorkOfContact = 32;
 inline constexpr std::uint64_t kTrianglesOfWork = 8;
 inline constexpr std::uint64_t kWorkOfBound = 8;
 
-/// How complete a list of contacts is, and what the limits left out.
+/// The completeness of a list of contacts, and what the limits left out.
 struct ContactsVerdict {
     std::size_t count;       ///< contacts stored in `room`
-    std::uint64_t found;     ///< pairs of pieces within the tolerance, as far as was searched, and
+    std::uint64_t found;     ///< pairs of pieces found within the tolerance, and
                              ///< enclosed components
     std::uint64_t computed;  ///< those of them whose contact was computed
-    std::uint64_t work;      ///< as ContactOptions::work counts it
-    bool searched;           ///< The search covered the whole surface; false if `work` ended it
+    std::uint64_t work;      ///< counted as in ContactOptions::work
+    bool searched;           ///< the search covered the whole surface; false if `work` ended it
     bool complete;           ///< all contacts are in `room`, or in the clusters there
 };
 

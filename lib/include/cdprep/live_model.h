@@ -18,14 +18,14 @@ namespace cdprep {
 
 /// The capacity of a live model that can tear.
 struct LiveLimits {
-    std::uint32_t triangles = 0;  ///< the most triangles at a time; 0: the model cannot tear
+    std::uint32_t triangles = 0;  ///< the maximum number; 0: the model cannot tear
     /// Triangles may use the vertices with numbers less than this. 0: those of the base.
     std::uint32_t vertices = 0;
 };
 
 /// A triangle of a live model that can tear.
 struct LiveTriangle {
-    std::uint32_t number;                 ///< by which answers name it
+    std::uint32_t number;                 ///< the number that answers use
     std::array<std::uint32_t, 3> vertex;  ///< numbers as in LiveModel::refit()
 
     friend bool operator<(const LiveTriangle& a, const LiveTriangle& b) noexcept {
@@ -78,7 +78,7 @@ public:
     /// start at a multiple of format::kSectionAlignment and stay in place while the live model
     /// lives. `base` must not lie in it, and is not used afterwards. Allocates. Takes O(n) time;
     /// with limits, O(n log n) time. Triangles are spread over all places of the limit. So a limit
-    /// far above the number that comes makes queries slower.
+    /// far above the number in use makes queries slower.
     ///
     /// Fails with `bad_argument` if `memory` is too small or misaligned. Also fails if `base` is a
     /// Model that can tear or has vertices that a repair made. Fails if two of its vertices or
@@ -133,13 +133,15 @@ public:
     ///
     /// In a model that can tear, a vertex that no triangle uses may get its first position.
     ///
-    /// Fails as above, and if there are more or fewer positions than numbers. Numbers must be
+    /// Fails as above. Also fails if the numbers of positions and vertices differ. Numbers must be
     /// less than position_count() or, in a model that can tear, LiveLimits::vertices.
     ///
     /// Takes O(m log n) time for m triangles at these vertices, and looks at a bit for each leaf.
-    /// Takes O(n) in three cases. A vertex leaves the frame of the boxes, a cube that was at least
-    /// twice the model's size when chosen. Or the model has become much smaller than this cube. Or
-    /// the first coordinate that is not a float comes, or the last one goes.
+    /// Takes O(n) in three cases:
+    /// - A vertex leaves the frame of the boxes, a cube that was at least twice the model's size
+    ///   when chosen.
+    /// - The model has become much smaller than this cube.
+    /// - The first coordinate that is not a float appears, or the last one disappears.
     CDPREP_API Result<Done> refit(std::span<const std::uint32_t> vertices,
                                   std::span<const format::Double3> positions,
                                   ParallelFor parallel_for = serial_for);
@@ -166,31 +168,32 @@ public:
     /// Returns the number of triangles.
     [[nodiscard]] CDPREP_API std::uint32_t triangle_count() const noexcept;
 
-    /// Returns the place of a triangle of a model that can tear in the views of model(). Returns
+    /// Returns the place of a triangle in the views of model(), if the model can tear. Returns
     /// nothing if there is no triangle of this number, or the model cannot tear. O(1).
     [[nodiscard]] CDPREP_API std::optional<std::uint32_t> place_of(
         std::uint32_t number) const noexcept;
 
-    /// Stores the triangles of a model that can tear by rising number, as many as `room` holds.
-    /// Returns how many there are; 0 for a model that cannot tear. Takes O(n log n) time.
+    /// Stores the triangles of a model that can tear in ascending order of their numbers, as many
+    /// as `room` holds. Returns how many there are; 0 for a model that cannot tear. Takes O(n log
+    /// n) time.
     CDPREP_API std::size_t triangles(std::span<LiveTriangle> room) const noexcept;
 
-    /// Rebuilds subtrees whose boxes have grown, so that queries stay fast. A call takes up to
-    /// `most_triangles` triangles and returns how many it took. It takes whole subtrees of up to
-    /// 4,096 triangles, so a smaller budget may do nothing for a larger model. The subtree whose
+    /// Rebuilds subtrees whose boxes have grown, so that queries stay fast. A call rebuilds up to
+    /// `most_triangles` triangles and returns how many it rebuilt. It rebuilds whole subtrees of up
+    /// to 4,096 triangles, so a smaller budget may do nothing for a larger model. The subtree whose
     /// surface cost has grown most since it was built comes first. Begins when one cost has grown
-    /// by 40 %, and goes on in later calls until none has by 20 %.
+    /// by 40 %, and continues in later calls until none has grown by 20 %.
     ///
     /// Answers stay the same. Does not help if far triangles have come near each other: then
-    /// surface_cost() stays high, and a new model helps. Takes O(nodes) time, and 100 ns or so for
-    /// each triangle taken. Never allocates.
+    /// surface_cost() stays high, and a new model helps. Takes O(nodes) time, and about 100 ns for
+    /// each triangle rebuilt. Never allocates.
     CDPREP_API std::uint32_t rebuild(std::uint32_t most_triangles) noexcept;
 
     /// Returns build::surface_cost() of the BVH. When it has grown by half in spite of rebuild(),
     /// build a new model. Takes O(n) time.
     [[nodiscard]] CDPREP_API double surface_cost() const noexcept;
 
-    /// Returns the bytes of the model, to store or to send. After a refit(), checksums and the
+    /// Returns the bytes of the model, to save or to send. After a refit(), checksums and the
     /// volumes of components are out of date; no query reads them. This function updates both, so
     /// that Model::open() accepts a copy of the bytes. The bytes depend only on the base, the
     /// positions and the order that rebuild() made. Takes O(bytes) time. Allocates.

@@ -24,7 +24,7 @@ namespace cdprep {
 using format::SectionId;
 using format::SectionSet;
 
-/// The place of the bytes of an opened file.
+/// The place where an opened file keeps its bytes.
 enum class OpenMode : std::uint8_t {
     /// In the file, mapped: nothing is copied, and processes share the memory. Needs a file that
     /// nobody truncates or rewrites while the Model lives; see Model.
@@ -143,8 +143,8 @@ public:
     /// Reads a byte of each page of the open sections of `wanted`, and returns how many bytes these
     /// sections have. Then the first query does not wait for the disk. Pages may be evicted later;
     /// the caller may lock them (mlock() on bytes()). A page has at least format::kPageAlignment
-    /// bytes. Takes as long as the disk needs for pages that are not in memory, otherwise some
-    /// nanoseconds a page. Needs no Ask. Never allocates.
+    /// bytes. Takes as long as the disk needs for pages that are not in memory, otherwise a few
+    /// nanoseconds per page. Needs no Ask. Never allocates.
     CDPREP_API std::size_t touch(SectionSet wanted = SectionSet::all()) const noexcept;
     /// The same for the sections that the queries of `asks` need or use.
     CDPREP_API std::size_t touch(Ask asks) const noexcept;

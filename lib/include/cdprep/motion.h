@@ -12,8 +12,8 @@ namespace cdprep {
 /// centre, moves along a straight line at constant speed. The model turns about the centre, about a
 /// fixed axis at constant speed.
 ///
-/// The centre of mass is a good centre for a free body. The joint is one for a part that turns
-/// about it. A centre far outside the model makes time_of_impact() slow.
+/// A good centre for a free body is its centre of mass. For a part that turns about a joint, it is
+/// the joint. A centre far outside the model makes time_of_impact() slow.
 class Motion {
 public:
     /// No motion at all: the identity at all times.
@@ -36,7 +36,7 @@ public:
     /// world coordinates. Its length is the angle in radians, kMostTurn at most. So a model may
     /// turn around more than once.
     ///
-    /// Fails as between(), and if `shift` or `turn` is not finite or too long.
+    /// Fails like between(), and if `shift` or `turn` is not finite or too long.
     [[nodiscard]] CDPREP_API static Result<Motion> by_velocity(const Pose& start,
                                                                const Double3& shift,
                                                                const Double3& turn,

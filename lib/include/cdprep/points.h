@@ -104,7 +104,7 @@ struct RayOptions {
 ///
 /// `t` and `point` are rounded. The rounded t decides which hit is first and which hits max_t
 /// excludes. Among equal t, the lowest source number comes first. A model without triangles is
-/// never hit, and a direction of zero hits nothing.
+/// never hit, and a zero direction hits nothing.
 ///
 /// Needs Ask::ray. Takes O(log n) time for typical meshes. Never allocates.
 [[nodiscard]] CDPREP_API std::optional<RayHit> cast_ray(const Model& model, const Ray& ray,
@@ -134,7 +134,7 @@ CDPREP_API bool visit_ray_hits(const Model& model, const Ray& ray, Workspace& wo
                                RayVisitor visit, const RayOptions& options = {}) noexcept;
 
 /// A solid box along the world axes. Limits may be infinite. With lower > upper on any axis, or a
-/// NaN, it is no box and touches nothing. Equal limits make it flat, a segment or a point.
+/// NaN, it is not a box and touches nothing. Equal limits make it flat, a segment or a point.
 struct Box {
     Double3 lower;  ///< model units
     Double3 upper;  ///< inclusive

@@ -39,16 +39,16 @@ struct SceneObject {
     Pose world_from_model;
 };
 
-/// Two objects for which an effect holds: a.slot < b.slot. Of `self`, a and b are the same object.
+/// Two objects for which an effect holds: a.slot < b.slot. For `self`, a and b are the same object.
 struct SceneHit {
     ObjectId a;
     ObjectId b;
     std::uint32_t pair;  ///< of layers: its number in Plan::pairs()
-    /// The effects that hold: `distance` if the distance is at most max_distance, `overlap`, `self`
-    /// and `contacts` if their list has items. `continuous` if ImpactKind is not `none`. `haptic`
-    /// if the distance is not proven to exceed max_distance.
+    /// The effects that hold. `distance` holds if the distance is at most max_distance. `overlap`,
+    /// `self` and `contacts` hold if their list has items. `continuous` holds if ImpactKind is not
+    /// `none`. `haptic` holds unless the distance is proven to exceed max_distance.
     Ask holds;
-    /// Of `collide`. If it is unknown whether they collide, the pair is listed but is no hit.
+    /// The answer of `collide`. If it is unknown, the pair is listed but is not a hit.
     Collision collision;
 };
 
@@ -75,7 +75,8 @@ struct SceneSelfOverlaps {
     std::span<const TrianglePair> triangles;
 };
 
-/// When two objects touch on the way from their poses in the last step to the present ones.
+/// The time at which two objects touch on the way from their poses in the last step to the present
+/// ones.
 struct SceneImpact {
     ObjectId a;
     ObjectId b;
@@ -89,8 +90,8 @@ struct SceneBoundedDistance {
     ObjectId b;
     std::uint32_t pair;
     BoundedDistance distance;
-    /// The last complete answer since their boxes met; the same one, if this one is complete. If a
-    /// model has changed since then, it is about the old shape.
+    /// The last complete answer since their boxes met. It is `distance` if that is complete. If a
+    /// model has changed since then, the answer is about the old shape.
     LastDistance last;
 };
 
@@ -118,14 +119,14 @@ enum class EventReason : std::uint32_t {
     removed,    ///< an object was removed
     relayered,  ///< an object is in another layer than in the last step
     paused,     ///< the effect was paused or resumed
-    unchanged,  ///< of EventKind::stays: neither object moved
+    unchanged,  ///< for EventKind::stays: neither object moved
 };
 
-/// An effect that begins, goes on or ceases to hold for two objects. Each begin is followed by one
-/// end before the next begin of the same objects and effect.
+/// An effect that begins, goes on or ceases to hold for two objects. Between two begins of the same
+/// objects and effect there is exactly one end.
 struct SceneEvent {
     ObjectId a;
-    ObjectId b;          ///< of `self`, the same object as a
+    ObjectId b;          ///< for `self`, the same object as a
     std::uint32_t pair;  ///< of layers, when it began
     Ask effect;          ///< one of kSceneEffects
     EventKind kind;
@@ -141,20 +142,20 @@ struct SceneCounts {
     /// Objects that moved, changed, were added, removed or relayered. With `continuous`, an object
     /// also counts in the step after its last motion.
     std::uint64_t moved = 0;
-    /// Pairs whose boxes meet, and objects that are asked about themselves.
+    /// Pairs whose boxes meet, and objects that are tested against themselves.
     std::uint64_t candidates = 0;
-    std::uint64_t kept = 0;   ///< candidates of which neither object moved: not asked again
-    std::uint64_t apart = 0;  ///< candidates whose root boxes are apart: nothing is asked
+    std::uint64_t kept = 0;   ///< candidates of which neither object moved: not queried again
+    std::uint64_t apart = 0;  ///< candidates whose root boxes are apart: no query runs
     std::array<std::uint64_t, kSceneEffects.size()> calls{};  ///< by effect
-    /// In all lists of overlaps() and self_overlaps().
+    /// The length of all lists of overlaps() and self_overlaps().
     std::uint64_t triangle_pairs = 0;
-    std::uint64_t contacts = 0;  ///< in all lists of contacts()
+    std::uint64_t contacts = 0;  ///< the length of all lists of contacts()
 
     /// With Scene::set_clock(), the ticks of the queries of each effect, summed over all threads.
     std::array<std::uint64_t, kSceneEffects.size()> ticks{};
-    /// The ticks of the stages of a step, one after the other. Together they are the step.
-    std::uint64_t box_ticks = 0;    ///< of boxes, the broad phase and what the last step knew
-    std::uint64_t query_ticks = 0;  ///< of all queries, from their begin to their end
+    /// The ticks of the stages of a step, one after the other. They add up to the whole step.
+    std::uint64_t box_ticks = 0;    ///< of boxes, the broad phase and the reuse of results
+    std::uint64_t query_ticks = 0;  ///< of all queries, from start to end
     std::uint64_t list_ticks = 0;   ///< of lists and events
 
     /// Returns the calls of one effect; 0 if it is none of kSceneEffects.
@@ -174,8 +175,8 @@ struct SceneStep {
 /// one of the two has moved.
 ///
 /// Results are sorted by the slots of a and b. They do not depend on threads, and equal those of
-/// single queries with Placement::world. They stay until the next step that is complete. After
-/// construction nothing is allocated.
+/// single queries with Placement::world. They stay valid until the next step that is complete.
+/// After construction nothing is allocated.
 ///
 ///     cdprep::Scene scene(plan);
 ///     const auto crate = scene.add({.model = &model, .layer = 1, .world_from_model = pose});
@@ -207,7 +208,7 @@ public:
     CDPREP_API bool remove(ObjectId object) noexcept;
     /// Moves an object. Returns false if there is none with this id. For `continuous`, its way
     /// begins at its pose in the last complete step. After put(), it begins where put() left it.
-    /// It moves as Motion::between() says. The centre is that of the model's box.
+    /// Its motion is that of Motion::between(), about the centre of the model's box.
     CDPREP_API bool set_pose(ObjectId object, const Pose& world_from_model) noexcept;
     /// Puts an object at a pose, without a way for `continuous`. Returns false if there is none
     /// with this id.
@@ -220,7 +221,7 @@ public:
     /// computed, and their events end. Effects that the plan does not ask for stay as they are.
     CDPREP_API void set_paused(Ask effects) noexcept;
 
-    /// Sets the clock for the ticks of SceneCounts. Null, as at first: no clock is read.
+    /// Sets the clock for the ticks of SceneCounts. Null, the initial value: no clock is read.
     CDPREP_API void set_clock(SceneClock clock) noexcept;
 
     /// Computes the effects of all objects as they are now. Uses as many workspaces as
@@ -229,9 +230,9 @@ public:
                               ParallelFor parallel_for = serial_for) noexcept;
     /// Does the same with pairs of slots that the caller's own broad phase found. The pairs may
     /// have any order, and so may the two slots of a pair. They must contain all pairs whose boxes
-    /// meet; a pair that is missing is ignored. Pairs of free slots, of layers that are not paired
-    /// and of boxes that do not meet are ignored. If pairs are listed twice, needed_pairs may be
-    /// larger than is needed.
+    /// meet: the scene does not find missing pairs. Pairs of free slots, of layers that are not
+    /// paired and of boxes that do not meet are ignored. If pairs are listed twice, needed_pairs
+    /// may be larger than necessary.
     CDPREP_API SceneStep step_with(std::span<const BoxPair> candidates,
                                    std::span<Workspace> workspaces,
                                    ParallelFor parallel_for = serial_for) noexcept;
@@ -250,7 +251,7 @@ public:
     /// If options.work ended the search for two objects, they are listed without contacts.
     [[nodiscard]] CDPREP_API std::span<const SceneContacts> contacts() const noexcept;
     /// The events of the last step that was complete, in the order of hits. For the same objects,
-    /// first what ends, then what stays, then what begins.
+    /// ends come before stays, and stays before begins.
     [[nodiscard]] CDPREP_API std::span<const SceneEvent> events() const noexcept;
     [[nodiscard]] CDPREP_API const SceneCounts& counts() const noexcept;
     [[nodiscard]] CDPREP_API std::uint32_t object_count() const noexcept;
@@ -258,12 +259,12 @@ public:
     [[nodiscard]] CDPREP_API const Model* model_of(ObjectId object) const noexcept;
     /// Returns an object as it is now, or nothing if there is none with this id.
     [[nodiscard]] CDPREP_API std::optional<SceneObject> find(ObjectId object) const noexcept;
-    /// Returns the object in a slot, or the id of no object if there is none.
+    /// Returns the object in a slot, or an id with generation 0 if there is none.
     [[nodiscard]] CDPREP_API ObjectId object_at(std::uint32_t slot) const noexcept;
     /// Returns a hash of all hits, lists, distances, impacts and events. It leaves out witness
-    /// points, features, the points of manifolds and the bounds of impacts. Of distances that are
-    /// 0, it leaves out the triangles. It is equal for any number of threads and any instruction
-    /// set. Exceptions are answers of `haptic` and impacts that are `near`: they may differ between
+    /// points, features, the points of manifolds and the bounds of impacts. For distances of 0, it
+    /// leaves out the triangles. It is equal for any number of threads and any instruction set.
+    /// Exceptions are answers of `haptic` and impacts that are `near`: they may differ between
     /// instruction sets.
     [[nodiscard]] CDPREP_API std::uint64_t state_hash() const noexcept;
 

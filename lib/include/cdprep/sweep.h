@@ -12,8 +12,8 @@
 namespace cdprep {
 
 /// The space through which a deforming model passes during a step: boxes around the path of each of
-/// its triangles. Each vertex moves along a straight line, at constant speed. So a triangle that
-/// jumps over a thin object in one step is not lost.
+/// its triangles. Each vertex moves along a straight line, at constant speed. So a thin object is
+/// found even if a triangle jumps over it in one step.
 ///
 ///     auto sweep = Sweep::in(memory, object.model());
 ///     for (...) {
@@ -66,20 +66,20 @@ private:
 /// the deforming model are those of the world in which `motion` moves B.
 ///
 /// `false` is proven: no triangle of one touches a triangle of the other at any time of the step.
-/// `true` says that the convex hull of a triangle's path, relative to B, comes near a triangle of
+/// `true` means that the convex hull of a triangle's path, relative to B, comes near a triangle of
 /// B. It does not say whether they touch, nor when. may_touch() does not test containment:
 /// collide() with Body::solid does. A hull ignores that its triangle is in one place at a time. So
-/// a step of less motion gives fewer false alarms. If B turns by more than a quarter of a radian,
-/// the step is tested in parts, 64 at most.
+/// a step with less motion gives fewer false alarms. If B turns by more than a quarter of a radian,
+/// the step is tested in parts, at most 64.
 ///
 /// Needs Ask::within of B. Takes as long as within() with a tolerance of half of B's motion. Each
 /// pair of triangles near each other takes about 1 us more for each part. Never allocates.
 [[nodiscard]] CDPREP_API bool may_touch(const Sweep& sweep, const Model& b, const Motion& motion,
                                         Workspace& workspace) noexcept;
 
-/// Finds every pair of triangles that may touch during the step, as may_touch(). Returns the number
-/// of pairs and stores the first of them in `room`, as overlaps() does. Triangle `a` is of the
-/// deforming model.
+/// Finds every pair of triangles that may touch during the step, by the test of may_touch().
+/// Returns the number of pairs and stores the first of them in `room`, as overlaps() does. Triangle
+/// `a` is of the deforming model.
 ///
 /// Needs Ask::within of B.
 [[nodiscard]] CDPREP_API std::size_t pairs_that_may_touch(const Sweep& sweep, const Model& b,

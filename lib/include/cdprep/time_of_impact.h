@@ -29,11 +29,11 @@ struct ImpactOptions {
     /// A tolerance close to rounding errors is raised to 2^-39 or so of the largest coordinate. It
     /// is raised to more for many turns, and for poses whose R is not quite a rotation.
     double tolerance = 0;
-    /// The search ends after so many distance queries that advance it.
+    /// The search ends after this many distance queries that advance it.
     std::uint32_t most_steps = 256;
 };
 
-/// What the search for an impact has proved.
+/// The result that the search for an impact has proved.
 enum class ImpactKind : std::uint8_t {
     none,        ///< the surfaces do not touch during the step
     touching,    ///< they touch first at a time in [lower, upper]
@@ -57,9 +57,9 @@ struct Impact {
 /// Returns when two moving models first touch: an interval of time that holds the first contact.
 ///
 /// The models are placed by Placement::world(), with the poses of Motion::at(). At each time before
-/// `lower`, given as a double, they are apart. At `upper` they touch, as collide() finds. So
-/// nothing passes through unseen, however fast or thin it is. If they touch at time 0, both bounds
-/// are 0. With Body::solid, a model inside the other also touches it at time 0.
+/// `lower` that is a double, they are apart. At `upper` they touch, as collide() finds. So nothing
+/// passes through unseen, however fast or thin it is. If they touch at time 0, both bounds are 0.
+/// With Body::solid, a model inside the other also touches it at time 0.
 ///
 /// If the search ends at the tolerance without a contact, the kind is `near`. The models may then
 /// pass each other closely, or touch later. A solver treats it as an impact at `lower`. An empty

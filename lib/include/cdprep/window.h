@@ -16,10 +16,11 @@ namespace cdprep {
 
 /// The capacity of a window.
 struct WindowLimits {
-    std::uint32_t leaves = 0;  ///< the most leaves of 8 triangles; at least 1
+    /// The maximum number of leaves, which have up to 8 triangles each; at least 1.
+    std::uint32_t leaves = 0;
 };
 
-/// What a window holds.
+/// The content of a window.
 struct WindowFill {
     /// Everything of A at most this far from B is in the window, model units. Less than requested
     /// if the window is too small. Negative if not even everything at distance 0 fits: then the
@@ -60,8 +61,8 @@ struct WindowFill {
 ///     if (found.is_complete) ...
 class Window {
 public:
-    /// Returns the number of bytes that in() takes: about 1,100 for each leaf. Fails as in().
-    /// Allocates as much while it runs.
+    /// Returns the number of bytes that in() takes: about 1,100 for each leaf. Fails if in()
+    /// rejects `limits`. Allocates as much while it runs.
     [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const WindowLimits& limits);
 
     /// Makes an empty window. `memory` must start at a multiple of format::kSectionAlignment and

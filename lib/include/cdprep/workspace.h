@@ -33,7 +33,7 @@ public:
     /// it serves the same queries as Workspace().
     [[nodiscard]] CDPREP_API static std::optional<Workspace> in_memory(
         std::span<std::byte> memory, const CellSearches* cells = nullptr) noexcept;
-    /// Bytes.
+    /// Returns the size in bytes.
     [[nodiscard]] CDPREP_API static std::size_t size(const CellSearches* cells = nullptr) noexcept;
     [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two
 

@@ -57,7 +57,8 @@ constexpr std::array kRules = {
              "number and another position. Examined only if a weld distance is given.",
              "Triangles that should share a vertex do not: the surface has cracks, and inside "
              "is not defined.",
-             "Weld with that distance.", "by distances in double, rounded, as in weld; chains join",
+             "Weld with that distance.",
+             "by distances in double, rounded, as in weld; chains of near vertices are joined",
              "the distance to the vertex that it would join, in model units"},
     RuleText{Rule::empty_mesh, "empty-mesh", Severity::warning, "Mesh has no triangles",
              "No triangle is left for queries: the file has none, or CDP0101, CDP0102 and "
@@ -135,7 +136,7 @@ constexpr std::array kRules = {
              "Orient consistently.", kExact, "its length, in model units"},
     RuleText{Rule::non_orientable, "non-orientable", Severity::warning,
              "Component cannot be oriented",
-             "A component that no choice of windings orients: some edge of exactly two "
+             "A component that no choice of windings orients. Some edge of exactly two "
              "triangles is always used twice in the same direction, as on a Moebius strip.",
              "It has one side only: nothing is inside.",
              "Cut it, or split the edges that were joined by mistake. Orienting stops there.",
@@ -202,14 +203,14 @@ constexpr std::array kRules = {
              "Remove self-intersections.", kExact, ""},
     RuleText{Rule::touching_triangles, "touching-triangles", Severity::note, "Triangles touch",
              "Two triangles without a common vertex, not in one plane, that have a common "
-             "point where no edge of one passes through the interior of the other.",
+             "point. No edge of one passes through the interior of the other.",
              "Often the far side of a T-junction; otherwise parts in contact.",
              "Resolve T-junctions; parts in contact need no repair.", kExact, ""},
     RuleText{Rule::coplanar_overlap, "coplanar-overlap", Severity::warning,
              "Triangles overlap in a plane",
              "Two triangles in one plane that share area and do not have the same three "
              "corners. They may share a vertex, or an edge over which one is folded.",
-             "Which of them is outside is not defined; contacts are reported twice.",
+             "It is not defined which of them is outside; contacts are reported twice.",
              "Remove self-intersections, or delete one of them.", kExact,
              "the number of vertices that they share"},
 };

@@ -15,7 +15,7 @@ namespace cdprep::format {
 /// detect transfers in text mode.
 inline constexpr std::array<char, 8> kMagic = {'\x93', 'C', 'D', 'P', '\r', '\n', '\x1a', '\n'};
 
-/// The format version. It rises whenever an older reader would misread a newer file.
+/// The format version. It increases whenever an older reader would misread a newer file.
 inline constexpr std::uint32_t kVersion = 1;
 
 inline constexpr std::uint32_t kEndianMark = 0x01020304;    ///< as the writer's processor stores it

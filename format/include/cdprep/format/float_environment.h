@@ -48,7 +48,7 @@ CDPREP_API void set_float_control(std::uint64_t control) noexcept;
 /// Sets the default value of the register; see is_default_float_control().
 CDPREP_API void set_default_float_control() noexcept;
 
-/// Sets the default floating-point environment of this thread for its own lifetime, and then
+/// A guard that gives its thread the default floating-point environment while it lives, and then
 /// restores the caller's. Usually the caller's is already the default. The guard then costs a read
 /// and two comparisons: eight instructions on x86-64.
 ///

@@ -88,7 +88,7 @@ struct SweptNode {
 ///
 /// With model_exact_leaves (FileHeader), corners and origin are in model coordinates. The corners
 /// are then the floats of positions_f32, without loss. Otherwise the origin is in frame
-/// coordinates, and `corner` is the frame coordinate less the origin, rounded to float. Lanes past
+/// coordinates, and `corner` is the frame coordinate minus the origin, rounded to float. Lanes past
 /// the last triangle repeat it.
 struct BvhLeaf {
     std::array<std::array<std::array<float, kBvhWidth>, 3>, 3> corner;  ///< [corner][axis][lane]
@@ -139,7 +139,7 @@ struct MassProperties {
 /// A use of one mesh by one node of the imported scene.
 ///
 /// Its triangles are the run [first_triangle, first_triangle + triangle_count) of the source
-/// numbers. Runs follow each other without gaps and cover all triangles. Instances with equal
+/// numbers. Runs are consecutive, without gaps, and cover all triangles. Instances with equal
 /// `mesh` numbers use one mesh.
 struct Instance {
     std::array<double, 12> model_from_node;  ///< 3 x 4, row by row; already applied to positions

@@ -11,7 +11,7 @@
 
 namespace cdprep::format {
 
-/// The set that a hull surrounds.
+/// The set that a hull encloses.
 enum class HullScope : std::uint32_t {
     whole = 0,      ///< the whole mesh
     component = 1,  ///< a connected component
@@ -24,8 +24,8 @@ enum HullFlags : std::uint32_t {
     hull_exact = 1,  ///< all its points are mesh vertices; otherwise it contains the exact hull
 };
 
-/// A convex hull. In dimension 3 it is a closed polyhedron, in 2 a polygon seen from both sides. In
-/// 1 it is a segment, in 0 a point, and in -1 it is empty.
+/// A convex hull. In dimension 3 it is a closed polyhedron, in 2 a two-sided polygon. In 1 it is a
+/// segment, in 0 a point, and in -1 it is empty.
 ///
 /// No point of the hull is farther than `distance` from the exact hull, in model units. No point of
 /// a part is farther than that from the surface and its interior. In each section, the elements of
@@ -42,7 +42,7 @@ struct Hull {
     std::uint32_t facet_count;  ///< 2 * point_count - 4 in dimensions 2 and 3, else 0
     std::uint32_t first_group;
     std::uint32_t group_count;
-    std::uint32_t first_neighbour;  ///< of point_count + 1 list begins, then neighbour_count points
+    std::uint32_t first_neighbour;  ///< of point_count + 1 list starts, then neighbour_count points
     std::uint32_t neighbour_count;  ///< 0: no lists are stored; searches scan the hull
     std::uint32_t first_start;
     std::uint32_t start_count;  ///< kHullStarts with neighbours, otherwise 0

@@ -11,7 +11,7 @@
 
 namespace cdprep::format {
 
-/// The offset of the superblock's bytes that FileHeader::superblock keeps.
+/// The offset in the file of the bytes that FileHeader::superblock repeats.
 inline constexpr std::uint64_t kSuperblockOffset = kUserBlockSize + 8;
 
 using UserBlock = std::array<std::byte, kUserBlockSize>;

@@ -50,8 +50,8 @@ struct OctreeNode {
     /// A leading one, then three bits per level from the root down. Bit 0 is set in the upper half
     /// along x, bit 1 along y, bit 2 along z. The parent is key >> 3.
     std::uint64_t key;
-    /// Of a leaf: its first reference. Of an inner node: its first child. The children follow each
-    /// other in the order of their last three key bits.
+    /// For a leaf: its first reference. For an inner node: its first child. The children are
+    /// consecutive, in the order of their last three key bits.
     std::uint32_t first;
     std::uint32_t count;  ///< kInnerNode | mask of children, or number of references
 };
@@ -103,15 +103,15 @@ struct AdaptiveOctree {
 
 /// A cell that some triangle touches: a closed box. The root's box is that of AdaptiveOctree. The
 /// planes through `split` divide a node's box into its children's boxes. Children are numbered as
-/// in OctreeNode. Nodes are stored level by level, root first, siblings side by side. Leaves'
-/// references follow each other in the order of the nodes.
+/// in OctreeNode. Nodes are stored level by level, root first, siblings side by side. The
+/// references of the leaves are in the order of the nodes.
 struct AdaptiveOctreeNode {
     /// The split point, model units. Along each axis it is strictly inside the node's box or at its
     /// upper bound. At the upper bound, the axis is not divided and no child lies above it. A flat
-    /// axis cannot be divided. At least one axis is divided. Of a leaf: zero.
+    /// axis cannot be divided. At least one axis is divided. For a leaf: zero.
     Double3 split;
-    std::uint32_t first;  ///< as OctreeNode
-    std::uint32_t count;  ///< as OctreeNode
+    std::uint32_t first;  ///< as in OctreeNode
+    std::uint32_t count;  ///< as in OctreeNode
 };
 
 /// The box around the contents of a cell, in frame coordinates, rounded outwards. A leaf's box

@@ -44,15 +44,15 @@ enum PieceFacetFlags : std::uint32_t {
 };
 
 /// A triangle of a hull's boundary, counter-clockwise seen from outside, not degenerate. The facets
-/// of a coplanar face follow each other.
+/// of a coplanar face are consecutive.
 struct PieceFacet {
     std::array<std::uint32_t, 3> corner;  ///< indices among the corners of its own piece
     std::uint32_t flags;                  ///< PieceFacetFlags
 };
 
-/// A leaf of the BVH over pieces: triangles of one piece that follow each other in piece_triangles.
-/// Box k % 8 of node k / 8 on the lowest level of piece_nodes contains the triangles of leaf k.
-/// Sections 54 to 56 and 61 are all present or all absent.
+/// A leaf of the BVH over pieces: consecutive elements of piece_triangles, all of one piece. Box k
+/// % 8 of node k / 8 on the lowest level of piece_nodes contains the triangles of leaf k. Sections
+/// 54 to 56 and 61 are all present or all absent.
 struct PieceLeaf {
     std::uint32_t piece;
     std::uint32_t first_triangle;  ///< in piece_triangles
@@ -104,9 +104,9 @@ struct PieceAdjacency {
 /// The bend of the surface at an edge of a triangle, decided by exact signs. Convex and reflex are
 /// seen from outside, where a triangle's corners are in counter-clockwise order.
 enum class EdgeConvexity : std::uint8_t {
-    /// The edge has no bend that is defined. It may be a border or have more than two triangles. Or
-    /// its two triangles have opposite windings or fold onto each other in a plane. Or one of them
-    /// has no area.
+    /// The bend is not defined. The edge may be a border or have more than two triangles. Its two
+    /// triangles may have opposite windings or fold onto each other in a plane. One of them may
+    /// have no area.
     unknown = 0,
     flat = 1,
     convex = 2,

@@ -10,10 +10,10 @@
 #include <intrin.h>
 #endif
 
-/// What compilers offer in different ways.
+/// Features that compilers provide in different ways.
 namespace cdprep::format {
 
-/// As std::bit_cast, which older libraries lack. The types must have the same size.
+/// A replacement for std::bit_cast, which older libraries lack. The types must have the same size.
 template <class To, class From>
 [[nodiscard]] constexpr To bit_cast(const From& from) noexcept {
     static_assert(sizeof(To) == sizeof(From));
@@ -29,8 +29,8 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Kernels call the next three. Each source has its own copies, because kernels are compiled with
 // instructions of their own. A linker could keep one of several equal copies for all callers.
 
-/// Returns the number of the lowest bit that is set. One must be. Faster than std::countr_zero(),
-/// which has an answer for 0.
+/// Returns the number of the lowest bit that is set. At least one bit must be set. Faster than
+/// std::countr_zero(), which also accepts 0.
 [[nodiscard]] static inline unsigned lowest_set_bit(std::uint32_t bits) noexcept {
 #if defined(__GNUC__)
     return static_cast<unsigned>(__builtin_ctz(bits));

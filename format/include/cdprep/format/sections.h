@@ -23,7 +23,7 @@ struct SectionKind {
     const char* description;  ///< HDF5 attribute
 };
 
-/// Returns the section table, by rising id.
+/// Returns the section table, in ascending order of ids.
 [[nodiscard]] CDPREP_API std::span<const SectionKind> section_kinds() noexcept;
 
 /// Returns the row of `id`, or null for an id that this version does not know.

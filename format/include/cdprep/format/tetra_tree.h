@@ -26,12 +26,12 @@ inline constexpr std::uint32_t kMaxTetraLevel = 14;
     return 8U << (2 * level);
 }
 
-/// How a tetra-tree bounds the triangles in a cone: by their extent along the diagonal of the
+/// The bounds of the triangles in a cone of a tetra-tree: their extent along the diagonal of the
 /// cone's octant.
 enum class TetraBounding : std::uint32_t {
     tetra = 0,  ///< from the centre to the farthest point: tetrahedra as published; radius_min is 0
     caps = 1,   ///< from the nearest to the farthest point: prunes the empty space at the centre
-    boxes = 2,  ///< as caps, and boxes in sections tetra_boxes and tetra_oriented
+    boxes = 2,  ///< as caps, with boxes in sections tetra_boxes and tetra_oriented
 };
 
 /// Bits of TetraTree::flags.
@@ -45,8 +45,8 @@ enum TetraTreeFlags : std::uint32_t {
 /// A tetra-tree: eight cones around a centre, one per octant, each split in four.
 ///
 /// The generators of an octant's cone are its three half axes v1, v2 and v3. A split adds the
-/// midpoint m of each two generators, on the octahedron's flat face |x| + |y| + |z| = 1. It makes
-/// the children
+/// midpoint m of each pair of generators, on the octahedron's flat face |x| + |y| + |z| = 1. It
+/// makes the children
 ///
 ///     (v1, m12, m31), (m12, v2, m23), (m31, m23, v3) and (m12, m23, m31).
 ///
@@ -87,8 +87,7 @@ struct TetraNode {
     std::uint32_t flags;  ///< TetraNodeFlags
 };
 
-/// The number of nodes by which each element of tetra_boxes and tetra_oriented starts after the
-/// element before.
+/// The stride of tetra_boxes and tetra_oriented: consecutive elements start this many nodes apart.
 ///
 /// With TetraBounding::boxes, both sections hold boxes of nodes: tetra_boxes in a BvhNode,
 /// tetra_oriented in an OrientedNode. Lane k of element i belongs to node kTetraBoxStride * i + k.

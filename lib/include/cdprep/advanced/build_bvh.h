@@ -62,7 +62,7 @@ enum class BvhBounds : std::uint8_t {
                                   static_cast<std::uint32_t>(kind));
 }
 
-/// The trade of build time for query time.
+/// The trade-off between build time and query time.
 enum class Quality : std::uint8_t {
     /// For a BVH that is built once and used often. Chooses the split of least cost by the
     /// surface-area heuristic. A split may be along any axis, but only between full subtrees. The
@@ -106,7 +106,7 @@ CDPREP_API void rebuild_bvh(Bvh& bvh, std::span<const format::Double3> positions
 /// Returns the cost of a BVH by the surface-area heuristic. It is the sum of the areas of all used
 /// boxes, divided by the area of the box around everything. It equals the expected number of boxes
 /// that a random line through that box crosses. Returns 0 if there are no triangles or all lie on a
-/// line. Less is better. Compare only BVHs over the same triangles. Takes O(nodes) time.
+/// line. Lower is better. Compare only BVHs over the same triangles. Takes O(nodes) time.
 [[nodiscard]] CDPREP_API double surface_cost(const Bvh& bvh) noexcept;
 [[nodiscard]] CDPREP_API double surface_cost(std::span<const format::BvhNode> nodes) noexcept;
 

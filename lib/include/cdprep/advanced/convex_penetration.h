@@ -12,7 +12,7 @@ namespace cdprep {
 /// only touch.
 struct Penetration {
     double lower;       ///< every such translation is at least this long, model units; >= 0
-    double upper;       ///< if B moves this far along `normal`, the hulls touch at most; proven
+    double upper;       ///< after B moves this far along `normal`, the hulls at most touch; proven
     Double3 normal;     ///< the direction of B's translation, of length 1 up to rounding
     Double3 witness_a;  ///< on A as moved, up to rounding: B touches A here after the translation
     Double3 witness_b;  ///< on B as moved, up to rounding: it touches A after the translation

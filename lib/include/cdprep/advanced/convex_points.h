@@ -21,7 +21,7 @@ using format::Double3;
 /// neighbours, points that are not corners are allowed too.
 struct ConvexPoints {
     std::span<const format::HullBlock> blocks;  ///< ceil(count / 8); unused lanes as in HullBlock
-    std::uint32_t count = 0;                    ///< of points, >= 1; queries state the meaning of 0
+    std::uint32_t count = 0;                    ///< points, >= 1; queries state the meaning of 0
     Double3 reach{};  ///< at least the largest |x|, |y|, |z| of all points, model units
     /// count + 1 indices in `neighbours`, or empty. The neighbours of point i begin at element i
     /// and end before element i + 1. If empty, queries search all points for the farthest one,
@@ -60,10 +60,10 @@ inline constexpr std::uint32_t kDirectionStarts = 6 * kDirectionCells * kDirecti
 
 /// Returns the number of the cell that a direction hits, less than kDirectionStarts. The cells
 /// divide the faces of a cube around the origin. They are numbered face by face (+x, -x, +y, -y,
-/// +z, -z), and within a face row by row. On the faces +x and -x, the cells of a row are in the
-/// order of rising y. The rows are in the order of rising z. The other faces are numbered likewise,
-/// with the axes in cyclic order. Of several largest coordinates, the first selects the face. The
-/// direction must be finite. The zero vector has a cell too.
+/// +z, -z), and within a face row by row. On the faces +x and -x, the cells of a row are in
+/// ascending order of y. The rows are in ascending order of z. The other faces are numbered
+/// likewise, with the axes in cyclic order. Of several largest coordinates, the first selects the
+/// face. The direction must be finite. The zero vector has a cell too.
 [[nodiscard]] CDPREP_API std::uint32_t direction_cell(const Double3& direction) noexcept;
 
 }  // namespace cdprep

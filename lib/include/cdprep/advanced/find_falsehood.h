@@ -25,9 +25,9 @@ namespace cdprep {
 /// A triangle whose corners lie in different parts may have points that lie in no part. The last
 /// check requires exact numbers of any length (tools/info/find_cover_falsehood.h).
 ///
-/// `file` must be one in which format::find_damage() finds nothing. `model` is this file, opened
-/// with all its sections. Takes O(vertices * facets) time, about a nanosecond per pair of a vertex
-/// and a facet. If there are parts, takes up to vertices * parts steps more. Allocates.
+/// format::find_damage() must find nothing in `file`. `model` is this file, opened with all its
+/// sections. Takes O(vertices * facets) time, about a nanosecond per pair of a vertex and a facet.
+/// If there are parts, takes up to vertices * parts steps more. Allocates.
 [[nodiscard]] CDPREP_API std::optional<format::Damage> find_hull_falsehood(
     std::span<const std::byte> file, const Model& model);
 
@@ -36,8 +36,8 @@ namespace cdprep {
 /// exact hull of these vertices, up to rounding. Returns nothing if all are right, or if there are
 /// no pieces.
 ///
-/// `file` must be one in which format::find_deep_damage() finds nothing. `model` is this file,
-/// opened with all its sections. Takes O(vertices * levels) hull queries. Allocates.
+/// format::find_deep_damage() must find nothing in `file`. `model` is this file, opened with all
+/// its sections. Takes O(vertices * levels) hull queries. Allocates.
 [[nodiscard]] CDPREP_API std::optional<format::Damage> find_piece_falsehood(
     std::span<const std::byte> file, const Model& model);
 

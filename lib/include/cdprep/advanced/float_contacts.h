@@ -10,7 +10,7 @@
 
 namespace cdprep {
 
-/// A pair of triangles that tests in float do not separate. overlaps() passes such pairs to its
+/// A pair of triangles that the float tests do not separate. overlaps() passes such pairs to its
 /// exact stage.
 struct FloatContact {
     std::uint32_t a;  ///< source number
@@ -25,7 +25,7 @@ enum class FloatSearch : std::uint8_t {
 
 /// Calls `visit` with each FloatContact of the two models until `visit` returns false, and then
 /// returns false. No pair in contact is missing. Serves studies of the cost of exactness, and
-/// callers that accept some pairs that are not in contact.
+/// callers that accept a few pairs that are not in contact.
 /// Reads only the placement of `pair`. Needs Ask::overlap. Costs less than overlaps().
 CDPREP_API bool visit_float_contacts(const Pair& pair, Workspace& workspace, FloatSearch search,
                                      Visitor<FloatContact> visit);

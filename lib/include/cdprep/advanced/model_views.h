@@ -64,8 +64,8 @@ struct BvhView {
 #define CDPREP_BVH_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
 #include "cdprep/format/section_table.inc"
     BvhShape shape;  ///< levels and counts; always set
-    /// Of a LiveModel that can tear, the places of each leaf that have a triangle: bit sets. Empty
-    /// for all other models, where every place has one.
+    /// For a LiveModel that can tear, one byte per leaf: a bit for each place that has a triangle.
+    /// Empty for all other models, where every place has one.
     std::span<const std::uint8_t> lanes = {};
 };
 

@@ -10,7 +10,7 @@
 
 namespace cdprep {
 
-/// The root box of a moved model, along the axes of the model, with a reach on all sides.
+/// The root box of a moved model, along the axes of the model, enlarged by a reach on all sides.
 struct RootBox {
     std::array<double, 3> middle{};
     std::array<double, 9> axes{};  ///< column k is axis k of the model in the world
@@ -19,21 +19,21 @@ struct RootBox {
 };
 
 /// Returns a box that contains all points of a moved model, as transform_point() rounds them. It
-/// reaches `reach` beyond them, in units of the models. If two models are at most d apart, their
-/// boxes with a reach of d / 2 each meet. The reach must be finite and at least 0, and the model
-/// opened with its BVH. Otherwise, the program ends with a sentence.
+/// extends `reach` beyond them, in model units. If two models are at most d apart, their boxes with
+/// a reach of d / 2 each meet. The reach must be finite and at least 0, and the model must be
+/// opened with its BVH. Otherwise, the program is aborted with a message.
 [[nodiscard]] CDPREP_API RootBox root_box(const Model& model, const Pose& world_from_model,
                                           double reach) noexcept;
 
 /// Returns the axis-aligned box around a root box, for BroadPhase; absent if there are no
-/// triangles. It is relative to the origin, finite and at most 2^1000, which must be the same for
-/// all boxes. Far from it, rounding to float widens the boxes: at 10^7 by about a unit on each
+/// triangles. It is relative to `origin`, which must be the same for all boxes, finite and at most
+/// 2^1000. Far from the origin, rounding to float widens the boxes: at 10^7 by about a unit on each
 /// side.
 [[nodiscard]] CDPREP_API WorldBox world_box(const RootBox& root,
                                             const Double3& origin = {}) noexcept;
 
-/// Returns false if two root boxes are certainly apart: by the fifteen directions of Gottschalk,
-/// Lin and Manocha 1996.
+/// Returns false if two root boxes are certainly apart. Tests the fifteen axes of Gottschalk, Lin
+/// and Manocha (1996).
 [[nodiscard]] CDPREP_API bool may_meet(const RootBox& a, const RootBox& b) noexcept;
 
 }  // namespace cdprep

@@ -23,7 +23,7 @@ struct PairFront {
     std::array<std::uint64_t, 2> models = {};  ///< content hashes of A and B
     std::uint32_t count = 0;                   ///< pairs; 0: the front is empty
     std::uint32_t begun_with = 0;  ///< the number of pairs after the last restart; 0: none yet
-    std::uint32_t failures = 0;    ///< how often in a row the front was emptied
+    std::uint32_t failures = 0;    ///< consecutive times that the front was emptied
     std::uint32_t wait = 0;        ///< queries before the next restart
     std::array<std::uint64_t, kFrontRoom> pair = {};  ///< node pairs, each packed in one word
     /// The planes, in pair units: one column for each node pair. Rows 0 to 2: the direction across

@@ -22,13 +22,13 @@ public:
     explicit SectionList(format::SectionSet wanted = format::SectionSet::all()) noexcept
         : wanted_(wanted) {}
 
-    /// Adds a section that a model has even if it is empty.
+    /// Adds a section, even if it is empty.
     template <class Elements>
     void add(format::SectionId id, const Elements& elements) {
         if (wanted_.contains(id)) sections_.push_back({id, bytes_of(elements)});
     }
 
-    /// Adds a section that a model lacks if it is empty.
+    /// Adds a section unless it is empty.
     template <class Elements>
     void add_unless_empty(format::SectionId id, const Elements& elements) {
         if (std::size(elements) != 0) add(id, elements);

@@ -32,14 +32,14 @@ extern "C" {
  *   only for max_distance, max_t and the limits of boxes. No answer holds NaN. None holds infinity,
  *   unless its comment says so.
  * - On failure, answers are unknown: counts and `found` are 0; `hit`, `inside` and similar fields
- *   are CDPREP_UNKNOWN. The items of lists may hold anything. Answers stay unchanged if their
- *   number is not known. That is so if the query is null or not initialised, or if a count is too
- *   large for memory. They also stay unchanged if cdprep_pose_move() or cdprep_model_corners()
- *   fails.
+ *   are CDPREP_UNKNOWN. The items of lists may hold anything. Answers stay unchanged if the call
+ *   cannot know how many there are. That is so if the query is null or not initialised, or if a
+ *   count is too large for memory. They also stay unchanged if cdprep_pose_move() or
+ *   cdprep_model_corners() fails.
  * - Lengths are in model units. Limits are inclusive. Triangles and vertices are numbered as in
  *   the imported file, or as in the arrays of a build.
  * - A list stores at most `room` answers; `count` is the number of all answers. Too little room is
- *   no error: as many as fit are stored. A list without room only counts.
+ *   not an error: as many as fit are stored. A list without room only counts.
  * - No query allocates. Opening or building a model, compiling a plan, and _make() do.
  * - Models are read-only and serve any number of threads. A workspace serves one call at a time,
  *   and so does a broad phase. A scene serves one call that changes it, or any number that read it.
@@ -85,7 +85,7 @@ enum {
     CDPREP_WHY_NOT_BAKED = 8,       /* the model lacks what the query needs */
     CDPREP_WHY_NOT_OPENED = 9,      /* the file has it, but it was not opened */
     CDPREP_WHY_TOO_SMALL = 10,      /* memory, or an array of cdprep_marks */
-    CDPREP_WHY_STALE = 11,          /* an object of a scene that does not exist, or no longer */
+    CDPREP_WHY_STALE = 11,          /* an object of a scene that no longer exists, or never did */
     CDPREP_WHY_BUSY = 12            /* a workspace, scene or broad phase in use by another call */
 };
 
@@ -116,7 +116,7 @@ CDPREP_API const char* cdprep_code_name(int code);
 
 /* The caller's memory functions. `allocate` returns null if there is no memory. `size` is not 0,
  * and `alignment` is a power of two of at most CDPREP_ALIGNMENT. `release` receives the same size.
- * They are called only while an object of the library is made or ended, by the calling thread. They
+ * They are called by the calling thread, only while it makes or ends an object of the library. They
  * must not throw. */
 typedef struct cdprep_allocator {
     void* (*allocate)(void* context, size_t size, size_t alignment);
@@ -195,7 +195,7 @@ enum {
     CDPREP_COUNT_HULL_STEPS = 15,     /* searches for support points, one in each hull */
     CDPREP_COUNT_HULLS_BY_EXACT = 16, /* pairs of hulls that double could not decide */
     CDPREP_COUNT_EXACT_STEPS = 17,    /* searches for support points without rounding */
-    CDPREP_COUNT_RAY_TRIANGLES = 18   /* triangles tested against a ray to decide inside */
+    CDPREP_COUNT_RAY_TRIANGLES = 18   /* triangles tested against a ray to find what is inside */
 };
 
 typedef struct cdprep_counts {

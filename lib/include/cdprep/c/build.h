@@ -68,11 +68,11 @@ CDPREP_API int cdprep_model_build_size(const cdprep_build_options* options, size
  * Errors:
  * - CDPREP_WHY_NULL: positions or triangles are missing.
  * - CDPREP_WHY_NO_MEANING: both positions are set, or an allocator in addition to memory.
- * - CDPREP_WHY_NOT_BAKED: no build serves `ask`; the message names the `bake` option for it.
+ * - CDPREP_WHY_NOT_BAKED: a build cannot serve `ask`; the message names the `bake` option for it.
  * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite.
- * - CDPREP_WHY_OUT_OF_RANGE: There are more than 2^31 - 1 vertices or triangles. Or a position is
- *   beyond 2^1000 or, with CDPREP_SINGLE, beyond the largest float. Or a triangle names a vertex
- *   that does not exist. Or `memory` is not aligned.
+ * - CDPREP_WHY_OUT_OF_RANGE, in four cases: There are more than 2^31 - 1 vertices or triangles. A
+ *   position is beyond 2^1000 or, with CDPREP_SINGLE, beyond the largest float. A triangle names a
+ *   vertex that does not exist. `memory` is not aligned.
  * - CDPREP_WHY_TOO_SMALL: `size` is less than cdprep_model_build_size() stores.
  * - CDPREP_WHY_BUSY: another call uses the workspace.
  * - CDPREP_OVER_BUDGET: there is not enough memory. */

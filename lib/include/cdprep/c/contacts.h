@@ -64,7 +64,7 @@ typedef struct cdprep_contact_list {
     size_t count;      /* output: contacts or clusters, at most cdprep_contact_options.most */
     uint32_t complete; /* output: CDPREP_NO if `most` or `work` left contacts out */
     uint32_t searched; /* output: CDPREP_NO if `work` ended the search for near triangles */
-    uint64_t found;    /* output: pairs of pieces within the tolerance, as far as was searched */
+    uint64_t found;    /* output: pairs of pieces found within the tolerance */
     uint64_t computed; /* output: those of them whose contact was computed */
     uint64_t work;     /* output: the work done, counted as in cdprep_contact_options.work */
 } cdprep_contact_list;
@@ -80,9 +80,9 @@ typedef struct cdprep_contact_options {
      * allows all contacts, and `most` fewer than half of them, some depths are bounded more closely
      * first. Each such bound counts 8. */
     uint64_t work;
-    /* 0: no clusters. Otherwise joins contacts that are linked by common pieces. Their normals
-     * differ from the normal of the deepest by at most this, in radians. A joined contact has at
-     * most four points. */
+    /* 0: no clusters. Otherwise joins contacts that are linked by common pieces, if their normals
+     * differ little. The limit is the angle to the normal of the deepest one, in radians. A joined
+     * contact has at most four points. */
     double cluster_angle;
 } cdprep_contact_options;
 
@@ -186,7 +186,7 @@ typedef struct cdprep_penetration {
     uint32_t found;          /* CDPREP_NO: no common point; then the rest is 0 */
     uint32_t reserved;       /* 0 */
     double lower, upper;     /* bounds of the exact penetration depth, model units */
-    double normal[3];        /* the direction in which B moves out, of length 1 up to rounding */
+    double normal[3];        /* the direction in which B must move, of length 1 up to rounding */
     double on_a[3], on_b[3]; /* the points that touch after this motion */
 } cdprep_penetration;
 

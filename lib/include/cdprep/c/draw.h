@@ -17,23 +17,25 @@ enum {
     CDPREP_DRAW_BOXES = 2,   /* boxes of one level of the BVH, 12 lines each. Needs the BVH */
     CDPREP_DRAW_HULLS = 4,   /* the hulls of parts, or the whole hull. Needs CDPREP_ASK_HULLS */
     CDPREP_DRAW_PIECES = 8,  /* hulls of convex pieces. Needs CDPREP_ASK_PIECES, _CORNERS */
-    /* of scenes: lines between contact points, and normals. Needs the BVH */
+    /* for scenes: lines between contact points, and normals. Needs the BVH */
     CDPREP_DRAW_CONTACTS = 16,
-    CDPREP_DRAW_OVERLAPS = 32, /* of scenes: triangles in lists of overlap and self */
-    /* The numbers of parts and pieces that are drawn; of scenes, the slots of objects. A slot is in
-     * the middle of its model's box, or without the BVH at the model's origin. */
+    CDPREP_DRAW_OVERLAPS = 32, /* for scenes: triangles in lists of overlap and self */
+    /* The numbers of parts and pieces that are drawn; for scenes, the slots of objects. The number
+     * of a slot stands in the middle of its model's box or, without the BVH, at its origin. */
     CDPREP_DRAW_NUMBERS = 64
 };
 
-/* What to draw, and the caller's functions. Returning 0 ends the picture. Points have three
+/* What to draw, and the caller's functions. Returning 0 ends the drawing. Points have three
  * numbers; a triangle has three points, counter-clockwise from outside. Colours are 0xRRGGBBAA:
  * surfaces grey, boxes green, contacts yellow, overlaps red. Parts and pieces have one of eight
  * colours, by their number. Functions run in the caller's floating-point environment. They may run
  * queries, but must not change the scene. */
 typedef struct cdprep_draw {
     cdprep_head head;
-    uint32_t what;  /* 0: nothing; otherwise bits CDPREP_DRAW_ */
-    uint32_t level; /* 0: of boxes: the one around everything; beyond the deepest, the deepest */
+    uint32_t what; /* 0: nothing; otherwise bits CDPREP_DRAW_ */
+    /* 0: the level of the boxes. Level 0 is the box around everything. A level beyond the deepest
+     * counts as the deepest. */
+    uint32_t level;
     /* Null, which is refused if `what` has boxes or contacts. */
     int (*line)(void* context, const double start[3], const double end[3], uint32_t rgba);
     /* Null, which is refused if `what` has surfaces, hulls, pieces or overlaps. */
@@ -48,7 +50,7 @@ typedef struct cdprep_draw {
 CDPREP_API void cdprep_draw_init(cdprep_draw* draw, size_t size);
 
 /* Draws a model as `world_from_model` moves it. Triangles come in tree order. Takes O(shapes) time,
- * and does not allocate. Returns CDPREP_OK even if a function of the caller ended the picture.
+ * and does not allocate. Returns CDPREP_OK even if a function of the caller ended the drawing.
  * Errors: CDPREP_WHY_OUT_OF_RANGE for unknown bits. CDPREP_WHY_NO_MEANING for bits of scenes, or a
  * level without boxes. CDPREP_WHY_NULL for a function that is needed. CDPREP_WHY_NOT_RIGID.
  * CDPREP_WHY_NOT_BAKED or _NOT_OPENED if the model lacks what is to be drawn.
@@ -57,9 +59,9 @@ CDPREP_API int cdprep_model_draw(const cdprep_model* model, const cdprep_pose* w
                                  const cdprep_draw* draw, cdprep_error* error);
 
 /* Draws all objects of a scene where they are now, by slot. Then draws the overlaps and the
- * contacts of the last complete step. Triangles that overlap come once for each pair, where their
- * objects are now. Pairs whose objects or triangles are gone are left out. A normal starts at
- * cdprep_contact.on_a, and is as long as an eighth of the box of the smaller model.
+ * contacts of the last complete step. Triangles that overlap are drawn once for each pair, where
+ * their objects are now. Pairs whose objects or triangles no longer exist are left out. A normal
+ * starts at cdprep_contact.on_a, and is as long as an eighth of the box of the smaller model.
  * Every model is checked before anything is drawn: error.argument is "scene", and the message names
  * the slot. Errors: those of cdprep_model_draw(); CDPREP_WHY_BUSY. */
 CDPREP_API int cdprep_scene_draw(const cdprep_scene* scene, const cdprep_draw* draw,

@@ -19,7 +19,7 @@ typedef struct cdprep_live cdprep_live;
 typedef struct cdprep_live_options {
     cdprep_head head;
     const cdprep_model* model; /* the base, baked or built; read only while making */
-    uint32_t max_triangles;    /* 0: triangles neither come nor go; else the most at a time */
+    uint32_t max_triangles;    /* 0: no triangles are added or removed; else the maximum */
     uint32_t max_vertices;     /* 0: that of the base; triangles may use numbers less than this */
     const cdprep_allocator* allocator; /* null: the heap; copied */
 } cdprep_live_options;
@@ -29,7 +29,8 @@ CDPREP_API void cdprep_live_options_init(cdprep_live_options* options, size_t si
 
 /* Stores the number of bytes that cdprep_live_make() needs for these options. On failure *size is
  * 0. Without max_triangles, it is about 120 for each triangle. With max_triangles, it is about 200
- * for each of them. Takes as long as cdprep_live_make(), and as much memory while it runs.
+ * for each triangle of this limit. Takes as long as cdprep_live_make(), and as much memory while it
+ * runs.
  * Errors: those of cdprep_live_make(). */
 CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size,
                                 cdprep_error* error);
@@ -40,15 +41,15 @@ CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size
  * With null memory of size 0, the allocator makes one allocation of that size. In addition, the
  * model takes about 1 KiB of the heap. Takes O(n) time, and O(n log n) with max_triangles. No later
  * call but cdprep_live_end() and cdprep_live_image() allocates or frees memory, except to report an
- * error. Do not set max_triangles far above the number that comes: triangles are spread over all
+ * error. Do not set max_triangles far above the number in use: triangles are spread over all
  * places, and queries get slower.
  *
  * Errors:
  * - CDPREP_WHY_NULL: no base.
  * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: the base does not serve CDPREP_ASK_OVERLAP.
- * - CDPREP_WHY_OUT_OF_RANGE: max_triangles or max_vertices is less than the base has, or too many.
- *   Or the base has vertices that a repair made, or two vertices with the same number. Or `memory`
- *   is not aligned.
+ * - CDPREP_WHY_OUT_OF_RANGE, in three cases: max_triangles or max_vertices is too large, or less
+ *   than the base has. The base has vertices that a repair made, or two vertices with the same
+ *   number. `memory` is not aligned.
  * - CDPREP_WHY_NO_MEANING: max_vertices without max_triangles, or an allocator in addition to
  *   memory.
  * - CDPREP_WHY_TOO_SMALL: `size` is less than cdprep_live_size() stores.
@@ -87,17 +88,19 @@ CDPREP_API void cdprep_live_move_init(cdprep_live_move* moved, size_t size);
  * position counts. A pair cache of the model stays valid.
  *
  * With max_triangles, a vertex that no triangle uses may get its first position. Takes O(n) time;
- * with moved.vertices, O(m log n) for m triangles at these vertices. Takes O(n) then only in three
- * cases. A vertex leaves a cube of about twice the model's size. Or the model has become much
- * smaller than that cube. Or the first coordinate that is not a float comes, or the last one goes.
+ * with moved.vertices, O(m log n) for m triangles at these vertices. Then it takes O(n) only in
+ * three cases:
+ * - A vertex leaves a cube of about twice the model's size.
+ * - The model has become much smaller than that cube.
+ * - The first coordinate that is not a float appears, or the last one disappears.
  *
  * On failure, nothing changes. Errors:
  * - CDPREP_WHY_NULL: no positions.
  * - CDPREP_WHY_NO_MEANING: both positions are set.
  * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite: `moved.positions[7]` is the eighth.
- * - CDPREP_WHY_OUT_OF_RANGE: There are too few positions for all vertices. Or a vertex does not
- *   exist. Or a position is beyond 2^1000. Or positions are doubles and the model keeps floats. Or
- *   they are those of the model itself.
+ * - CDPREP_WHY_OUT_OF_RANGE, in five cases: There are too few positions for all vertices. A vertex
+ *   does not exist. A position is beyond 2^1000. Positions are doubles and the model keeps floats.
+ *   `moved` points into the model.
  * - CDPREP_WHY_BUSY: another call changes the live model or uses the workspace. */
 CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* moved,
                                  cdprep_workspace* workspace, cdprep_error* error);
@@ -108,9 +111,9 @@ CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* move
  *
  * On failure, nothing changes and *first is CDPREP_NONE. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.
- * - CDPREP_WHY_OUT_OF_RANGE: There would be more triangles than max_triangles. Or a vertex does not
- *   exist or has no position; the message names it and its triangle. Or numbers would exceed
- *   2^31 - 1. Or `triangles` points into the model.
+ * - CDPREP_WHY_OUT_OF_RANGE, in four cases: There would be more triangles than max_triangles. A
+ *   vertex does not exist or has no position; the message names it and its triangle. Numbers would
+ *   exceed 2^31 - 1. `triangles` points into the model.
  * - CDPREP_WHY_BUSY: another call changes the live model. */
 CDPREP_API int cdprep_live_append(cdprep_live* live, const uint32_t* triangles, size_t count,
                                   uint32_t* first, cdprep_error* error);
@@ -125,10 +128,10 @@ CDPREP_API int cdprep_live_append(cdprep_live* live, const uint32_t* triangles, 
 CDPREP_API int cdprep_live_remove(cdprep_live* live, const uint32_t* numbers, size_t count,
                                   cdprep_error* error);
 
-/* Rebuilds subtrees of the BVH whose boxes have grown, so that queries stay fast. Takes up to
- * `most_triangles` triangles, in groups of about 4,096. *taken is the number taken. Answers stay
- * the same. See LiveModel::rebuild(). Takes O(nodes) time, and 100 ns or so for each triangle
- * taken.
+/* Rebuilds subtrees of the BVH whose boxes have grown, so that queries stay fast. Rebuilds up to
+ * `most_triangles` triangles, in groups of about 4,096. *taken is the number rebuilt. Answers stay
+ * the same. See LiveModel::rebuild(). Takes O(nodes) time, and about 100 ns for each triangle
+ * rebuilt.
  * Errors: CDPREP_WHY_BUSY: another call changes the live model. */
 CDPREP_API int cdprep_live_rebuild(cdprep_live* live, uint32_t most_triangles, uint32_t* taken,
                                    cdprep_error* error);
@@ -138,7 +141,7 @@ typedef struct cdprep_live_info {
     uint32_t number_bound; /* all numbers of triangles are less than this */
     uint32_t vertices;     /* all numbers of vertices with a position are less than this */
     uint32_t is_torn;      /* CDPREP_YES after the first append or remove; else CDPREP_NO */
-    double surface_cost;   /* of the BVH: less is better; compare it with that when made */
+    double surface_cost;   /* of the BVH: lower is better; compare it with the first value */
     uint64_t reserved[4];  /* 0 */
 } cdprep_live_info;
 
@@ -158,18 +161,18 @@ typedef struct cdprep_live_triangle_list {
     size_t count;                /* output: the number of all triangles, also beyond the room */
 } cdprep_live_triangle_list;
 
-/* Lists the triangles by rising number. If there is too little room, the list keeps the smallest
- * numbers. Takes O(n log n) time.
+/* Lists the triangles in ascending order of their numbers. If there is too little room, the list
+ * keeps the smallest numbers. Takes O(n log n) time.
  * Errors: CDPREP_WHY_NO_MEANING: the live model was made without max_triangles, so its triangles
  * are those of its base. CDPREP_WHY_BUSY: another call changes the live model. */
 CDPREP_API int cdprep_live_triangles(const cdprep_live* live, cdprep_live_triangle_list* list,
                                      cdprep_error* error);
 
-/* Stores the address of the bytes of a live model as it is now, to store or to send. The stride is
+/* Stores the address of the bytes of a live model as it is now, to save or to send. The stride is
  * 1, and the count is the number of bytes. cdprep_model_open_memory() accepts a copy of them. The
  * address is valid as long as the live model, and the bytes are until its next change. They depend
  * only on the base, the positions and the order that cdprep_live_rebuild() made. Takes O(bytes)
- * time. Allocates. Writes to the model: no query may use it meanwhile.
+ * time. Allocates. The call writes to the model: no query may use it meanwhile.
  * On failure, image->data is null. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made with max_triangles. Build a model of
  *   cdprep_live_triangles() instead.

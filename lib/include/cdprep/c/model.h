@@ -45,7 +45,7 @@ enum {
  * null for a set of bits and for a bit that this version does not know. */
 CDPREP_API const char* cdprep_ask_name(uint32_t ask);
 
-/* The way in which a file gets into memory. */
+/* The mode in which a file is opened. */
 enum {
     CDPREP_MAP = 0,  /* Memory-mapped and validated. Processes share the memory. */
     CDPREP_COPY = 1, /* Read and checked. The file may be changed or removed afterwards. */
@@ -165,9 +165,9 @@ typedef struct cdprep_array {
 CDPREP_API int cdprep_model_section(const cdprep_model* model, uint32_t section,
                                     cdprep_array* array, cdprep_error* error);
 
-/* Stores the address of all bytes of a model, to store or to send. The stride is 1, and the count
- * is the number of bytes. cdprep_model_open_memory() accepts a copy of them. The address is valid
- * as long as the model. Nothing is copied: O(1).
+/* Stores the address of all bytes of a model, to save or to send. The stride is 1, and the count is
+ * the number of bytes. cdprep_model_open_memory() accepts a copy of them. The address is valid as
+ * long as the model. Nothing is copied: O(1).
  * Errors: CDPREP_WHY_NO_MEANING for the model of a live model (see cdprep_live_image()) or of a
  * window. */
 CDPREP_API int cdprep_model_bytes(const cdprep_model* model, cdprep_array* bytes,
@@ -238,8 +238,8 @@ CDPREP_API int cdprep_model_verdict(const cdprep_model* model, uint32_t number,
 
 /* Stores the maximum distance between the outer and inner facets of a level of the tetra-tree, in
  * model units. It is the error of cdprep_collide_at_level(). Beyond the deepest level, the error is
- * that of the deepest level. On failure *bound is 0. Takes O(cones of the level) time. In the
- * library cdprep_cells. Needs: CDPREP_ASK_TETRA_TREE */
+ * that of the deepest level. On failure *bound is 0. Takes O(cones of the level) time. The library
+ * cdprep_cells has this function. Needs: CDPREP_ASK_TETRA_TREE */
 CDPREP_API int cdprep_model_level_error(const cdprep_model* model, uint32_t level, double* bound,
                                         cdprep_error* error);
 

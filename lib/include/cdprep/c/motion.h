@@ -10,7 +10,7 @@ extern "C" {
 
 /* The time at which two moving models first touch, and what a deforming model passes through. */
 
-/* How a motion is given. */
+/* The form in which a motion is given. */
 enum {
     CDPREP_MOTION_POSES = 0,   /* `start` and `end`; the model turns the shorter way between them */
     CDPREP_MOTION_VELOCITY = 1 /* `start`, `shift` and `turn` */
@@ -18,15 +18,15 @@ enum {
 
 /* The rigid motion of a model during a step, from time 0 to time 1. One point of the model, the
  * centre, moves along a straight line at constant speed. The model turns about it, about a fixed
- * axis at constant speed. The centre of mass is a good centre for a free body. The joint is one for
- * a part that turns about it. A centre far outside the model makes the query slow.
+ * axis at constant speed. A good centre for a free body is its centre of mass. For a part that
+ * turns about a joint, it is the joint. A centre far outside the model makes the query slow.
  * cdprep_moving_pair_init() makes motions that stay at the identity, to be filled in. */
 typedef struct cdprep_motion {
     cdprep_pose start;
     cdprep_pose end;  /* used only by CDPREP_MOTION_POSES; otherwise the identity */
     double centre[3]; /* in the model's coordinates; 0 */
-    double shift[3];  /* the way of the centre; used only by CDPREP_MOTION_VELOCITY; otherwise 0 */
-    double turn[3];   /* the same: along the axis, its length is the angle; radians, 1000 at most */
+    double shift[3];  /* the path of the centre; used only by CDPREP_MOTION_VELOCITY; otherwise 0 */
+    double turn[3];   /* the same; along the axis, as long as the angle: radians, at most 1000 */
     uint32_t given_by; /* CDPREP_MOTION_POSES */
     uint32_t reserved; /* 0 */
 } cdprep_motion;
@@ -43,7 +43,7 @@ typedef struct cdprep_moving_pair {
     const cdprep_model* a;
     const cdprep_model* b;
     uint32_t body;       /* CDPREP_SURFACE */
-    uint32_t most_steps; /* 256: the search ends after so many distance queries */
+    uint32_t most_steps; /* 256: the search ends after this many distance queries */
     /* 0. The search ends when no point moves farther than this between `lower` and `upper`,
      * relative to the other model. It also ends when the surfaces are this near and no time of
      * contact is found. Model units. A tolerance close to rounding errors is raised. */
@@ -70,8 +70,8 @@ typedef struct cdprep_impact {
 } cdprep_impact;
 
 /* Stores when two moving models first touch: an interval of time that holds the first contact.
- * Placements are those of cdprep_motion_pose() with CDPREP_MOVE_BOTH. At each time before `lower`,
- * given as a double, the surfaces are apart. At `upper` they touch. So nothing passes through
+ * Placements are those of cdprep_motion_pose() with CDPREP_MOVE_BOTH. At each time before `lower`
+ * that is a double, the surfaces are apart. At `upper` they touch. So nothing passes through
  * unseen, however fast or thin it is. If the models touch at time 0, both are 0. A solid inside the
  * other also touches it then. On failure, `kind` is CDPREP_IMPACT_UNKNOWN.
  *
@@ -86,11 +86,11 @@ CDPREP_API int cdprep_time_of_impact(const cdprep_moving_pair* pair, cdprep_work
                                      cdprep_impact* impact, cdprep_error* error);
 
 /* The space through which a deforming model passes during a step: boxes around the path of each of
- * its triangles. Each vertex moves along a straight line, at constant speed. So a triangle that
- * jumps over a thin object in one step is not lost. Call cdprep_sweep_start_step(), move the model,
- * call cdprep_sweep_finish_step(), then query. While one of these calls runs, the others fail with
- * CDPREP_WHY_BUSY. No query about the sweep may run from the first call until the second returns:
- * this is not checked. */
+ * its triangles. Each vertex moves along a straight line, at constant speed. So a thin object is
+ * found even if a triangle jumps over it in one step. Call cdprep_sweep_start_step(), move the
+ * model, call cdprep_sweep_finish_step(), then query. While one of these calls runs, the others
+ * fail with CDPREP_WHY_BUSY. No query about the sweep may run from the first call until the second
+ * returns: this is not checked. */
 typedef struct cdprep_sweep cdprep_sweep;
 
 /* Stores the number of bytes that cdprep_sweep_make() needs: 24 per vertex and about 4
@@ -103,7 +103,7 @@ CDPREP_API int cdprep_sweep_size(const cdprep_model* model, size_t* size, cdprep
  * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_sweep_size()
  * bytes. With null memory of size 0, the allocator makes one allocation; null is the heap. No later
  * call allocates.
- * Errors: CDPREP_WHY_TOO_SMALL, CDPREP_WHY_OUT_OF_RANGE and CDPREP_WHY_NO_MEANING about memory, as
+ * Errors: CDPREP_WHY_TOO_SMALL, CDPREP_WHY_OUT_OF_RANGE and CDPREP_WHY_NO_MEANING for memory, as in
  * cdprep_live_make(); CDPREP_OVER_BUDGET.
  * Needs of the model: CDPREP_ASK_WITHIN, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_sweep_make(const cdprep_model* model, const cdprep_allocator* allocator,
@@ -126,11 +126,11 @@ CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error
  * `motion` moves. The first function stops at the first pair and stores CDPREP_YES. The list is in
  * the order of (a, b). If there is too little room, it keeps the smallest pairs.
  *
- * CDPREP_NO is proven: no triangles touch at any time of the step. CDPREP_YES says that the convex
+ * CDPREP_NO is proven: no triangles touch at any time of the step. CDPREP_YES means that the convex
  * hull of a triangle's path comes near a triangle of the other model. The path is relative to that
- * model. It is not known whether they touch, or when. Containment is not tested. A step of less
+ * model. It is not known whether they touch, or when. Containment is not tested. A step with less
  * motion gives fewer false alarms. If the other model turns by more than a quarter of a radian, the
- * step is tested in parts. There are 64 at most.
+ * step is tested in parts, at most 64.
  *
  * Takes as long as cdprep_within() with a tolerance of half of the motion. Each pair of triangles
  * near each other takes about 1 us more for each part. Never allocates.

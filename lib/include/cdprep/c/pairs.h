@@ -66,8 +66,8 @@ typedef struct cdprep_front {
     uint64_t words[3600];
 } cdprep_front;
 
-/* Two models, their placement, and what counts. Each query states which of `body`, `overlap`,
- * `degenerate` and `through` it uses. The others must be at their defaults. */
+/* Two models, their placement, and the options of the query. Each query states which of `body`,
+ * `overlap`, `degenerate` and `through` it uses. The others must be at their defaults. */
 typedef struct cdprep_pair {
     cdprep_head head;
     const cdprep_model* a;
@@ -117,8 +117,8 @@ CDPREP_API int cdprep_collide(const cdprep_pair* pair, cdprep_workspace* workspa
 CDPREP_API int cdprep_containment(const cdprep_pair* pair, cdprep_workspace* workspace,
                                   cdprep_collision* collision, cdprep_error* error);
 
-/* Stores whether two solids collide, as far as one level of their tetra-trees proves it. CDPREP_NO
- * and CDPREP_YES are proven. CDPREP_UNKNOWN means that this level is too coarse
+/* Stores whether two solids collide, if one level of their tetra-trees can prove it. CDPREP_NO and
+ * CDPREP_YES are proven. CDPREP_UNKNOWN means that this level is too coarse
  * (cdprep_model_level_error()). A level beyond the deepest counts as the deepest. The
  * workspace must have `cells`. Takes O(pairs of cones that meet) time.
  * Needs: CDPREP_ASK_TETRA_TREE */
@@ -238,7 +238,7 @@ CDPREP_API int cdprep_distance(const cdprep_pair* pair, const cdprep_distance_op
                                cdprep_workspace* workspace, cdprep_nearest* nearest,
                                cdprep_error* error);
 
-/* A distance, as far as a search came. */
+/* A distance, or bounds of it if the search ended early. */
 typedef struct cdprep_bounded {
     uint32_t complete; /* CDPREP_YES: `nearest` is the answer of cdprep_distance(); CDPREP_NO: late.
         CDPREP_UNKNOWN: the call failed */
@@ -286,7 +286,7 @@ CDPREP_API int cdprep_pairs_within_visit(const cdprep_pair* pair, double toleran
 
 /* --- One model against itself ---------------------------------------------------------------- */
 
-/* A model, and what counts. */
+/* A model, and the options of the query. */
 typedef struct cdprep_self_query {
     cdprep_head head;
     const cdprep_model* model;
@@ -300,9 +300,9 @@ CDPREP_API void cdprep_self_query_init(cdprep_self_query* query, size_t size);
  * Both are triangles of the model, a < b. If there are more pairs than `room`, the list keeps the
  * smallest pairs. Exact, for the model's own positions.
  * Triangles share a vertex if they use one vertex number of the model. A bake merges vertices with
- * equal positions. Two vertices of a live model may come to one position later. They stay two, so
- * triangles at them then touch. A model built or baked for CDPREP_ASK_OVERLAP alone may lack these
- * numbers.
+ * equal positions. Two vertices of a live model may move to one position later. They remain two
+ * vertices, so their triangles then touch. A model built or baked for CDPREP_ASK_OVERLAP alone may
+ * lack these numbers.
  * Takes O(n + pairs) time for typical meshes, O(n^2) in the worst case.
  * Needs: CDPREP_ASK_OVERLAP, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_self_overlaps(const cdprep_self_query* query, cdprep_workspace* workspace,

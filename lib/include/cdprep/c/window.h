@@ -18,7 +18,8 @@ typedef struct cdprep_window cdprep_window;
 
 typedef struct cdprep_window_options {
     cdprep_head head;
-    uint32_t max_leaves;               /* 0, which is refused: the most leaves of 8 triangles */
+    /* 0, which is refused: the maximum number of leaves, which have up to 8 triangles each. */
+    uint32_t max_leaves;
     uint32_t reserved;                 /* 0 */
     const cdprep_allocator* allocator; /* null: the heap; copied */
 } cdprep_window_options;
@@ -59,7 +60,7 @@ CDPREP_API const cdprep_model* cdprep_window_model(const cdprep_window* window);
 typedef struct cdprep_window_info {
     double radius;     /* everything at most this far from the probe is in the window; see below */
     uint32_t leaves;   /* in the window */
-    uint32_t is_empty; /* CDPREP_YES: not even what touches the probe has room; radius is 0 */
+    uint32_t is_empty; /* CDPREP_YES: not even what touches the probe fits; radius is 0 */
 } cdprep_window_info;
 
 /* Fills a window with the leaves of pair.a that may be at most `radius` from pair.b, the probe. If
@@ -75,18 +76,18 @@ CDPREP_API int cdprep_window_fill(cdprep_window* window, const cdprep_pair* pair
 /* Stores the distance from pair.b within which a window has everything of the large model. pair.a
  * is the window's model. The margin is the radius, minus the largest displacement of a point of the
  * probe since the fill, minus rounding. It is negative if the probe has moved too far. It is
- * -2^1000 if pair.b is another probe than that of the last fill, or has deformed since. It is
- * 2^1000 if nothing can be missing. O(1).
- * Errors: those of cdprep_distance(). CDPREP_WHY_OUT_OF_RANGE: pair.a is no window's model.
+ * -2^1000 if pair.b is not the probe of the last fill, or has deformed since. It is 2^1000 if
+ * nothing can be missing. O(1).
+ * Errors: those of cdprep_distance(). CDPREP_WHY_OUT_OF_RANGE: pair.a is not the model of a window.
  * CDPREP_WHY_BUSY: the window is being filled.
  * Needs: CDPREP_ASK_DISTANCE */
 CDPREP_API int cdprep_window_margin(const cdprep_pair* pair, double* margin, cdprep_error* error);
 
-/* Stores the distance of pair.b from the large model, as that was when the window was filled.
- * pair.a is the window's model. Does what cdprep_distance_bounded() does. But the answer is
- * complete only if the distance or max_distance is less than the margin, or triangles touch. Then
- * it is the answer about the large model, but may name another pair of triangles that touch.
- * Otherwise `lower` is at most the margin.
+/* Stores the distance of pair.b from the large model, in its shape when the window was filled.
+ * pair.a is the window's model. Works like cdprep_distance_bounded(). But the answer is complete
+ * only if the distance or max_distance is less than the margin, or triangles touch. Then it is the
+ * answer about the large model, but may name another pair of triangles that touch. Otherwise
+ * `lower` is at most the margin.
  * Errors: those of cdprep_distance_bounded() and cdprep_window_margin().
  * Needs: CDPREP_ASK_DISTANCE */
 CDPREP_API int cdprep_window_distance(const cdprep_pair* pair,

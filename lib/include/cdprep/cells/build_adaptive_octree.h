@@ -25,7 +25,7 @@ struct AdaptiveOctree {
 struct AdaptiveOctreeOptions {
     ParallelFor parallel_for = serial_for;
     std::uint32_t level = 3;      ///< no cell is deeper; 0 to format::kOctreeBits
-    std::uint32_t threshold = 1;  ///< a cell with fewer triangles is not divided; 1 at least
+    std::uint32_t threshold = 1;  ///< a cell with fewer triangles is not divided; at least 1
     format::SplitRule rule = format::SplitRule::median;
     /// The model's frame, if boxes are to be built; they are stored in it.
     std::optional<Frame> boxes_in{};

@@ -25,7 +25,7 @@ struct TetraTree {
 struct TetraTreeOptions {
     ParallelFor parallel_for = serial_for;
     std::uint32_t level = 3;      ///< no cone has more splits above it; 0 to kMaxTetraLevel
-    std::uint32_t threshold = 1;  ///< a cone with fewer triangles is not split; 1 at least
+    std::uint32_t threshold = 1;  ///< a cone with fewer triangles is not split; at least 1
     format::TetraBounding bounding = format::TetraBounding::caps;
     std::int32_t frame_exponent = 0;  ///< of the model's frame: the unit of radii
     format::Double3 frame_origin{};   ///< of the model's frame: the origin of boxes
@@ -33,8 +33,8 @@ struct TetraTreeOptions {
 
 /// Builds the tree over triangles with finite positions of at most format::kMaxCoordinate.
 /// References are their numbers in `triangles` (in a model: tree order). A triangle is listed in
-/// every leaf whose closed cone it touches, exactly. Triangles that hold the centre are listed in
-/// no leaf. The result is the same, byte for byte, for any parallel_for and processor.
+/// every leaf whose closed cone it touches, exactly. Triangles that contain the centre are listed
+/// in no leaf. The result is the same, byte for byte, for any parallel_for and processor.
 ///
 /// The centre is the mean of the vertices that triangles use. It is rounded to float if all their
 /// coordinates are floats, so nearly all differences to it are exact. The radii of a cone are

@@ -21,9 +21,8 @@ namespace cdprep {
 /// too if they exclude more than rounding can explain. If a cone's planes cut a triangle, the limit
 /// is a millionth of the size of the part inside.
 ///
-/// `file` must be one in which format::find_deep_damage() finds nothing. `model` is this file,
-/// opened with all its sections. Takes O(triangles * levels) steps of about a microsecond.
-/// Allocates.
+/// format::find_deep_damage() must find nothing in `file`. `model` is this file, opened with all
+/// its sections. Takes O(triangles * levels) steps of about a microsecond. Allocates.
 [[nodiscard]] CDPREP_API std::optional<format::Damage> find_list_damage(
     std::span<const std::byte> file, const Model& model);
 

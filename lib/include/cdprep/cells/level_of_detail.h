@@ -11,7 +11,7 @@
 
 namespace cdprep {
 
-/// Whether two solids collide, as far as one level of their tetra-trees proves it.
+/// The result of collide_at_level(), and the errors of its level.
 struct CoarseCollision {
     /// `no`: the solids, and so their surfaces, have no common point. `yes`: they have one.
     /// `unknown`: the facets of this level cannot tell.
@@ -31,7 +31,7 @@ struct CoarseCollision {
 /// Beyond the deepest level, the facets are those of the deepest level.
 [[nodiscard]] CDPREP_API double level_error(const Model& model, std::uint32_t level) noexcept;
 
-/// Returns whether two solids collide, as far as one level of their tetra-trees proves it. Reads no
+/// Returns whether two solids collide, if one level of their tetra-trees can prove it. Reads no
 /// options. Needs Ask::tetra_tree of both models.
 ///
 /// `no`: no two cones meet within their outer facets. This also holds for surfaces and for open

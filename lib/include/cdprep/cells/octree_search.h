@@ -20,11 +20,11 @@ inline constexpr std::uint32_t kNoNode = 0xffffffffU;
 
 /// The parts of a hashed octree that a search reads. They belong to a model or a builder, which
 /// must outlive the index. A search is safe if find_damage finds nothing. Then the elements of
-/// `top` rise from 0 to the number of leaves. All numbers name nodes, and every chain ends. If
+/// `top` increase from 0 to the number of leaves. All numbers name nodes, and every chain ends. If
 /// there are nodes, a search also reads the table that it is named after. That table must be
 /// present, but an octree may be baked without it.
 struct OctreeIndex {
-    std::uint32_t top_level = 0;  ///< as format::OctreeGrid
+    std::uint32_t top_level = 0;  ///< as in format::OctreeGrid
     std::uint32_t slot_bits = 0;
     std::uint32_t deepest = 0;  ///< level of the last node
     std::span<const format::OctreeNode> nodes;

@@ -18,8 +18,8 @@ struct TetraFigures {
     std::uint64_t nodes = 0;         ///< stored cones: those that some triangle touches
     std::uint64_t leaves = 0;        ///< nodes that are not split
     std::uint64_t empty_cones = 0;   ///< octants and children that no triangle touches
-    std::uint64_t references = 0;    ///< of all leaves, and triangles that hold the centre
-    std::uint64_t centre_count = 0;  ///< triangles that hold the centre
+    std::uint64_t references = 0;    ///< of all leaves, and triangles that contain the centre
+    std::uint64_t centre_count = 0;  ///< triangles that contain the centre
     std::uint64_t shared = 0;        ///< triangles that more than one leaf lists
     std::uint64_t in_many = 0;       ///< triangles that more than eight leaves list
     std::uint64_t largest_leaf = 0;  ///< references
@@ -35,7 +35,7 @@ struct TetraFigures {
     friend bool operator==(const TetraFigures&, const TetraFigures&) = default;
 };
 
-/// Returns statistics of a model's tetra-tree. All but `triangles` are 0 if the model was baked
+/// Returns the figures of a model's tetra-tree. All but `triangles` are 0 if the model was baked
 /// without one. Layers are 0 if the model was opened without positions and triangles. Takes O(nodes
 /// + references) time, tens of nanoseconds per reference. Allocates four bytes per triangle.
 [[nodiscard]] CDPREP_API TetraFigures tetra_figures(const Model& model);

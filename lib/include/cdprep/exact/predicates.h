@@ -36,7 +36,8 @@ namespace cdprep::exact {
                                       const Double2& c) noexcept;
 
 /// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]. It is positive when d lies behind the
-/// plane, seen from the side where a, b, c turn counter-clockwise. Cost and stages as orient2d().
+/// plane, seen from the side where a, b, c turn counter-clockwise. Cost and stages are those of
+/// orient2d().
 [[nodiscard]] CDPREP_API int orient3d(const Double3& a, const Double3& b, const Double3& c,
                                       const Double3& d) noexcept;
 

@@ -49,7 +49,7 @@ namespace cdprep::exact {
 [[nodiscard]] CDPREP_API bool triangles_touch(const Corners& a, const Corners& b) noexcept;
 
 /// Returns how two triangles meet. Exact. A triangle without area has no inside: it can only
-/// touch. Cost as triangles_touch().
+/// touch. Costs as much as triangles_touch().
 [[nodiscard]] CDPREP_API TriangleContact classify_contact(const Corners& a,
                                                           const Corners& b) noexcept;
 
@@ -70,8 +70,8 @@ namespace cdprep::exact {
 ///
 /// The width of the interval is at most 32 u times the distance of the farthest corner, u = 2^-53.
 /// If the triangle is much nearer than that corner, the width is up to 200 u times that distance.
-/// It is more for slivers. Works for all sizes from subnormal numbers to format::kMaxCoordinate.
-/// Takes some 50 ns.
+/// For slivers, the interval is wider. Works for all sizes from subnormal numbers to
+/// format::kMaxCoordinate. Takes some 50 ns.
 [[nodiscard]] CDPREP_API PointTriangleDistance point_triangle_distance(const Double3& q,
                                                                        const Corners& t) noexcept;
 
