@@ -23,7 +23,7 @@
 #include "cdprep/pairs.h"
 #include "cdprep/parallel.h"
 #ifdef CDPREP_HAVE_TOOLS
-#include "compare/cells/literal_octree.h"
+#include "cell_searches/literal_octree.h"
 #endif
 
 namespace cdprep::test {

@@ -29,8 +29,8 @@
 
 #include "bench_input.h"
 #include "cdprep/cells/octree_search.h"
+#include "cell_searches/literal_octree.h"
 #include "cells/octree_codes.h"
-#include "compare/cells/literal_octree.h"
 #include "compare/pruning.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "compare/cells/search_contenders.h"
+#include "cell_searches/search_contenders.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 

@@ -30,7 +30,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "compare/cells/cell_searches.h"
+#include "cell_searches/cell_searches.h"
 #include "octree_meshes.h"
 
 namespace cdprep {

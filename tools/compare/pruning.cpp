@@ -13,8 +13,8 @@
 #include "cdprep/cells/overlap_through.h"
 #include "cdprep/points.h"
 #include "cdprep/pose.h"
-#include "compare/cells/literal_octree.h"
-#include "compare/cells/potential_set.h"
+#include "cell_searches/literal_octree.h"
+#include "cell_searches/potential_set.h"
 #include "study/cells.h"
 #include "study/source_triangles.h"
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "cell_searches/cell_search.h"
+#include "cell_searches/spatial_tables.h"
 #include "cli/load_mesh.h"
 #include "cli/signals.h"
-#include "compare/cells/cell_search.h"
-#include "compare/cells/spatial_tables.h"
 #include "compare/feature_probes.h"
 #include "compare/pair_poses.h"
 #include "compare/pair_tables.h"

@@ -7,7 +7,7 @@
 #include "cdprep/cells/overlap_through.h"
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
-#include "compare/cells/literal_octree.h"
+#include "cell_searches/literal_octree.h"
 
 namespace cdprep::study {
 

@@ -9,7 +9,7 @@
 
 #include "cdprep/cells.h"
 #include "cdprep/cells/overlap_through.h"
-#include "compare/cells/spatial_tables.h"
+#include "cell_searches/spatial_tables.h"
 #include "compare/pair_tables.h"
 #include "compare/peer_tables.h"
 #include "compare/preparation.h"

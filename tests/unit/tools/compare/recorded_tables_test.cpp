@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "compare/cells/cell_search.h"
-#include "compare/cells/spatial_tables.h"
+#include "cell_searches/cell_search.h"
+#include "cell_searches/spatial_tables.h"
 #include "compare/comparison_page.h"
 #include "compare/comparison_report.h"
 #include "compare/feature_probes.h"

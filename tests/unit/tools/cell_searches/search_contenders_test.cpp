@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is sought when the search for cells is timed.
-#include "compare/cells/search_contenders.h"
+#include "cell_searches/search_contenders.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cells/potential_set.h"
+#include "cell_searches/potential_set.h"
 
 #include <gtest/gtest.h>
 

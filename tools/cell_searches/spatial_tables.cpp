@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "compare/cells/spatial_tables.h"
+#include "cell_searches/spatial_tables.h"
 
 #include <algorithm>
 #include <array>

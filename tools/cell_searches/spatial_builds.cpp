@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "compare/cells/spatial_builds.h"
+#include "cell_searches/spatial_builds.h"
 
 #include <algorithm>
 #include <array>

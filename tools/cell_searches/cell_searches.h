@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cdprep/cells/build_octree.h"
-#include "compare/cells/pointer_octrees.h"
-#include "compare/cells/search_contenders.h"
+#include "cell_searches/pointer_octrees.h"
+#include "cell_searches/search_contenders.h"
 
 namespace cdprep::study::search {
 

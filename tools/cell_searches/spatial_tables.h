@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "compare/cells/spatial_builds.h"
+#include "cell_searches/spatial_builds.h"
 #include "study/table.h"
 
 namespace cdprep::study {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "compare/cells/cell_searches.h"
+#include "cell_searches/cell_searches.h"
 #include "cdprep/cells/overlap_through.h"
 
 namespace cdprep::study::search {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/cells/literal_octree.h"
+#include "cell_searches/literal_octree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "compare/cells/potential_set.h"
+#include "cell_searches/potential_set.h"
 
 #include <algorithm>
 #include <cmath>

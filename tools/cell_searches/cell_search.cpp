@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "compare/cells/cell_search.h"
+#include "cell_searches/cell_search.h"
 
 #include <algorithm>
 #include <array>
 #include <string>
 
-#include "compare/cells/cell_searches.h"
+#include "cell_searches/cell_searches.h"
 #include "study/cells.h"
 
 namespace cdprep::study {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "compare/cells/literal_octree.h"
+#include "cell_searches/literal_octree.h"
 
 #include <algorithm>
 #include <vector>
@@ -7,7 +7,7 @@
 #include "cdprep/cells/octree_search.h"
 #include "cdprep/exact/triangles.h"
 #include "cdprep/format/float_environment.h"
-#include "compare/cells/potential_set.h"
+#include "cell_searches/potential_set.h"
 
 namespace cdprep::study {
 namespace {
