@@ -48,7 +48,9 @@ set(tools_rooms
     "cell_searches: mesh study"
     "scene_file: bake cli import mesh text"
     "compare: cell_searches cli command_line decompose/surface hull import page study text"
-    "query: bake cell_searches cli command_line mesh scene_file text write"
+    "query/inaccessible: mesh"
+    "query: bake cell_searches cli command_line mesh query/inaccessible scene_file text\
+ write"
     "simulate/dynamics: mesh text"
     "simulate/run: scene_file simulate/dynamics text"
     "simulate/page: cli page scene_file simulate/run text"
@@ -60,7 +62,8 @@ set(libraries
     "assimp/|zip\\.h:tools/import/child"
     "pugixml:tools/import/child tools/validate tools/write"
     "H5|hdf5:tools/write"
-    "CGAL/:tools/decompose/enclose tools/info tools/query tools/repair"
+    "CGAL/:tools/decompose/enclose tools/info tools/query/inaccessible\
+ tools/repair"
     "Eigen/:tools/mesh"
     "CLI/:tools/command_line"
     "Bullet[A-Z]|bt[A-Z]|LinearMath/|bullet_(manifold|shape):samples/engines tools/simulate/dynamics"

@@ -9,7 +9,7 @@
 #include "cli/program_threads.h"
 #include "command_line/command_page.h"
 #include "query/command.h"
-#include "query/inaccessible.h"
+#include "query/inaccessible/inaccessible.h"
 #include "query/inaccessible_report.h"
 #include "write/coloured_file.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "query/cap_tree.h"
+#include "query/inaccessible/cap_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "query/radial_cover.h"
+#include "query/inaccessible/radial_cover.h"
 #include "support/meshes.h"
 #include "support/run_threads.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "query/inaccessible.h"
+#include "query/inaccessible/inaccessible.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "query/radial_cover.h"
+#include "query/inaccessible/radial_cover.h"
 #include "support/meshes.h"
 #include "support/run_threads.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "query/inaccessible.h"
+#include "query/inaccessible/inaccessible.h"
 
 #include <algorithm>
 
-#include "query/cap_tree.h"
-#include "query/radial_cover.h"
+#include "query/inaccessible/cap_tree.h"
+#include "query/inaccessible/radial_cover.h"
 
 namespace cdprep::mesh {
 namespace {

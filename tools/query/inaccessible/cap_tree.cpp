@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "query/cap_tree.h"
+#include "query/inaccessible/cap_tree.h"
 
 #include <algorithm>
 #include <array>

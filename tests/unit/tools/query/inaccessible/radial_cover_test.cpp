@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "query/radial_cover.h"
+#include "query/inaccessible/radial_cover.h"
 
 #include <gtest/gtest.h>
 
