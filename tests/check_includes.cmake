@@ -21,7 +21,8 @@ set(lib_rooms
     "scene: core kernels walk"
     "cells: core exact kernels walk"
     "cells/build: build cells core exact"
-    "c: core kernels pieces walk")
+    "c: core kernels pieces walk"
+    "c/scene: c core pieces")
 set(tools_rooms
     "command_line: text"
     "mesh:"

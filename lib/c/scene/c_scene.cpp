@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "c/c_scene.h"
+#include "c/scene/c_scene.h"
 
 #include <algorithm>
 #include <array>

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cstddef>
 
-#include "c/c_plan.h"
 #include "c/memory.h"
+#include "c/scene/c_plan.h"
 #include "cdprep/c/scene.h"
 #include "cdprep/scene.h"
 

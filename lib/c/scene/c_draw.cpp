@@ -12,9 +12,9 @@
 
 #include "c/c_mesh.h"
 #include "c/c_model.h"
-#include "c/c_scene.h"
 #include "c/c_workspace.h"
 #include "c/pose_input.h"
+#include "c/scene/c_scene.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/hulls.h"
 #include "core/triangle_facts.h"

@@ -4,10 +4,10 @@
 #include <span>
 
 #include "c/c_contacts.h"
-#include "c/c_scene.h"
 #include "c/c_workspace.h"
 #include "c/pair_answers.h"
 #include "c/pose_input.h"
+#include "c/scene/c_scene.h"
 
 namespace cdprep::c {
 namespace {

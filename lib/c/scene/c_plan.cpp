@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "c/c_plan.h"
+#include "c/scene/c_plan.h"
 
 #include <algorithm>
 #include <bit>

@@ -13,10 +13,10 @@
 #include <utility>
 
 #include "c/c_model.h"
-#include "c/c_scene.h"
 #include "c/c_workspace.h"
 #include "c/memory.h"
 #include "c/pose_input.h"
+#include "c/scene/c_scene.h"
 #include "cdprep/advanced/object_box.h"
 #include "cdprep/format/float_environment.h"
 
