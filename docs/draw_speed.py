@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Draws docs/speed.svg of a report of cdprep compare with other libraries.
 
-    cdprep compare MODEL... --pairs all --peers build/release/tests/bench/peers \\
-        --tables 4 --format json -o comparison.json
-    docs/draw_speed.py comparison.json
+docs/STUDIES.md has the command that measures. speed.json has the part of its report that the chart
+shows:
+
+    docs/draw_speed.py tests/bench/results/epyc_avx2/speed.json
 
 A bar is the geometric mean, over all pairs of models, of the median time of a query over the poses.
 """
