@@ -58,10 +58,22 @@ foreach(name cdprep cdprep_cells)
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 endforeach()
 
-install(FILES README.md GLOSSARY.md CHANGELOG.md format/FORMAT.md LICENSES/MIT.txt
-    DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation)
+# Documents keep their places, so that links between them hold. The samples are installed as examples.
+file(GLOB documents RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS
+    *.md docs/*.md format/*.md packaging/*.md samples/*.md tests/accuracy/*.md)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${documents})
+set(documents_folder ${CMAKE_CURRENT_BINARY_DIR}/documents)
+file(REMOVE_RECURSE ${documents_folder})
+foreach(document IN LISTS documents)
+    file(READ ${document} text)
+    string(REGEX REPLACE "\\]\\(((\\.\\./)*)samples/" "](\\1examples/" text "${text}")
+    string(REGEX REPLACE "^samples/" "examples/" document ${document})
+    file(WRITE ${documents_folder}/${document} "${text}")
+endforeach()
+install(DIRECTORY ${documents_folder}/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation)
+install(FILES LICENSES/MIT.txt DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation
-    FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
+    FILES_MATCHING PATTERN "*.png" PATTERN "*.svg")
 install(DIRECTORY samples/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT documentation
     FILES_MATCHING PATTERN "*.c" PATTERN "*.cpp" PATTERN "*.h" PATTERN "*.mjs" PATTERN "*.obj"
         PATTERN "*.json" PATTERN "*.pc2")
