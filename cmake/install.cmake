@@ -58,7 +58,7 @@ foreach(name cdprep cdprep_cells)
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 endforeach()
 
-# Documents keep their places, so that links between them hold. The samples are installed as examples.
+# Documents keep their places, so that links between them hold. Samples are installed as examples.
 file(GLOB documents RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS
     *.md docs/*.md format/*.md packaging/*.md samples/*.md tests/accuracy/*.md)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${documents})
