@@ -63,6 +63,12 @@ struct F8 {
     static F8 load(const float* p) noexcept {
         return _mm256_loadu_ps(p);
     }
+    /// Loads six floats as a padded box: 0, 1, 2, none, 3, 4, 5, none. None is 0.
+    static F8 load_box(const float* p) noexcept {
+        const __m256i six = _mm256_setr_epi32(-1, -1, -1, -1, -1, -1, 0, 0);
+        const __m256i places = _mm256_setr_epi32(0, 1, 2, 6, 3, 4, 5, 7);
+        return _mm256_permutevar8x32_ps(_mm256_maskload_ps(p, six), places);
+    }
     static Index load_index(const std::uint16_t* p) noexcept {
         return {_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)))};
     }

@@ -45,6 +45,11 @@ struct F8 {
     static F8 load(const float* p) noexcept {
         return _mm256_loadu_ps(p);
     }
+    /// Loads six floats as a padded box: 0, 1, 2, none, 3, 4, 5, none. None is 0.
+    static F8 load_box(const float* p) noexcept {
+        const __m256i places = _mm256_setr_epi32(0, 1, 2, 6, 3, 4, 5, 7);
+        return _mm256_permutevar8x32_ps(_mm256_maskz_loadu_ps(0x3f, p), places);
+    }
     static Mask none() noexcept {
         return {0};
     }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "cdprep/format/api.h"
 #include "cdprep/format/portable.h"
@@ -272,6 +274,21 @@ struct PlaneRows {
 /// has lower > upper along each axis and meets none.
 inline constexpr std::size_t kPaddedBox = 8;
 inline constexpr std::size_t kPaddedUpper = 4;
+/// The padded box that meets no other one.
+inline constexpr std::array<float, kPaddedBox> kAbsentBox = [] {
+    constexpr float kInfinite = std::numeric_limits<float>::infinity();
+    return std::array<float, kPaddedBox>{kInfinite,  kInfinite,  kInfinite,  0,
+                                         -kInfinite, -kInfinite, -kInfinite, 0};
+}();
+
+/// Boxes as a caller gives them, and what is kept of them. Arrays by the number of the box.
+struct BoxStore {
+    const float* given;     ///< lower x, y, z, upper x, y, z; none is NaN
+    float* boxes;           ///< padded
+    float* previous;        ///< padded: those in `boxes` before
+    const float* around;    ///< padded: larger boxes
+    std::uint8_t* escaped;  ///< 1: a box is not inside its larger box
+};
 inline constexpr std::size_t kBoxNode = 6 * kLanes;
 inline constexpr unsigned kMostBoxLevels = 11;  ///< for 2^32 boxes
 
@@ -376,11 +393,13 @@ struct Table {
     std::size_t (*meeting_pairs)(const float* boxes, const std::uint32_t* pairs, std::size_t count,
                                  std::uint32_t* kept) noexcept;
 
-    /// Finds, among `count` padded boxes from number `first` on, those that are not inside the box
-    /// of their number in `around`. Returns how many; stores their numbers, rising. `numbers` has
-    /// room for all. An absent box is inside every box.
-    std::size_t (*escaped_boxes)(const float* boxes, const float* around, std::uint32_t first,
-                                 std::size_t count, std::uint32_t* numbers) noexcept;
+    /// Stores the boxes with the given numbers, or the first `count` if `numbers` is null. Infinite
+    /// coordinates become the largest float, or they would meet those of absent boxes. A box with
+    /// lower > upper along an axis becomes kAbsentBox, which is inside every box. Returns how many
+    /// escaped that had not before, and stores their numbers in the order of `numbers`. `escaped`
+    /// has room for one more than all boxes.
+    std::size_t (*store_boxes)(const BoxStore& store, const std::uint32_t* numbers,
+                               std::size_t count, std::uint32_t* escaped) noexcept;
 };
 
 extern const Table kScalar;  ///< the reference, for any processor; WebAssembly leaves it out

@@ -82,6 +82,10 @@ struct F8 {
     static F8 load(const float* p) noexcept {
         return {vld1q_f32(p), vld1q_f32(p + 4)};
     }
+    /// Loads six floats as a padded box: 0, 1, 2, none, 3, 4, 5, none. None is 0.
+    static F8 load_box(const float* p) noexcept {
+        return {vsetq_lane_f32(0, vld1q_f32(p), 3), vextq_f32(vld1q_f32(p + 2), vdupq_n_f32(0), 1)};
+    }
     static Index load_index(const std::uint16_t* p) noexcept {
         const uint16x8_t numbers = vld1q_u16(p);
         return {vreinterpretq_s32_u32(vmovl_u16(vget_low_u16(numbers))),

@@ -64,6 +64,15 @@ struct F8 {
         for (unsigned i = 0; i < kCount; ++i) result.x[i] = p[i];
         return result;
     }
+    /// Loads six floats as a padded box: 0, 1, 2, none, 3, 4, 5, none. None is 0.
+    static F8 load_box(const float* p) noexcept {
+        F8 result(0);
+        for (unsigned i = 0; i < 3; ++i) {
+            result.x[i] = p[i];
+            result.x[i + 4] = p[i + 3];
+        }
+        return result;
+    }
     static Index load_index(const std::uint16_t* p) noexcept {
         Index result;
         for (unsigned i = 0; i < kCount; ++i) result.x[i] = p[i];

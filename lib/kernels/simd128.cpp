@@ -74,6 +74,12 @@ struct F8 {
     static F8 load(const float* p) noexcept {
         return {wasm_v128_load(p), wasm_v128_load(p + 4)};
     }
+    /// Loads six floats as a padded box: 0, 1, 2, none, 3, 4, 5, none. None is 0.
+    static F8 load_box(const float* p) noexcept {
+        const v128_t none = wasm_f32x4_splat(0);
+        return {wasm_f32x4_replace_lane(wasm_v128_load(p), 3, 0),
+                wasm_i32x4_shuffle(wasm_v128_load(p + 2), none, 1, 2, 3, 4)};
+    }
     static Index load_index(const std::uint16_t* p) noexcept {
         return {wasm_u32x4_load16x4(p), wasm_u32x4_load16x4(p + 4)};
     }

@@ -32,7 +32,7 @@ constexpr Table table_of(const char* name) noexcept {
             met_boxes_of<F8>,
             meeting_boxes_of<F8>,
             meeting_pairs_of<F8>,
-            escaped_boxes_of<F8>};
+            store_boxes_of<F8>};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cassert>
+#include <limits>
 
 #include "kernels.h"
 
@@ -128,20 +129,31 @@ std::size_t meeting_pairs_of(const float* boxes, const std::uint32_t* pairs, std
     return number;
 }
 
-/// The body of escaped_boxes().
+/// The body of store_boxes().
 template <class F>
-std::size_t escaped_boxes_of(const float* boxes, const float* around, std::uint32_t first,
-                             std::size_t count, std::uint32_t* found) noexcept {
-    std::size_t number = 0;
+std::size_t store_boxes_of(const BoxStore& store, const std::uint32_t* numbers, std::size_t count,
+                           std::uint32_t* escaped) noexcept {
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    const F most(kLargest), least(-kLargest);
+    const BoxStore to = store;  // in registers: bytes that are stored may be anything
+    std::size_t found = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t at = (first + i) * kPaddedBox;
-        const F inner = F::load(boxes + at), outer = F::load(around + at);
-        const unsigned outside = (bits(greater(outer, inner)) & kLowerLanes) |
-                                 (bits(greater(inner, outer)) & kUpperLanes);
-        found[number] = static_cast<std::uint32_t>(first + i);
-        number += static_cast<std::size_t>(outside != 0);
+        const std::size_t number = numbers == nullptr ? i : numbers[i];
+        const std::size_t at = number * kPaddedBox;
+        F::load(to.boxes + at).store(to.previous + at);
+        const F given = F::load_box(to.given + number * 6);
+        const unsigned is_absent = bits(greater(given, halves_exchanged(given))) & kLowerLanes;
+        const F box = is_absent != 0 ? F::load(kAbsentBox.data()) : max(min(given, most), least);
+        box.store(to.boxes + at);
+        const F around = F::load(to.around + at);
+        const unsigned outside =
+            (bits(greater(around, box)) & kLowerLanes) | (bits(greater(box, around)) & kUpperLanes);
+        const auto is_new = static_cast<std::uint8_t>((outside != 0) & (to.escaped[number] == 0));
+        to.escaped[number] |= is_new;
+        escaped[found] = static_cast<std::uint32_t>(number);
+        found += is_new;
     }
-    return number;
+    return found;
 }
 
 }  // namespace

@@ -27,6 +27,7 @@
 namespace cdprep {
 namespace {
 
+using kernels::kAbsentBox;
 using kernels::kLanes;
 using kernels::kPaddedBox;
 using kernels::kPaddedUpper;
@@ -67,11 +68,6 @@ bool is_possible(const BroadPhaseLimits& limits) noexcept {
     return limits.boxes <= kMostWorldBoxes && limits.threads > 0;
 }
 
-bool is_absent(const WorldBox& box) noexcept {
-    return !(box.lower[0] <= box.upper[0] && box.lower[1] <= box.upper[1] &&
-             box.lower[2] <= box.upper[2]);
-}
-
 bool has_nan(const WorldBox& box) noexcept {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (std::isnan(box.lower[axis]) || std::isnan(box.upper[axis])) return true;
@@ -79,27 +75,38 @@ bool has_nan(const WorldBox& box) noexcept {
     return false;
 }
 
-/// Returns a coordinate that is not infinite, or it would meet those of absent boxes. Takes two
-/// instructions, where std::clamp() branches.
-float finite(float value) noexcept {
-    const float above = value > -kLargest ? value : -kLargest;
-    return above < kLargest ? above : kLargest;
+/// The coordinates of boxes, six each.
+std::span<const float> numbers_of(std::span<const WorldBox> boxes) noexcept {
+    static_assert(sizeof(WorldBox) == 6 * sizeof(float));
+    return {reinterpret_cast<const float*>(boxes.data()), 6 * boxes.size()};
 }
 
-/// Stores a box as kernels take it, and its move.
-void store(const WorldBox& box, float* padded, Move& move) noexcept {
-    if (is_absent(box)) {  // by the numbers as given
-        std::copy_n(kAbsentBox.begin(), kPaddedBox, padded);
-        move.fill(0);
-        return;
+/// Returns whether a coordinate is NaN. Without branches, compilers look at several at a time.
+bool have_nan(std::span<const WorldBox> boxes) noexcept {
+    std::uint32_t found = 0;
+    for (const float number : numbers_of(boxes)) found |= number != number ? 1 : 0;
+    return found != 0;
+}
+
+/// Returns the first named box with a NaN, if there is one.
+std::optional<std::uint32_t> find_nan(std::span<const WorldBox> boxes,
+                                      std::span<const std::uint32_t> named) noexcept {
+    // Many are cheaper to look at in their order, with those that are not named.
+    if (named.size() > boxes.size() / 4 && !have_nan(boxes)) return std::nullopt;
+    for (const std::uint32_t number : named) {
+        if (has_nan(boxes[number])) return number;
     }
+    return std::nullopt;
+}
+
+/// Returns how far the middle of a box has moved. Not a number if it is absent or was.
+Move move_of(const float* box, const float* previous) noexcept {
+    Move move{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float before = padded[axis] + padded[kPaddedUpper + axis];
-        const float lower = finite(box.lower[axis]), upper = finite(box.upper[axis]);
-        padded[axis] = lower;
-        padded[kPaddedUpper + axis] = upper;
-        move[axis] = 0.5F * (lower + upper - before);
+        const float before = previous[axis] + previous[kPaddedUpper + axis];
+        move[axis] = 0.5F * (box[axis] + box[kPaddedUpper + axis] - before);
     }
+    return move;
 }
 
 /// Stores the larger box around a box that moved so. It has not moved, or was absent, where the
@@ -155,11 +162,11 @@ struct BroadPhase::State {
           tree(carver, most.boxes),
           exact(carver.take<float>(most.boxes * kPaddedBox)),
           larger(carver.take<float>(most.boxes * kPaddedBox)),
-          moves(carver.take<Move>(most.boxes)),
+          previous(carver.take<float>(most.boxes * kPaddedBox)),
           filters(carver.take<BoxFilter>(most.boxes)),
           leaves(carver.take<std::uint8_t>(most.boxes)),
           numbers(carver.take<std::uint32_t>(numbers_of_thread() * most.threads)),
-          leavers(carver.take<std::uint32_t>(most.boxes)),
+          leavers(carver.take<std::uint32_t>(numbers_of_thread())),
           writers(carver.take<PairPages::Writer>(most.threads)),
           pages(carver.take<BoxPair>(page_room())),
           kept(carver.take<BoxPair>(most.pairs)),
@@ -181,7 +188,8 @@ struct BroadPhase::State {
 
     void forget(std::uint32_t boxes) noexcept;
     void refilter(std::uint32_t number, std::span<const BoxFilter> new_filters) noexcept;
-    void find_leavers() noexcept;
+    void store(std::span<const WorldBox> boxes, const std::uint32_t* named,
+               std::size_t named_count) noexcept;
     void add_leaver(std::uint32_t number) noexcept;
     BroadPhaseUpdate finish(ParallelFor run) noexcept;
     void choose_way() noexcept;
@@ -205,9 +213,9 @@ struct BroadPhase::State {
 
     BroadPhaseLimits limits;
     WorldTree tree;
-    float* exact;   ///< padded boxes as given
-    float* larger;  ///< around these
-    Move* moves;    ///< of the middles, in the last update that named the box
+    float* exact;     ///< padded boxes as given
+    float* larger;    ///< around these
+    float* previous;  ///< padded boxes before the last update that named them
     BoxFilter* filters;
     std::uint8_t* leaves;    ///< 1 for each leaver
     std::uint32_t* numbers;  ///< scratch
@@ -242,6 +250,7 @@ void BroadPhase::State::forget(std::uint32_t boxes) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
         std::copy_n(kAbsentBox.begin(), kPaddedBox, exact + i * kPaddedBox);
         std::copy_n(kAbsentBox.begin(), kPaddedBox, larger + i * kPaddedBox);
+        std::copy_n(kAbsentBox.begin(), kPaddedBox, previous + i * kPaddedBox);
     }
 }
 
@@ -258,24 +267,23 @@ void BroadPhase::State::add_leaver(std::uint32_t number) noexcept {
     leavers[leaver_count++] = number;
 }
 
-/// Finds all boxes that are no longer inside their larger box.
-void BroadPhase::State::find_leavers() noexcept {
-    leaver_count = static_cast<std::uint32_t>(
-        kernels::active().escaped_boxes(exact, larger, 0, count, leavers));
-    for (std::uint32_t i = 0; i < leaver_count; ++i) leaves[leavers[i]] = 1;
+/// Stores the boxes with the given numbers, or the first `named_count` if `named` is null. A box
+/// leaves if it is no longer inside its larger box. Those that are not named did not move.
+void BroadPhase::State::store(std::span<const WorldBox> boxes, const std::uint32_t* named,
+                              std::size_t named_count) noexcept {
+    leaver_count = static_cast<std::uint32_t>(kernels::active().store_boxes(
+        {numbers_of(boxes).data(), exact, previous, larger, leaves}, named, named_count, leavers));
 }
 
 BroadPhaseUpdate BroadPhase::State::update_all(std::span<const WorldBox> boxes,
                                                std::span<const BoxFilter> new_filters,
                                                ParallelFor run) noexcept {
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        if (is_absent(boxes[i]) && has_nan(boxes[i])) {
-            return {.complete = false, .refused = static_cast<std::uint32_t>(i)};
-        }
+    if (have_nan(boxes)) {
+        const auto first = std::find_if(boxes.begin(), boxes.end(), has_nan) - boxes.begin();
+        return {.complete = false, .refused = static_cast<std::uint32_t>(first)};
     }
     if (boxes.size() != count) forget(static_cast<std::uint32_t>(boxes.size()));
-    for (std::size_t i = 0; i < count; ++i) store(boxes[i], exact + i * kPaddedBox, moves[i]);
-    find_leavers();
+    store(boxes, nullptr, count);
     if (has_filters || !new_filters.empty()) {
         for (std::uint32_t i = 0; i < count; ++i) refilter(i, new_filters);
         has_filters = !new_filters.empty();
@@ -287,15 +295,8 @@ BroadPhaseUpdate BroadPhase::State::update_some(std::span<const WorldBox> boxes,
                                                 std::span<const BoxFilter> new_filters,
                                                 std::span<const std::uint32_t> moved,
                                                 ParallelFor run) noexcept {
-    for (const std::uint32_t number : moved) {
-        if (is_absent(boxes[number]) && has_nan(boxes[number])) {
-            return {.complete = false, .refused = number};
-        }
-    }
-    for (const std::uint32_t number : moved) {
-        store(boxes[number], exact + std::size_t{number} * kPaddedBox, moves[number]);
-    }
-    find_leavers();
+    if (const auto number = find_nan(boxes, moved)) return {.complete = false, .refused = *number};
+    store(boxes, moved.data(), moved.size());
     if (has_filters || !new_filters.empty()) {
         for (const std::uint32_t number : moved) refilter(number, new_filters);
         has_filters = true;  // of the boxes that did not move
@@ -337,7 +338,8 @@ BroadPhaseUpdate BroadPhase::State::finish(ParallelFor run) noexcept {
     if (has_kept || has_order) choose_way();
     for (std::uint32_t i = 0; i < leaver_count; ++i) {
         const std::size_t at = std::size_t{leavers[i]} * kPaddedBox;
-        store_around(exact + at, moves[leavers[i]], leavers[i], larger + at);
+        const Move move = move_of(exact + at, previous + at);
+        store_around(exact + at, move, leavers[i], larger + at);
     }
     const std::uint32_t escaped = leaver_count;
     const bool was_kept = keeps && update_kept(run);
@@ -586,9 +588,9 @@ BroadPhaseUpdate BroadPhase::update_moved(std::span<const WorldBox> boxes,
                                           ParallelFor parallel_for) noexcept {
     require_sizes(boxes.size(), filters.size(), state_->limits.boxes);
     if (boxes.size() != state_->count) stop_with("The number of boxes differs from the last one.");
-    for (const std::uint32_t number : moved) {
-        if (number >= boxes.size()) stop_with("A box that has moved does not exist.");
-    }
+    std::uint32_t most = 0;
+    for (const std::uint32_t number : moved) most = std::max(most, number);
+    if (!moved.empty() && most >= boxes.size()) stop_with("A box that has moved does not exist.");
     format::FloatEnvironment environment;
     const GuardedFor run(environment, parallel_for);
     return state_->update_some(boxes, filters, moved, run);

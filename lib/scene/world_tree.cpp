@@ -13,6 +13,7 @@
 namespace cdprep {
 namespace {
 
+using kernels::kAbsentBox;
 using kernels::kBoxNode;
 using kernels::kLanes;
 using kernels::kPaddedBox;

@@ -4,19 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "core/carver.h"
 #include "kernels/kernels.h"
 
 namespace cdprep {
-
-/// The padded box (kernels.h) that meets no other one.
-inline constexpr std::array<float, kernels::kPaddedBox> kAbsentBox = [] {
-    constexpr float kInfinite = std::numeric_limits<float>::infinity();
-    return std::array<float, kernels::kPaddedBox>{kInfinite,  kInfinite,  kInfinite,  0,
-                                                  -kInfinite, -kInfinite, -kInfinite, 0};
-}();
 
 /// A tree over padded boxes (kernels.h), eight a node, in the order of the Z-order curve. Boxes
 /// larger than an eighth of the scene follow in an order of their own, so that they widen no node

@@ -155,26 +155,73 @@ TEST(WorldBoxes, KeepsPairsThatMeet) {
     });
 }
 
-TEST(WorldBoxes, FindsThoseThatLeft) {
-    Boxes random(9);
-    const std::vector<Padded> boxes = random.some(1000);
-    std::vector<Padded> around(boxes.size());
+/// Boxes as a caller gives them: some are absent along one axis alone, some are infinite.
+std::vector<float> given_boxes(const std::vector<Padded>& boxes) {
+    std::vector<float> given;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-        around[i] = random.next(4);
-        if (i % 3 == 0) around[i] = boxes[i];
+        Padded box = boxes[i];
+        if (i % 16 == 5) std::swap(box[i % 3], box[4 + i % 3]);
+        if (i % 16 == 6) box[i % 3] = -kInfinite;
+        if (i % 16 == 7) box[4 + i % 3] = kInfinite;
+        if (i % 16 == 8) box[0] = box[4] = kInfinite;
+        given.insert(given.end(), {box[0], box[1], box[2], box[4], box[5], box[6]});
     }
-    constexpr std::uint32_t kFirst = 11;
+    return given;
+}
+
+/// The padded box of six given numbers.
+Padded stored_box(const float* given) {
+    Padded box{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (given[axis] > given[3 + axis]) return kAbsent;
+        constexpr float kMost = std::numeric_limits<float>::max();
+        box[axis] = std::clamp(given[axis], -kMost, kMost);
+        box[4 + axis] = std::clamp(given[3 + axis], -kMost, kMost);
+    }
+    return box;
+}
+
+TEST(WorldBoxes, StoresBoxesAndFindsThoseThatLeft) {
+    Boxes random(9);
+    const std::vector<Padded> before = random.some(1000);
+    const std::vector<float> given = given_boxes(random.some(before.size()));
+    std::vector<Padded> around(before.size());
+    Numbers named;  // each third box
+    std::vector<Padded> boxes = before, previous(before.size());
     Numbers expected;
-    for (std::uint32_t i = kFirst; i < boxes.size(); ++i) {
-        if (!holds(around[i], boxes[i])) expected.push_back(i);
+    for (std::uint32_t i = 0; i < before.size(); ++i) {
+        const Padded box = stored_box(&given[i * 6]);
+        around[i] = i % 2 == 0 ? box : random.next(4);
+        if (i % 3 != 0) continue;
+        named.push_back(i);
+        boxes[i] = box;
+        previous[i] = before[i];
+        if (!holds(around[i], box)) expected.push_back(i);
     }
-    EXPECT_GT(expected.size(), 100U);
-    EXPECT_LT(expected.size(), 900U);
+    EXPECT_GT(expected.size(), 50U);
+    EXPECT_LT(expected.size(), 280U);
     for_each_table([&](const Table& table) {
-        Numbers found(boxes.size());
-        found.resize(table.escaped_boxes(boxes[0].data(), around[0].data(), kFirst,
-                                         boxes.size() - kFirst, found.data()));
+        std::vector<Padded> stored = before, replaced(before.size());
+        std::vector<std::uint8_t> escaped(before.size());
+        Numbers found(before.size() + 1);
+        const BoxStore store = {given.data(), stored[0].data(), replaced[0].data(),
+                                around[0].data(), escaped.data()};
+        found.resize(table.store_boxes(store, named.data(), named.size(), found.data()));
         ASSERT_EQ(found, expected);
+        ASSERT_EQ(stored, boxes);
+        ASSERT_EQ(replaced, previous);
+        // Named twice, a box escapes once.
+        found.resize(before.size() + 1);
+        ASSERT_EQ(table.store_boxes(store, named.data(), named.size(), found.data()), 0U);
+        ASSERT_EQ(std::count(escaped.begin(), escaped.end(), 1),
+                  static_cast<std::ptrdiff_t>(expected.size()));
+        // All of them.
+        const std::size_t rest = table.store_boxes(store, nullptr, before.size(), found.data());
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            ASSERT_EQ(stored[i], stored_box(&given[i * 6])) << i;
+            ASSERT_EQ(escaped[i] == 1, !holds(around[i], stored[i])) << i;
+        }
+        ASSERT_GT(rest, 100U);
     });
 }
 
