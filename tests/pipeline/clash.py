@@ -223,7 +223,8 @@ def the_heap(program, folder):
         all_of_them = 100 in arguments
         must(every > len(found) > 0 or all_of_them, f"{effect} {arguments} says nothing")
         must(not all_of_them or len(found) == every == summary["queried"], f"{summary}")
-        must(all_of_them or summary["candidates"] < every, f"no pair was pruned: {summary}")
+        is_wide = all_of_them or IS_SLOW and 2 in arguments  # no box of six is farther from another
+        must(is_wide or summary["candidates"] < every, f"no pair was pruned: {summary}")
     # Text and JSON say the same.
     found, summary = clashes(program, "overlap", heap.glb)
     whole = run(program, "query", "overlap", "--scene", heap.glb, "--format", "json")
