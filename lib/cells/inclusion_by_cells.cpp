@@ -37,11 +37,11 @@
 // runs along +x, an edge of the cone of the least key.
 //
 // Octrees: R runs along +x, because o is q moved back along x alone. The planes of the leaves that
-// R runs through cut it into pieces x0 < x <= x1. The first and the last piece are unbounded. A
-// triangle with a term other than 0 has q outside its plane. That plane is not parallel to x:
+// R runs through cut it into intervals x0 < x <= x1. The first and the last interval are unbounded.
+// A triangle with a term other than 0 has q outside its plane. That plane is not parallel to x:
 // otherwise only unbounded points would be met. So it has one point h on R, and counts only in the
-// leaf whose piece has h. The leaf's closed cell touches the triangle at h, so the leaf lists it.
-// orient3d() compares h with x0 and x1.
+// leaf whose interval has h. The leaf's closed cell touches the triangle at h, so the leaf lists
+// it. orient3d() compares h with x0 and x1.
 
 namespace cdprep {
 namespace {
@@ -62,8 +62,8 @@ Box3 box_of_ray(const Double3& o, const Double3& q) noexcept {
         {q.x > o.x ? kInfinity : q.x, q.y > o.y ? kInfinity : q.y, q.z > o.z ? kInfinity : q.z}};
 }
 
-/// A piece of a ray along x: x0 < x <= x1; either may be infinite.
-struct Piece {
+/// An interval of a ray along x: x0 < x <= x1; either may be infinite.
+struct Interval {
     double x0 = -std::numeric_limits<double>::infinity();
     double x1 = std::numeric_limits<double>::infinity();
 };
@@ -79,13 +79,13 @@ public:
         return add(triangle, [](const Corners&, int) { return true; });
     }
 
-    /// Adds the crossings with a leaf's references. Shared ones count only in their own piece of
+    /// Adds the crossings with a leaf's references. Shared ones count only in their own interval of
     /// the ray, which must run along +x.
-    bool add(std::span<const std::uint32_t> references, const Piece& piece) noexcept {
+    bool add(std::span<const std::uint32_t> references, const Interval& interval) noexcept {
         for (const std::uint32_t reference : references) {
             const bool shared = (reference & format::kSharedReference) != 0;
             const auto counts_here = [&](const Corners& t, int crossings) {
-                return !shared || is_in(piece, t, crossings);
+                return !shared || is_in(interval, t, crossings);
             };
             if (!add(reference & ~format::kSharedReference, counts_here)) return false;
         }
@@ -109,14 +109,15 @@ private:
         return !on_surface_;
     }
 
-    /// Returns whether a crossing is in a piece. `crossings` is the side of the plane that the ray
-    /// comes from. The plane is ahead as long as the ray is on that side.
-    [[nodiscard]] bool is_in(const Piece& piece, const Corners& t, int crossings) const noexcept {
+    /// Returns whether a crossing is in an interval. `crossings` is the side of the plane that the
+    /// ray comes from. The plane is ahead as long as the ray is on that side.
+    [[nodiscard]] bool is_in(const Interval& interval, const Corners& t,
+                             int crossings) const noexcept {
         const auto is_ahead_at = [&](double x) {
             return orient3d(t[0], t[1], t[2], {x, q_.y, q_.z}) == crossings;
         };
-        return (std::isinf(piece.x0) || is_ahead_at(piece.x0)) &&
-               (std::isinf(piece.x1) || !is_ahead_at(piece.x1));
+        return (std::isinf(interval.x0) || is_ahead_at(interval.x0)) &&
+               (std::isinf(interval.x1) || !is_ahead_at(interval.x1));
     }
 
     MovedModel model_;
@@ -193,16 +194,16 @@ template <class Tree>
 void walk_row(const Tree& tree, const Double3& q, Crossings& crossings) noexcept {
     struct OpenCell {
         typename Tree::Cell cell;
-        Piece piece;
+        Interval interval;
     };
     std::array<OpenCell, Tree::kMostLevels> open;  // each level down adds one
     std::size_t depth = 0;
     open[depth++] = {tree.child(tree.top(), 0), {}};
     while (depth > 0) {
-        const auto [cell, piece] = open[--depth];
-        if (piece.x1 < q.x) continue;
+        const auto [cell, interval] = open[--depth];
+        if (interval.x1 < q.x) continue;
         if (tree.is_leaf(cell)) {
-            if (!crossings.add(tree.references(cell), piece)) return;
+            if (!crossings.add(tree.references(cell), interval)) return;
             continue;
         }
         const Double3 split = tree.split(cell);
@@ -210,9 +211,10 @@ void walk_row(const Tree& tree, const Double3& q, Crossings& crossings) noexcept
         const unsigned lanes = tree.lanes(cell);
         assert(depth + static_cast<unsigned>(std::popcount(lanes >> row & 3)) <= open.size());
         if ((lanes >> row >> 1 & 1) != 0) {
-            open[depth++] = {tree.child(cell, row | 1), {split.x, piece.x1}};
+            open[depth++] = {tree.child(cell, row | 1), {split.x, interval.x1}};
         }
-        if ((lanes >> row & 1) != 0) open[depth++] = {tree.child(cell, row), {piece.x0, split.x}};
+        if ((lanes >> row & 1) != 0)
+            open[depth++] = {tree.child(cell, row), {interval.x0, split.x}};
     }
 }
 
@@ -270,9 +272,9 @@ Inclusion through_keys(const Model& model, const Double3& q, QueryCounts* counts
         const std::uint32_t first = place[0] & ~(steps - 1);
         place[0] = first + steps;
         if (cell.leaf == nullptr) continue;
-        const Piece piece = {octree_plane(grid.origin.x, grid.step, first),
-                             octree_plane(grid.origin.x, grid.step, place[0])};
-        if (!crossings.add(listed(model.octree().references, *cell.leaf), piece)) break;
+        const Interval interval = {octree_plane(grid.origin.x, grid.step, first),
+                                   octree_plane(grid.origin.x, grid.step, place[0])};
+        if (!crossings.add(listed(model.octree().references, *cell.leaf), interval)) break;
     }
     return crossings.inclusion();
 }

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kRelative = 1e-4;
 constexpr double kOfModel = 1e-9;
-constexpr std::size_t kMostPieces = 200'000;  ///< for all triangles of one direction
+constexpr std::size_t kMostFragments = 200'000;  ///< for all triangles of one direction
 
 /// Triangles that are asked for the one nearest to a point.
 class Surface {
@@ -67,10 +67,10 @@ double apart(const Double3& a, const Double3& b) {
     return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-struct Piece {
+struct Fragment {
     Corners corners;
     double upper;
-    bool operator<(const Piece& other) const {
+    bool operator<(const Fragment& other) const {
         return upper < other.upper;
     }
 };
@@ -110,11 +110,11 @@ std::vector<Corners> cut_in_middles(const Corners& c) {
     return {{c[0], ab, ca}, {ab, c[1], bc}, {ca, bc, c[2]}, {ab, bc, ca}};
 }
 
-/// Bounds the distance of a piece from the surface. The distance to one triangle is convex, so
-/// it is largest at a corner of the piece. The bound is the least over the triangles nearest to
-/// the corners. If these are far apart, the longest side bounds better: no point of the piece is
+/// Bounds the distance of a fragment from the surface. The distance to one triangle is convex, so
+/// it is largest at a corner of the fragment. The bound is the least over the triangles nearest to
+/// the corners. If these are far apart, the longest side bounds better: no point of the fragment is
 /// farther than that from some corner. Without a nearest triangle the bound is infinite.
-Piece bounded(const Corners& corners, const Surface& surface, double& lower) {
+Fragment bounded(const Corners& corners, const Surface& surface, double& lower) {
     double most = 0;
     std::array<Corners, 3> near;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -137,28 +137,28 @@ Piece bounded(const Corners& corners, const Surface& surface, double& lower) {
     return {corners, upper};
 }
 
-/// Splits the piece with the largest bound until that bound is close to an attained distance.
+/// Splits the fragment with the largest bound until that bound is close to an attained distance.
 MovedDistance farthest(const std::vector<Corners>& triangles, const Surface& surface,
                        double diagonal) {
     MovedDistance distance;
     if (triangles.empty()) return distance;
-    std::priority_queue<Piece> pieces;
+    std::priority_queue<Fragment> fragments;
     for (const Corners& t : triangles) {
-        pieces.push(bounded(t, surface, distance.lower));
+        fragments.push(bounded(t, surface, distance.lower));
     }
-    std::size_t left = kMostPieces;
-    while (left > 0 && std::isfinite(pieces.top().upper) &&
-           pieces.top().upper > distance.lower * (1 + kRelative) + kOfModel * diagonal) {
-        const Corners corners = pieces.top().corners;
-        pieces.pop();
+    std::size_t left = kMostFragments;
+    while (left > 0 && std::isfinite(fragments.top().upper) &&
+           fragments.top().upper > distance.lower * (1 + kRelative) + kOfModel * diagonal) {
+        const Corners corners = fragments.top().corners;
+        fragments.pop();
         for (const Corners& part : cut_in_middles(corners)) {
-            pieces.push(bounded(part, surface, distance.lower));
+            fragments.push(bounded(part, surface, distance.lower));
         }
         left -= std::min<std::size_t>(left, 4);
     }
-    // Middles are rounded: the gaps between their pieces are smaller than this.
-    distance.upper = pieces.top().upper;
-    if (left < kMostPieces) distance.upper += 1e-15 * diagonal;
+    // Middles are rounded: the gaps between their fragments are smaller than this.
+    distance.upper = fragments.top().upper;
+    if (left < kMostFragments) distance.upper += 1e-15 * diagonal;
     distance.lower = std::min(distance.lower, distance.upper);
     return distance;
 }
@@ -259,17 +259,17 @@ private:
     std::vector<Double3> corners_;
 };
 
-/// Returns the outline: the edges, by position, that an odd number of pieces has. It starts at
+/// Returns the outline: the edges, by position, that an odd number of fragments has. It starts at
 /// the first corner of the triangle that was cut. Empty if the edges are not one loop.
-std::vector<Double3> find_outline(const std::vector<Corners>& pieces, const Double3& first) {
+std::vector<Double3> find_outline(const std::vector<Corners>& fragments, const Double3& first) {
     using OutlineEdge = std::array<Double3, 2>;
     const auto less = [](const OutlineEdge& a, const OutlineEdge& b) {
         return a[0] == b[0] ? lexicographically_less(a[1], b[1])
                             : lexicographically_less(a[0], b[0]);
     };
     std::vector<OutlineEdge> edges;
-    for (const Corners& piece : pieces) {
-        const Corners c = ordered(piece);
+    for (const Corners& fragment : fragments) {
+        const Corners c = ordered(fragment);
         edges.insert(edges.end(), {{c[0], c[1]}, {c[1], c[2]}, {c[0], c[2]}});
     }
     std::sort(edges.begin(), edges.end(), less);
@@ -299,16 +299,18 @@ std::vector<Double3> find_outline(const std::vector<Corners>& pieces, const Doub
     return 2 * loop.size() == outline.size() ? loop : std::vector<Double3>{};
 }
 
-/// Returns a bound on the distance from a triangle to its pieces; nothing if some may be
+/// Returns a bound on the distance from a triangle to its fragments; nothing if some may be
 /// missing.
 ///
-/// No piece is missing if the edges of an odd number of pieces form one loop through the three
-/// corners. Proof: seen along the normal, the loop surrounds every point of the triangle that is
-/// farther from its sides than the loop is. So the pieces cover that point, and their height
-/// there is at most that of a corner of a piece. Any other point is nearer to a side than the loop.
-/// The loop passes along that whole side, so the point is within twice that distance of the loop.
-std::optional<double> distance_to_pieces(const Corners& whole, const std::vector<Corners>& pieces) {
-    const std::vector<Double3> loop = find_outline(pieces, whole[0]);
+/// No fragment is missing if the edges of an odd number of fragments form one loop through the
+/// three corners. Proof: seen along the normal, the loop surrounds every point of the triangle that
+/// is farther from its sides than the loop is. So the fragments cover that point, and their height
+/// there is at most that of a corner of a fragment. Any other point is nearer to a side than the
+/// loop. The loop passes along that whole side, so the point is within twice that distance of the
+/// loop.
+std::optional<double> distance_to_fragments(const Corners& whole,
+                                            const std::vector<Corners>& fragments) {
+    const std::vector<Double3> loop = find_outline(fragments, whole[0]);
     const auto second = std::find(loop.begin(), loop.end(), whole[1]);
     const auto third = std::find(loop.begin(), loop.end(), whole[2]);
     if (second == loop.end() || third == loop.end()) return std::nullopt;
@@ -324,8 +326,8 @@ std::optional<double> distance_to_pieces(const Corners& whole, const std::vector
         if (p == segment[0]) continue;
         farthest = std::max(farthest, 2 * distance_at_most(p, segment));
     }
-    for (const Corners& piece : pieces) {
-        for (const Double3& p : piece) {
+    for (const Corners& fragment : fragments) {
+        for (const Double3& p : fragment) {
             if (std::find(whole.begin(), whole.end(), p) != whole.end()) continue;
             farthest = std::max(farthest, distance_at_most(p, whole));
         }
@@ -333,38 +335,38 @@ std::optional<double> distance_to_pieces(const Corners& whole, const std::vector
     return farthest;
 }
 
-/// Returns for each source triangle the bound on the distance to its pieces, if none is missing.
-std::vector<std::optional<double>> find_pieces(const TriangleSoup& soup,
-                                               const std::vector<bool>& placed,
-                                               const RepairMesh& mesh) {
+/// Returns for each source triangle the bound on the distance to its fragments, if none is missing.
+std::vector<std::optional<double>> find_fragments(const TriangleSoup& soup,
+                                                  const std::vector<bool>& placed,
+                                                  const RepairMesh& mesh) {
     std::vector<std::optional<double>> bounds(soup.triangles.size());
-    struct PieceOf {
+    struct FragmentOf {
         std::uint32_t source, triangle;
     };
-    std::vector<PieceOf> all;
+    std::vector<FragmentOf> all;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const Origin& origin = mesh.triangle_origin[t];
         if (origin.source == kNone || !origin.step) continue;
         if (placed[origin.source]) all.push_back({origin.source, t});
     }
-    std::sort(all.begin(), all.end(), [](const PieceOf& a, const PieceOf& b) {
+    std::sort(all.begin(), all.end(), [](const FragmentOf& a, const FragmentOf& b) {
         return a.source != b.source ? a.source < b.source : a.triangle < b.triangle;
     });
-    std::vector<Corners> pieces;
+    std::vector<Corners> fragments;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        pieces.push_back(corners_of(mesh, mesh.triangles[all[i].triangle]));
+        fragments.push_back(corners_of(mesh, mesh.triangles[all[i].triangle]));
         const std::uint32_t source = all[i].source;
         if (i + 1 < all.size() && all[i + 1].source == source) continue;
         const Corners whole = corners_of(soup, soup.triangles[source]);
-        if (!exact::is_degenerate(whole)) bounds[source] = distance_to_pieces(whole, pieces);
-        pieces.clear();
+        if (!exact::is_degenerate(whole)) bounds[source] = distance_to_fragments(whole, fragments);
+        fragments.clear();
     }
     return bounds;
 }
 
-/// Records the bounds of the triangles that the output contains, whole or in pieces.
+/// Records the bounds of the triangles that the output contains, whole or in fragments.
 void know_output(const TriangleSoup& soup, const RepairMesh& mesh,
-                 const std::vector<std::optional<double>>& pieces, MissingShapes& missing) {
+                 const std::vector<std::optional<double>>& fragments, MissingShapes& missing) {
     std::vector<bool> is_corner(mesh.positions.size());
     for (std::size_t v = 0; v < is_corner.size(); ++v) {
         is_corner[v] = missing.has_corner(mesh.positions[v]);
@@ -375,8 +377,8 @@ void know_output(const TriangleSoup& soup, const RepairMesh& mesh,
             missing.know(corners_of(mesh, t), 0);
         }
     }
-    for (std::size_t t = 0; t < pieces.size(); ++t) {
-        if (pieces[t]) missing.know(corners_of(soup, soup.triangles[t]), *pieces[t]);
+    for (std::size_t t = 0; t < fragments.size(); ++t) {
+        if (fragments[t]) missing.know(corners_of(soup, soup.triangles[t]), *fragments[t]);
     }
 }
 
@@ -434,16 +436,17 @@ double bound_by_sources(const TriangleSoup& soup, const std::vector<bool>& place
     return upper;
 }
 
-/// Bounds the distance of source triangles from their pieces, if none is missing. Other
+/// Bounds the distance of source triangles from their fragments, if none is missing. Other
 /// triangles that are not `found` go to `missing`.
-double bound_by_pieces(const TriangleSoup& soup, const std::vector<bool>& placed,
-                       const std::vector<bool>& found,
-                       const std::vector<std::optional<double>>& pieces, MissingShapes& missing) {
+double bound_by_fragments(const TriangleSoup& soup, const std::vector<bool>& placed,
+                          const std::vector<bool>& found,
+                          const std::vector<std::optional<double>>& fragments,
+                          MissingShapes& missing) {
     double upper = 0;
     for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
         if (found[t] || !placed[t]) continue;
-        if (pieces[t]) {
-            upper = std::max(upper, *pieces[t]);
+        if (fragments[t]) {
+            upper = std::max(upper, *fragments[t]);
         } else {
             missing.add(corners_of(soup, soup.triangles[t]));
         }
@@ -465,11 +468,11 @@ MovedDistances find_moved_distances(const TriangleSoup& soup, const RepairMesh& 
     std::vector<bool> found(soup.triangles.size(), false);
     std::vector<Corners> made, lost;
     moved.output_to_input.upper = bound_by_sources(soup, placed, mesh, found, made);
-    const std::vector<std::optional<double>> pieces = find_pieces(soup, placed, mesh);
+    const std::vector<std::optional<double>> fragments = find_fragments(soup, placed, mesh);
     MissingShapes missing;
-    moved.input_to_output.upper = bound_by_pieces(soup, placed, found, pieces, missing);
+    moved.input_to_output.upper = bound_by_fragments(soup, placed, found, fragments, missing);
     if (!missing.empty()) {
-        know_output(soup, mesh, pieces, missing);
+        know_output(soup, mesh, fragments, missing);
         widen(moved.input_to_output, {0, missing.find_known(lost)});
     }
     if (lost.empty() && made.empty()) return moved;

@@ -19,7 +19,7 @@
 
 // Built level by level, all cones of a level at once. Each cone's list of triangles is passed down
 // to its children. Most triangles lie inside one finest cone, which is known from their corners
-// alone (inner_cone). The exact test decides the others. Lists are cut into pieces of
+// alone (inner_cone). The exact test decides the others. Lists are cut into chunks of
 // kItemsPerTask. These are counted first, then moved to known places. So every list rises and no
 // thread waits for another. The first levels, whose cones are split in any case, are done in one
 // step.
@@ -47,7 +47,7 @@ struct Run {
 };
 
 /// A part of a run, for one task.
-struct TetraPiece {
+struct TetraChunk {
     std::size_t run;
     std::size_t first;
     std::size_t last;
@@ -168,13 +168,13 @@ private:
         TetraLevel level = first_level(depth);
         for (; !level.runs.empty(); ++depth) {
             std::vector<Run> inner = runs_to_split(level, depth);
-            std::vector<TetraPiece> pieces = count_children(level, inner);
-            if (!has_room(level, inner, pieces)) {
+            std::vector<TetraChunk> chunks = count_children(level, inner);
+            if (!has_room(level, inner, chunks)) {
                 inner.clear();
-                pieces.clear();
+                chunks.clear();
             }
             take_nodes(level, inner);
-            level = move_down(level, inner, pieces);
+            level = move_down(level, inner, chunks);
         }
     }
 
@@ -270,11 +270,11 @@ private:
 
     /// Returns whether the references of the level, with these cones split, are few enough.
     [[nodiscard]] bool has_room(const TetraLevel& level, const std::vector<Run>& inner,
-                                const std::vector<TetraPiece>& pieces) const {
+                                const std::vector<TetraChunk>& chunks) const {
         std::uint64_t count = result_.references.size() + level.count;
         for (const Run& run : inner) count -= run.last - run.first;
-        for (const TetraPiece& piece : pieces) {
-            for (const std::size_t child : piece.place) count += child;
+        for (const TetraChunk& chunk : chunks) {
+            for (const std::size_t child : chunk.place) count += child;
         }
         return count <= most_references();
     }
@@ -299,49 +299,49 @@ private:
         }
     }
 
-    static std::vector<TetraPiece> pieces_of(const std::vector<Run>& runs) {
-        std::vector<TetraPiece> pieces;
+    static std::vector<TetraChunk> chunks_of(const std::vector<Run>& runs) {
+        std::vector<TetraChunk> chunks;
         for (std::size_t i = 0; i < runs.size(); ++i) {
             for (std::size_t first = runs[i].first; first < runs[i].last; first += kItemsPerTask) {
-                pieces.push_back({i, first, std::min(runs[i].last, first + kItemsPerTask), {}});
+                chunks.push_back({i, first, std::min(runs[i].last, first + kItemsPerTask), {}});
             }
         }
-        return pieces;
+        return chunks;
     }
 
-    /// Calls body(piece) for each piece, several per task.
+    /// Calls body(chunk) for each chunk, several per task.
     template <class Body>
-    void for_pieces(std::vector<TetraPiece>& pieces, const Body& body) const {
+    void for_chunks(std::vector<TetraChunk>& chunks, const Body& body) const {
         std::vector<std::size_t> begin;
         std::size_t items = kItemsPerTask;
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
+        for (std::size_t i = 0; i < chunks.size(); ++i) {
             if (items >= kItemsPerTask) {
                 begin.push_back(i);
                 items = 0;
             }
-            items += pieces[i].last - pieces[i].first;
+            items += chunks[i].last - chunks[i].first;
         }
-        begin.push_back(pieces.size());
+        begin.push_back(chunks.size());
         options_.parallel_for(begin.size() - 1, [&](std::size_t task) {
-            for (std::size_t i = begin[task]; i < begin[task + 1]; ++i) body(pieces[i]);
+            for (std::size_t i = begin[task]; i < begin[task + 1]; ++i) body(chunks[i]);
         });
     }
 
-    /// Counts, for each piece, how many references go to each child. Stores in mask_ the children
+    /// Counts, for each chunk, how many references go to each child. Stores in mask_ the children
     /// of each reference.
-    std::vector<TetraPiece> count_children(const TetraLevel& level, const std::vector<Run>& runs) {
-        std::vector<TetraPiece> pieces = pieces_of(runs);
-        if (pieces.empty()) return pieces;
+    std::vector<TetraChunk> count_children(const TetraLevel& level, const std::vector<Run>& runs) {
+        std::vector<TetraChunk> chunks = chunks_of(runs);
+        if (chunks.empty()) return chunks;
         mask_ = std::make_unique_for_overwrite<std::uint8_t[]>(level.count);
-        for_pieces(pieces,
-                   [&](TetraPiece& piece) { count_piece(level, runs[piece.run].key, piece); });
-        return pieces;
+        for_chunks(chunks,
+                   [&](TetraChunk& chunk) { count_chunk(level, runs[chunk.run].key, chunk); });
+        return chunks;
     }
 
-    void count_piece(const TetraLevel& level, std::uint32_t key, TetraPiece& piece) {
+    void count_chunk(const TetraLevel& level, std::uint32_t key, TetraChunk& chunk) {
         ConeChildren children(input_, key);
         const int width = std::bit_width(key);
-        for (std::size_t i = piece.first; i < piece.last; ++i) {
+        for (std::size_t i = chunk.first; i < chunk.last; ++i) {
             const std::uint32_t triangle = reference_of(level.items[i]);
             const std::uint32_t home = home_[triangle];
             const int below = std::bit_width(home) - width;
@@ -351,38 +351,38 @@ private:
             assert(mask != 0 && mask <= 0xf);
             mask_[i] = static_cast<std::uint8_t>(mask);
             for (std::size_t child = 0; child < 4; ++child) {
-                piece.place[child] += mask >> child & 1U;
+                chunk.place[child] += mask >> child & 1U;
             }
         }
     }
 
     /// Returns the children with references, each list in the order of its parent's.
     TetraLevel move_down(const TetraLevel& from, const std::vector<Run>& runs,
-                         std::vector<TetraPiece>& pieces) {
+                         std::vector<TetraChunk>& chunks) {
         TetraLevel level{};
-        std::size_t piece = 0;
+        std::size_t chunk = 0;
         for (std::size_t i = 0; i < runs.size(); ++i) {
-            const std::size_t first_piece = piece;
-            while (piece < pieces.size() && pieces[piece].run == i) ++piece;
+            const std::size_t first_chunk = chunk;
+            while (chunk < chunks.size() && chunks[chunk].run == i) ++chunk;
             const std::size_t first_child = level.runs.size();
-            place_pieces(runs[i].key, std::span(pieces).subspan(first_piece, piece - first_piece),
+            place_chunks(runs[i].key, std::span(chunks).subspan(first_chunk, chunk - first_chunk),
                          level);
             link_children(result_.nodes[runs[i].node], result_.nodes.size() + first_child,
                           std::span(level.runs).subspan(first_child));
         }
-        assert(piece == pieces.size());
+        assert(chunk == chunks.size());
         level.items = std::make_unique_for_overwrite<std::uint32_t[]>(level.count);
-        for_pieces(pieces, [&](TetraPiece& part) { move_piece(from, part, level); });
+        for_chunks(chunks, [&](TetraChunk& part) { move_chunk(from, part, level); });
         return level;
     }
 
-    /// Turns the counts of one cone's pieces into places, and adds its children to the level.
-    static void place_pieces(std::uint32_t key, std::span<TetraPiece> pieces, TetraLevel& level) {
+    /// Turns the counts of one cone's chunks into places, and adds its children to the level.
+    static void place_chunks(std::uint32_t key, std::span<TetraChunk> chunks, TetraLevel& level) {
         for (std::uint32_t child = 0; child < 4; ++child) {
             const std::size_t begin = level.count;
-            for (TetraPiece& piece : pieces) {
-                const std::size_t count = piece.place[child];
-                piece.place[child] = level.count;
+            for (TetraChunk& chunk : chunks) {
+                const std::size_t count = chunk.place[child];
+                chunk.place[child] = level.count;
                 level.count += count;
             }
             if (level.count > begin)
@@ -397,13 +397,13 @@ private:
         for (const Run& child : children) parent.flags |= 1U << (child.key & 3U);
     }
 
-    void move_piece(const TetraLevel& from, TetraPiece& piece, TetraLevel& level) const {
-        for (std::size_t i = piece.first; i < piece.last; ++i) {
+    void move_chunk(const TetraLevel& from, TetraChunk& chunk, TetraLevel& level) const {
+        for (std::size_t i = chunk.first; i < chunk.last; ++i) {
             std::uint32_t item = from.items[i];
             const std::uint32_t mask = mask_[i];
             if ((mask & (mask - 1)) != 0) item |= kSharedReference;
             for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
-                level.items[piece.place[static_cast<std::size_t>(std::countr_zero(rest))]++] = item;
+                level.items[chunk.place[static_cast<std::size_t>(std::countr_zero(rest))]++] = item;
             }
         }
     }
