@@ -55,9 +55,6 @@ struct Input<cdprep_open_options> {
     static cdprep_open_options defaults() noexcept;
 };
 
-/// One more than the greatest number of a section in a SectionSet.
-inline constexpr std::uint32_t kSectionNumbers = 64;
-
 /// Returns the place of a triangle in the tree order, or CDPREP_NONE if there is no such triangle.
 /// The model must serve Ask::corners.
 [[nodiscard]] std::uint32_t place_of(const cdprep_model& model, std::uint32_t triangle) noexcept;

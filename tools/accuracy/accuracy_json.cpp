@@ -152,13 +152,6 @@ Json model_json(const std::string& input, const study::StudiedModel& model) {
             {"single_precision", model.single_precision}};
 }
 
-Json machine_json(const study::Machine& machine) {
-    return {{"processor", machine.processor}, {"processors", machine.processors},
-            {"memory_bytes", machine.memory}, {"last_cache_bytes", machine.last_cache},
-            {"system", machine.system},       {"compiler", machine.compiler},
-            {"build", machine.build},         {"kernels", machine.kernels}};
-}
-
 Json study_json(const AccuracyReport& report) {
     const study::AccuracyStudy& study = report.study;
     Json json = {{"study", "accuracy"}, {"version", report.version}, {"exit", report.exit}};
@@ -170,7 +163,7 @@ Json study_json(const AccuracyReport& report) {
     }
     json["quick"] = study.is_quick;
     json["seconds"] = study.seconds;
-    json["machine"] = machine_json(study.machine);
+    json["machine"] = study::machine_json<Json>(study.machine);
     json["timing"] = {{"threads", 1},
                       {"clock", "processor time of the thread"},
                       {"rounds", study.timing.rounds},

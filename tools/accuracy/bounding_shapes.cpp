@@ -19,10 +19,6 @@ using mesh::cross;
 using mesh::dot;
 using mesh::minus;
 
-double length(const Double3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
-
 Double3 turned(const Pose& pose, const Double3& v) {
     const auto& r = pose.rotation();
     return {r[0] * v.x + r[1] * v.y + r[2] * v.z, r[3] * v.x + r[4] * v.y + r[5] * v.z,
@@ -32,8 +28,8 @@ Double3 turned(const Pose& pose, const Double3& v) {
 /// Returns the length by which a query about these shapes enlarges lengths.
 double slack_of(const Double3& centre_a, double size_a, const Double3& centre_b, double size_b,
                 const Pose& pose) {
-    return kSlack *
-           (length(centre_a) + size_a + length(centre_b) + size_b + length(pose.translation()));
+    return kSlack * (mesh::safe_length(centre_a) + size_a + mesh::safe_length(centre_b) + size_b +
+                     mesh::safe_length(pose.translation()));
 }
 
 constexpr std::array<Double3, BoundingDop::kDirections> kDopDirections = {{{1, 0, 0},
@@ -90,8 +86,9 @@ std::vector<Double3> dop_corners(const BoundingDop& dop, double slack) {
     }
     std::vector<Double3> corners;
     const auto is_known = [&](const Double3& p) {
-        return std::ranges::any_of(
-            corners, [&](const Double3& known) { return length(minus(known, p)) <= slack; });
+        return std::ranges::any_of(corners, [&](const Double3& known) {
+            return mesh::safe_length(minus(known, p)) <= slack;
+        });
     };
     for (std::size_t i = 0; i < planes.size(); ++i) {
         for (std::size_t j = i + 1; j < planes.size(); ++j) {
@@ -148,7 +145,7 @@ BoundingSphere bounding_sphere(const mesh::Mesh& mesh) {
     BoundingSphere best{sphere.centre, std::numeric_limits<double>::infinity()};
     for (int step = 1; step <= kSphereSteps; ++step) {
         const Double3 d = minus(farthest(), sphere.centre);
-        if (length(d) < best.radius) best = {sphere.centre, length(d)};
+        if (mesh::safe_length(d) < best.radius) best = {sphere.centre, mesh::safe_length(d)};
         const double share = 1.0 / (step + 1);
         sphere.centre = {sphere.centre.x + share * d.x, sphere.centre.y + share * d.y,
                          sphere.centre.z + share * d.z};
@@ -190,7 +187,7 @@ BoundingDop bounding_dop(const mesh::Mesh& mesh) {
             dop.upper[i] = std::max(dop.upper[i], at);
         }
     }
-    dop.corners = dop_corners(dop, kDopRounding * length(box.half));
+    dop.corners = dop_corners(dop, kDopRounding * mesh::safe_length(box.half));
     return dop;
 }
 
@@ -202,7 +199,8 @@ bool may_touch(const BoundingSphere& a, const BoundingSphere& b, const Pose& a_f
 }
 
 bool may_touch_aligned(const BoundingBox& a, const BoundingBox& b, const Pose& a_from_b) noexcept {
-    const double slack = slack_of(a.centre, length(a.half), b.centre, length(b.half), a_from_b);
+    const double slack = slack_of(a.centre, mesh::safe_length(a.half), b.centre,
+                                  mesh::safe_length(b.half), a_from_b);
     const Double3 d = minus(transform_point(a_from_b, b.centre), a.centre);
     const auto& r = a_from_b.rotation();
     const auto row = [&](std::size_t i) {
@@ -214,7 +212,8 @@ bool may_touch_aligned(const BoundingBox& a, const BoundingBox& b, const Pose& a
 }
 
 bool may_touch(const BoundingBox& a, const BoundingBox& b, const Pose& a_from_b) noexcept {
-    const double slack = slack_of(a.centre, length(a.half), b.centre, length(b.half), a_from_b);
+    const double slack = slack_of(a.centre, mesh::safe_length(a.half), b.centre,
+                                  mesh::safe_length(b.half), a_from_b);
     const Double3 d = minus(transform_point(a_from_b, b.centre), a.centre);
     const std::array<Double3, 3> axes = {turned(a_from_b, b.axis[0]), turned(a_from_b, b.axis[1]),
                                          turned(a_from_b, b.axis[2])};

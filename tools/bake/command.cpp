@@ -11,6 +11,7 @@
 #include "cli/colliders.h"
 #include "cli/command.h"
 #include "cli/import_arguments.h"
+#include "cli/output_path.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
 #include "command_line/command_line.h"
@@ -47,11 +48,6 @@ fs::path output_for(const Arguments& arguments, const fs::path& input) {
     name.replace_extension(".cdp.h5");
     if (!arguments.output_folder.empty()) return arguments.output_folder / name;
     return input.parent_path() / name;
-}
-
-/// Returns the same spelling for every way to write a path. Does not resolve links.
-fs::path spelled_out(const fs::path& path) {
-    return fs::absolute(path).lexically_normal();
 }
 
 /// Returns an output path for each input. Fails if two inputs have the same output, or if an output

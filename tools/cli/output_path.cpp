@@ -9,6 +9,10 @@
 
 namespace cdprep::cli {
 
+std::filesystem::path spelled_out(const std::filesystem::path& path) {
+    return std::filesystem::absolute(path).lexically_normal();
+}
+
 std::optional<Error> find_replaced_input(const std::filesystem::path& input,
                                          const std::filesystem::path& output) {
     std::error_code unknown;  // a missing file is a different file

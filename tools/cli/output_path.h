@@ -11,6 +11,9 @@
 
 namespace cdprep::cli {
 
+/// Returns the same spelling for every way to write a path. Does not resolve links.
+[[nodiscard]] std::filesystem::path spelled_out(const std::filesystem::path& path);
+
 /// Returns an error if `output` is the same file as `input`, however the two paths are spelled.
 [[nodiscard]] std::optional<Error> find_replaced_input(const std::filesystem::path& input,
                                                        const std::filesystem::path& output);

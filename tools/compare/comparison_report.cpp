@@ -306,13 +306,6 @@ Json settings_json(const study::ComparisonSettings& settings) {
             {"rounds", settings.rounds},   {"threads", settings.threads}};
 }
 
-Json machine_json(const study::Machine& machine) {
-    return {{"processor", machine.processor}, {"processors", machine.processors},
-            {"memory_bytes", machine.memory}, {"last_cache_bytes", machine.last_cache},
-            {"system", machine.system},       {"compiler", machine.compiler},
-            {"build", machine.build},         {"kernels", machine.kernels}};
-}
-
 Json model_json(const study::ComparedModel& model) {
     return {{"name", model.name},
             {"file", model.file},
@@ -492,7 +485,7 @@ std::string comparison_json(const ComparisonReport& report) {
     const Comparison& comparison = report.comparison;
     Json json = {{"exit", report.exit},
                  {"settings", settings_json(comparison.settings)},
-                 {"machine", machine_json(comparison.machine)}};
+                 {"machine", study::machine_json<Json>(comparison.machine)}};
     json["models"] = Json::array();
     for (const study::ComparedModel& model : comparison.models) {
         json["models"].push_back(model_json(model));

@@ -161,7 +161,8 @@ void add_export(const Command& app, Exit& exit) {
     command.add_option("--for", arguments->engine, "The engine that reads the output")
         .type_name("ENGINE")
         .check(one_of(engine_names()))
-        .required();
+        .required()
+        .group("Output");
     command
         .add_option("-o,--output", arguments->options.output,
                     "The output, or a folder for it. Meshes of a URDF, SDF or MJCF are written "

@@ -15,16 +15,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostPointsOfEngines = 255;  ///< of PhysX and Unity
 
-/// Returns the size, such as "0.034 x 0.016 x 0.016 m".
-std::string size_text(const ExportReport& report) {
-    const double scale = report.metres_per_unit > 0 ? report.metres_per_unit : 1;
-    std::string text;
-    for (const double length : report.size) {
-        text += (text.empty() ? "" : " x ") + in_six_digits(length * scale);
-    }
-    return text + " m";
-}
-
 std::string points_text(const ExportReport& report) {
     std::string text = "  " + counted(report.points, "point", "points") + ", of " +
                        std::to_string(report.stored_points) + " in the file";
@@ -72,7 +62,8 @@ std::string unknown_unit(const ExportReport& report) {
 std::string unit_warning(const ExportReport& report) {
     if (!report.is_in_metres || report.metres_per_unit > 0) return {};
     return lack_of_unit(report) + "; " + report.output + " takes " +
-           (report.is_normalized ? "them" : "it") + " as metres, " + size_text(report) +
+           (report.is_normalized ? "them" : "it") + " as metres, " +
+           size_text(report.size, report.metres_per_unit) +
            (report.mass ? " and " + in_six_digits(*report.mass) + " kg" : std::string()) + ". " +
            how_to_state_it(report);
 }
@@ -90,7 +81,8 @@ std::string export_text(const ExportReport& report) {
             "  " + counted(report.left_out, "flat part was", "flat parts were") + " not written\n";
     }
     text += visual_text(report);
-    if (report.is_in_metres) text += "  size " + size_text(report) + "\n";
+    if (report.is_in_metres)
+        text += "  size " + size_text(report.size, report.metres_per_unit) + "\n";
     if (report.written_up != report.up_axis) {
         text += std::string("  turned: ") + axis_name(report.up_axis) + " is up, written as +" +
                 axis_name(report.written_up) + "\n";

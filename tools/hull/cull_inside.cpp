@@ -10,14 +10,7 @@
 #include <utility>
 
 #include "hull/exact_hull.h"
-
-// Functions with this attribute are also compiled for AVX2; the program loader chooses the
-// version. The thread sanitizer is not yet initialised then, but the choice would call it.
-#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
-#define CDPREP_WITH_AVX2 [[gnu::target_clones("avx2", "default")]]
-#else
-#define CDPREP_WITH_AVX2
-#endif
+#include "mesh/with_avx2.h"
 
 // Points are tested against polytopes inside the hull, whose corners are input points. Each next
 // polytope adds the points farthest outside the facets of the one before. The first few use only

@@ -41,10 +41,6 @@ constexpr double kHeightError = 0x1p-45;
 
 using Facet = std::array<std::uint32_t, 3>;
 
-bool is_finite(const Double3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 /// The map to coordinates of size 1 around a point inside, the mean of the corners.
 struct Frame {
     Double3 origin;
@@ -264,7 +260,7 @@ std::optional<ConvexHull> stored_hull(const std::vector<Corner>& corners, const 
     std::vector<Double3> points;
     for (const Corner& corner : corners) {
         points.push_back(frame.outwards(corner.at));
-        if (!is_finite(points.back())) return std::nullopt;
+        if (!mesh::is_finite(points.back())) return std::nullopt;
     }
     ConvexHull hull = exact_hull(points);
     hull.numbers.clear();

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "text/json_layout.h"
@@ -15,12 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string number(double value, const char* pattern) {
-    std::array<char, 64> text;
-    std::snprintf(text.data(), text.size(), pattern, value);
-    return text.data();
-}
-
 const char* shape_name(int dimension) {
     constexpr std::array<const char*, 5> kNames = {"nothing", "a point", "a segment", "a polygon",
                                                    "a solid"};
@@ -31,7 +24,7 @@ std::string hull_line(const HullFigures& hull) {
     std::string line = "  " + printable(hull.name) + ": " + shape_name(hull.dimension) + ", " +
                        std::to_string(hull.points) + " points, " + std::to_string(hull.facets) +
                        " facets in " + std::to_string(hull.faces) + " faces";
-    line += hull.exact ? ", exact" : ", at most " + number(hull.distance, "%.6g") + " outside";
+    line += hull.exact ? ", exact" : ", at most " + printed(hull.distance, "%.6g") + " outside";
     return line + "\n";
 }
 
@@ -55,7 +48,7 @@ std::string hull_text(const HullReport& report, std::size_t most_lines) {
         printable(report.input) + ": " + counted(report.triangles, "triangle", "triangles") + ", " +
         counted(report.vertices, "vertex", "vertices") + "\n" + printable(report.output) + ": " +
         counted(report.hulls.size(), "hull", "hulls") + " per " + report.scope + ", found in " +
-        number(report.seconds, "%.3f") + " s\n";
+        printed(report.seconds, "%.3f") + " s\n";
     for (std::size_t i = 0; i < std::min(most_lines, report.hulls.size()); ++i) {
         text += hull_line(report.hulls[i]);
     }

@@ -12,6 +12,7 @@
 #include "cdprep/format/limits.h"
 #include "import/resize_large.h"
 #include "mesh/triangulate_polygon.h"
+#include "mesh/vectors.h"
 
 namespace cdprep::import {
 namespace {
@@ -29,11 +30,6 @@ struct Place {
     std::uint64_t first_triangle = 0;
     std::uint64_t first_face = 0;
 };
-
-/// Returns true if all coordinates are finite: 0 times infinity or NaN is NaN, and NaN propagates.
-bool is_finite(const Double3& p) noexcept {
-    return (p.x * 0 + p.y * 0) + p.z * 0 == 0;
-}
 
 bool fits_predicates(const Double3& p) noexcept {
     const auto small = [](double x) { return std::fabs(x) <= format::kMaxCoordinate; };
@@ -279,7 +275,8 @@ void list_bad_numbers(mesh::TriangleSoup& soup, const std::vector<BadNumber>& ba
     parallel_for(bad.size(), [&](std::size_t block) {
         const std::size_t last = std::min((block + 1) * kBlock, soup.positions.size());
         for (std::size_t i = block * kBlock; i < last; ++i) {
-            if (!is_finite(soup.positions[i])) bad[block].push_back(static_cast<std::uint32_t>(i));
+            if (!mesh::is_finite(soup.positions[i]))
+                bad[block].push_back(static_cast<std::uint32_t>(i));
         }
     });
     for (const std::vector<std::uint32_t>& vertices : bad) {

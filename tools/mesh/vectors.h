@@ -25,6 +25,14 @@ using format::Double3;
 [[nodiscard]] inline double dot(const Double3& a, const Double3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+/// For coordinates whose squares are in the range of double.
+[[nodiscard]] inline double length(const Double3& a) {
+    return std::sqrt(dot(a, a));
+}
+/// Returns the length for any coordinates.
+[[nodiscard]] inline double safe_length(const Double3& a) {
+    return std::hypot(a.x, a.y, a.z);
+}
 [[nodiscard]] inline Double3 cross(const Double3& a, const Double3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
@@ -49,6 +57,10 @@ using format::Double3;
         sum = {sum.x + p.x * share, sum.y + p.y * share, sum.z + p.z * share};
     }
     return sum;
+}
+/// Returns whether all coordinates are finite. 0 times infinity or NaN is NaN, which a sum keeps.
+[[nodiscard]] inline bool is_finite(const Double3& a) {
+    return (a.x * 0 + a.y * 0) + a.z * 0 == 0;
 }
 [[nodiscard]] inline double largest_of(const Double3& a) {
     return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});

@@ -3,16 +3,13 @@
 #include <array>
 #include <cmath>
 
+#include "mesh/vectors.h"
 #include "mesh/weld.h"
 #include "repair/repair_steps.h"
 #include "repair/stored_verdict.h"
 
 namespace cdprep::mesh {
 namespace {
-
-bool is_finite(const Double3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /// Drops the triangles for which `reason_for` returns a reason.
 template <class ReasonFor>

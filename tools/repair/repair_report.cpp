@@ -4,20 +4,12 @@
 #include "text/number_text.h"
 #include "text/printable.h"
 
-#include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 namespace cdprep::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string number(double value, const char* pattern) {
-    std::array<char, 64> text;
-    std::snprintf(text.data(), text.size(), pattern, value);
-    return text.data();
-}
 
 /// Returns whether there are triangles. Without any, all facts are true but meaningless.
 bool has_triangles(const mesh::StoredVerdict& found) {
@@ -89,7 +81,7 @@ std::string step_line(const mesh::StepReport& step) {
     add(step.added_vertices, "vertices added");
     add(step.refused.size(), "refused");
     if (line.back() == ',') line.back() = '.';
-    if (step.moved > 0) line += " Moved by at most " + number(step.moved, "%.6g") + ".";
+    if (step.moved > 0) line += " Moved by at most " + printed(step.moved, "%.6g") + ".";
     if (!step.undone.empty()) line += " Undone: " + step.undone + ".";
     return line + "\n";
 }
@@ -209,7 +201,7 @@ std::string repair_text(const RepairFileReport& report, std::size_t most_refusal
     std::string text = printable(report.output) + ": " +
                        counted(report.triangles, "triangle", "triangles") + ", " +
                        counted(report.vertices, "vertex", "vertices") + ", " +
-                       number(report.seconds, "%.3f") + " s\n";
+                       printed(report.seconds, "%.3f") + " s\n";
     text += "  before: " + verdict_line(repair.before, report.crossing_before) + "\n";
     text += "  after:  " + verdict_line(repair.after, report.crossing_after) + "\n";
     if (has_triangles(repair.after))
@@ -220,8 +212,8 @@ std::string repair_text(const RepairFileReport& report, std::size_t most_refusal
             std::to_string(counts.kept) + " kept, " + std::to_string(counts.reversed) +
             " reversed, " + std::to_string(counts.cut) + " cut, " + std::to_string(counts.dropped) +
             " dropped; " + std::to_string(counts.made) + " new\n";
-    text += "  input to output at most " + number(repair.input_to_output.upper, "%.6g") +
-            ", output to input at most " + number(repair.output_to_input.upper, "%.6g") +
+    text += "  input to output at most " + printed(repair.input_to_output.upper, "%.6g") +
+            ", output to input at most " + printed(repair.output_to_input.upper, "%.6g") +
             (repair.settled ? "\n" : "; repairing again would change more\n");
     for (const mesh::StepReport& step : repair.steps) {
         text += step_line(step);

@@ -32,9 +32,6 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 
 // --- Vectors -------------------------------------------------------------------------
 
-double length(const Double3& a) {
-    return std::hypot(a.x, a.y, a.z);
-}
 bool is_zero(const Double3& a) {
     return a.x == 0 && a.y == 0 && a.z == 0;
 }
@@ -57,13 +54,14 @@ std::optional<Affine> rotation_of(Affine m) {
     std::array<Double3, 3> columns{};
     for (std::size_t i = 0; i < 3; ++i) {
         columns[i] = {m[i], m[4 + i], m[8 + i]};
-        const double size = length(columns[i]);
+        const double size = mesh::safe_length(columns[i]);
         if (!(size > 0)) return std::nullopt;
         columns[i] = scaled(columns[i], 1 / size);
     }
     const Double3 off = minus(cross(columns[0], columns[1]), columns[2]);
     const Double3 side = minus(cross(columns[1], columns[2]), columns[0]);
-    if (!(length(off) <= kFloatRounding && length(side) <= kFloatRounding)) return std::nullopt;
+    if (!(mesh::safe_length(off) <= kFloatRounding && mesh::safe_length(side) <= kFloatRounding))
+        return std::nullopt;
     Affine rotation{};
     for (std::size_t i = 0; i < 3; ++i) {
         rotation[i] = columns[i].x;
@@ -370,9 +368,11 @@ private:
         }
         // A steady motion turns about the origin of its object.
         constexpr double kRounding = 1e-9;
-        const double size = length(start.translation()) + length(velocities.centre);
-        const double off = length(cross(minus(start.translation(), velocities.centre), turn));
-        if (!(off <= kRounding * size * length(turn))) {
+        const double size =
+            mesh::safe_length(start.translation()) + mesh::safe_length(velocities.centre);
+        const double off =
+            mesh::safe_length(cross(minus(start.translation(), velocities.centre), turn));
+        if (!(off <= kRounding * size * mesh::safe_length(turn))) {
             findings_.not_taken(
                 "a turn of a kinematic node whose axis is not through the origin "
                 "of its collider or trigger",

@@ -176,8 +176,9 @@ private:
     }
 
     static void read_effect(const JsonElement& element, AskedPair& pair) {
-        const auto number = element.one_of(kEffectWords, "an effect");
-        if (number) pair.asked.effects = pair.asked.effects | effect_of(kEffectWords[*number]);
+        const std::vector<std::string> words = effect_words();
+        const auto number = element.one_of(words, "an effect");
+        if (number) pair.asked.effects = pair.asked.effects | effect_of(words[*number]);
     }
 
     static void read_contacts(const JsonElement& element, ContactOptions& options) {

@@ -22,4 +22,13 @@ struct Machine {
 /// Returns the description of this machine. It stays the same during a process.
 [[nodiscard]] Machine describe_machine();
 
+/// Returns the machine as an object of JSON, in the type of nlohmann-json that the caller uses.
+template <class Json>
+[[nodiscard]] Json machine_json(const Machine& machine) {
+    return {{"processor", machine.processor}, {"processors", machine.processors},
+            {"memory_bytes", machine.memory}, {"last_cache_bytes", machine.last_cache},
+            {"system", machine.system},       {"compiler", machine.compiler},
+            {"build", machine.build},         {"kernels", machine.kernels}};
+}
+
 }  // namespace cdprep::study

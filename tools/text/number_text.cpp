@@ -27,6 +27,21 @@ std::string in_six_digits(double value) {
     return {text.data(), static_cast<std::size_t>(size)};
 }
 
+std::string printed(double value, const char* pattern) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), pattern, value);
+    return text.data();
+}
+
+std::string size_text(const std::array<double, 3>& size, double metres_per_unit) {
+    const double scale = metres_per_unit > 0 ? metres_per_unit : 1;
+    std::string text;
+    for (const double length : size) {
+        text += (text.empty() ? "" : " x ") + in_six_digits(length * scale);
+    }
+    return text + " m";
+}
+
 std::string counted(std::uint64_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -14,6 +15,12 @@ namespace cdprep::report {
 
 /// Returns the number with at most six digits.
 [[nodiscard]] std::string in_six_digits(double value);
+
+/// Returns the number as std::printf() writes it by a pattern such as "%.3g".
+[[nodiscard]] std::string printed(double value, const char* pattern);
+
+/// Returns a size in metres, such as "0.034 x 0.016 x 0.016 m". A unit of 0 counts as a metre.
+[[nodiscard]] std::string size_text(const std::array<double, 3>& size, double metres_per_unit);
 
 /// Returns a count with its noun: "1 triangle", "2 triangles".
 [[nodiscard]] std::string counted(std::uint64_t count, const char* one, const char* many);

@@ -31,12 +31,6 @@ inline constexpr std::array<StructureName, 6> kStructureNames = {{
     return "unknown";
 }
 
-/// Returns the name to bake so that queries can use the structure; empty if every bake has it.
-[[nodiscard]] constexpr const char* baked_name(Structure structure) noexcept {
-    if (structure == Structure::bvh) return "";
-    return structure_name(structure);
-}
-
 /// Returns the name of a split rule, as --split spells it.
 [[nodiscard]] constexpr const char* split_name(format::SplitRule rule) noexcept {
     return rule == format::SplitRule::median ? "median" : "area";

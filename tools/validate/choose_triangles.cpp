@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validate/choose_triangles.h"
+#include "mesh/vectors.h"
 
 #include <algorithm>
 #include <array>
@@ -11,10 +12,6 @@ namespace {
 using Float3 = std::array<float, 3>;
 
 constexpr int kFinestGrid = 256;  // cells along an axis
-
-bool is_finite(const mesh::Double3& point) noexcept {
-    return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
-}
 
 /// A grid whose cells are marked or not.
 class MarkedGrid {
@@ -63,11 +60,12 @@ Named name_places(std::span<const mesh::Double3> positions,
                 if (triangle < triangles.size()) named.triangles[triangle] = true;
             }
             for (const std::uint32_t vertex : place.vertices) {
-                if (vertex < positions.size() && is_finite(positions[vertex])) {
+                if (vertex < positions.size() && mesh::is_finite(positions[vertex])) {
                     named.spots.push_back(frame.from_model(positions[vertex]));
                 }
             }
-            if (is_finite(place.position)) named.spots.push_back(frame.from_model(place.position));
+            if (mesh::is_finite(place.position))
+                named.spots.push_back(frame.from_model(place.position));
         }
     }
     return named;

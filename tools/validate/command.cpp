@@ -18,6 +18,7 @@
 #include "cli/command.h"
 #include "cli/import_arguments.h"
 #include "cli/input_list.h"
+#include "cli/output_path.h"
 #include "cli/progress.h"
 #include "cli/report_output.h"
 #include "cli/signals.h"
@@ -63,10 +64,6 @@ struct ValidateArguments {
     bool with_colliders = false;
     ValidationOptions options;
 };
-
-fs::path spelled_out(const fs::path& path) {
-    return fs::absolute(path).lexically_normal();
-}
 
 Result<std::vector<Input>> inputs_for(const ValidateArguments& arguments) {
     if (arguments.inputs.empty() && arguments.files_from.empty()) {

@@ -37,16 +37,6 @@ Json table_json(const ApproximateReport& report) {
     return rows;
 }
 
-/// Returns the size, such as "0.034 x 0.016 x 0.016 m".
-std::string size_text(const ApproximateReport& report) {
-    const double scale = report.metres_per_unit > 0 ? report.metres_per_unit : 1;
-    std::string text;
-    for (const double length : report.size) {
-        text += (text.empty() ? "" : " x ") + in_six_digits(length * scale);
-    }
-    return text + " m";
-}
-
 bool is_turned(const ApproximateReport& report) {
     return report.is_for_simulators &&
            (report.up_axis == format::UpAxis::x || report.up_axis == format::UpAxis::y);
@@ -58,7 +48,8 @@ std::string unit_warning(const ApproximateReport& report) {
     if (!report.is_for_simulators || report.metres_per_unit > 0) return {};
     return report.input +
            (report.is_normalized ? ": has no unit after --normalize; " : ": states no unit; ") +
-           report.output + " takes it as metres, " + size_text(report) +
+           report.output + " takes it as metres, " +
+           size_text(report.size, report.metres_per_unit) +
            (report.mass ? " and " + in_six_digits(*report.mass) + " kg" : std::string()) +
            (report.is_normalized ? ". Leave out --normalize." : ". Give --unit.");
 }
@@ -90,7 +81,8 @@ std::string approximate_text(const ApproximateReport& report) {
     if (report.left_out > 0) {
         text += "  " + std::to_string(report.left_out) + " flat pieces were not written\n";
     }
-    if (report.is_for_simulators) text += "  size " + size_text(report) + "\n";
+    if (report.is_for_simulators)
+        text += "  size " + size_text(report.size, report.metres_per_unit) + "\n";
     if (is_turned(report)) {
         text += std::string("  turned: ") + axis_name(report.up_axis) + " is up, written as +z\n";
     }

@@ -18,10 +18,6 @@ constexpr double kMorePush = 8;   ///< factor to the next push, if that was not 
 constexpr int kPushes = 6;        ///< the last is 65,536 extents; then the hull stays as it was
 constexpr double kWide = 4;       ///< in distances: a wider group is left alone
 
-double length(const Double3& v) {
-    return std::sqrt(mesh::dot(v, v));
-}
-
 /// Corners near each other.
 struct Group {
     Double3 middle;
@@ -45,7 +41,7 @@ Sorted sort_corners(const std::vector<Double3>& points, double distance) {
     for (std::uint32_t i = 0; i < count; ++i) {
         for (std::uint32_t k = i + 1; k < count; ++k) {
             if (points[order[k]].x - points[order[i]].x > distance) break;
-            if (length(mesh::minus(points[order[k]], points[order[i]])) <= distance) {
+            if (mesh::length(mesh::minus(points[order[k]], points[order[i]])) <= distance) {
                 near.join(order[i], order[k]);
             }
         }
@@ -57,7 +53,7 @@ Sorted sort_corners(const std::vector<Double3>& points, double distance) {
         if (group.empty()) continue;
         Group found{mesh::mean_of(group)};
         for (const Double3& p : group) {
-            found.extent = std::max(found.extent, length(mesh::minus(p, found.middle)));
+            found.extent = std::max(found.extent, mesh::length(mesh::minus(p, found.middle)));
         }
         if (group.size() > 1 && found.extent <= kWide * distance) {
             sorted.groups.push_back(found);
@@ -80,7 +76,7 @@ ConvexHull merge_corners(ConvexHull hull, double distance) {
         std::vector<Double3> points = sorted.single;
         for (const Group& group : sorted.groups) {
             const Double3 away = mesh::minus(group.middle, middle);
-            const double share = push * group.extent / length(away);
+            const double share = push * group.extent / mesh::length(away);
             points.push_back({group.middle.x + share * away.x, group.middle.y + share * away.y,
                               group.middle.z + share * away.z});
         }

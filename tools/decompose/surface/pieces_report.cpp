@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "text/json_layout.h"
@@ -17,12 +16,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, convex::kEdgeKinds> kKindNames = {
     "convex", "flat", "reflex", "fold", "border", "non_manifold", "inconsistent", "no_area"};
-
-std::string number(double value, const char* pattern) {
-    std::array<char, 64> text;
-    std::snprintf(text.data(), text.size(), pattern, value);
-    return text.data();
-}
 
 std::size_t contained(const convex::SurfacePieces& pieces) {
     return static_cast<std::size_t>(
@@ -91,13 +84,13 @@ std::string pieces_text(const SurfacePiecesReport& report) {
     std::string text = printable(report.input) + ": " +
                        counted(count, "convex piece", "convex pieces") + " of " +
                        counted(pieces.triangles.size(), "triangle", "triangles") + " (" +
-                       name_of(report.order) + ", " + number(report.seconds, "%.3f") + " s)\n";
+                       name_of(report.order) + ", " + printed(report.seconds, "%.3f") + " s)\n";
     text += "  largest " + counted(largest(pieces), "triangle", "triangles") + "; hulls of " +
             std::to_string(contained(pieces)) + " lie inside the solid; the others may not\n";
     text += report.tolerance == 0
                 ? std::string("  exact: every triangle lies on its hull\n")
-                : "  triangles lie at most " + number(outer_error(pieces), "%.6g") +
-                      " below their hulls (tolerance " + number(report.tolerance, "%.6g") + ")\n";
+                : "  triangles lie at most " + printed(outer_error(pieces), "%.6g") +
+                      " below their hulls (tolerance " + printed(report.tolerance, "%.6g") + ")\n";
     text += "  edges: " + edge_line(pieces) + "\n";
     if (!report.output.empty()) text += "  written to " + printable(report.output) + "\n";
     if (!report.has_table) return text;
@@ -106,7 +99,7 @@ std::string pieces_text(const SurfacePiecesReport& report) {
         text += "  " + std::to_string(i) + " " + std::to_string(pieces.of(i).size()) + " " +
                 std::to_string(pieces.of(i)[0]) + " " +
                 (pieces.pieces[i].contained ? "yes" : "no") + " " +
-                number(pieces.pieces[i].outer_error, "%.6g") + "\n";
+                printed(pieces.pieces[i].outer_error, "%.6g") + "\n";
     }
     return text;
 }

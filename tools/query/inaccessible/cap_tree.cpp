@@ -14,13 +14,9 @@ namespace {
 /// A bound of the rounding errors of caps, absolute and relative. The errors are far smaller.
 constexpr double kCapSlack = 0x1p-40;
 
-double length(const Double3& v) {
-    return std::hypot(v.x, v.y, v.z);
-}
-
 /// Returns `v` scaled to unit length. Works at any scale, since no square overflows or underflows.
 Double3 direction(const Double3& v) {
-    const double size = length(v);
+    const double size = mesh::safe_length(v);
     return {v.x / size, v.y / size, v.z / size};
 }
 
@@ -31,8 +27,9 @@ double least_distance(const Double3& a, const Double3& b, const Double3& c, doub
     const Double3 ab = minus(b, a);
     const Double3 ac = minus(c, a);
     const Double3 normal = cross(direction(ab), direction(ac));
-    const double error = (0x1p-48 + 0x1p-48 * farthest / std::min(length(ab), length(ac))) /
-                         std::min(1.0, length(normal));
+    const double error =
+        (0x1p-48 + 0x1p-48 * farthest / std::min(mesh::safe_length(ab), mesh::safe_length(ac))) /
+        std::min(1.0, mesh::safe_length(normal));
     const double height = std::fabs(dot(direction(normal), a)) - farthest * error;
     return height > 0 ? height * (1 - kCapSlack) : 0;  // also 0 for NaN
 }
@@ -48,7 +45,7 @@ Cap cap_of(const Double3& a, const Double3& b, const Double3& c) {
     Cap cap{direction(sum), 1, 0, 0, 0, 0};
     for (const Double3& p : corners) {
         cap.cosine = std::min(cap.cosine, dot(cap.middle, direction(p)));
-        cap.farthest = std::max(cap.farthest, length(p));
+        cap.farthest = std::max(cap.farthest, mesh::safe_length(p));
     }
     // The cap is nearly half of all directions or more, or a corner is the centre or too far away.
     if (!(cap.cosine > 0.1) || !std::isfinite(cap.farthest)) return kEverything;

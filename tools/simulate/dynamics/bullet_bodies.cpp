@@ -30,10 +30,6 @@ Error refused(const std::string& sentence) {
     return {ErrorCode::bad_argument, sentence};
 }
 
-double length(const Double3& p) {
-    return std::sqrt(mesh::dot(p, p));
-}
-
 std::string text(double number) {
     return report::number_text(number);
 }
@@ -59,7 +55,7 @@ std::string fault_of(const DynamicsOptions& o) {
     if (!positive(o.rest_gap)) {
         return "The rest gap is " + text(o.rest_gap) + ", but it must be above 0.";
     }
-    if (!std::isfinite(length(o.gravity))) return "Gravity must be finite.";
+    if (!std::isfinite(mesh::length(o.gravity))) return "Gravity must be finite.";
     const double needed = o.rest_gap + o.most_speed * o.step_s / o.substeps;
     if (!(o.most_speed >= 0) || !(o.tolerance >= needed) || !std::isfinite(o.tolerance)) {
         return "The contact tolerance is " + text(o.tolerance) + ", but at a speed of " +
@@ -85,7 +81,8 @@ std::string fault_of(const RigidBody& body) {
         return "the " + std::string(number.name) + " is " + text(number.value) +
                ", but it must be 0 to " + text(number.most) + ".";
     }
-    if (!std::isfinite(length(body.velocity)) || !std::isfinite(length(body.angular_velocity))) {
+    if (!std::isfinite(mesh::length(body.velocity)) ||
+        !std::isfinite(mesh::length(body.angular_velocity))) {
         return "a velocity is not finite.";
     }
     return {};
@@ -124,7 +121,8 @@ public:
         return doubles(bullet_body(body).getAngularVelocity());
     }
     double speed_bound(std::uint32_t body) const noexcept override {
-        return length(velocity(body)) + length(angular_velocity(body)) * bodies_[body]->mass.radius;
+        return mesh::length(velocity(body)) +
+               mesh::length(angular_velocity(body)) * bodies_[body]->mass.radius;
     }
     bool is_asleep(std::uint32_t body) const noexcept override {
         return bullet_body(body).getActivationState() == ISLAND_SLEEPING;
@@ -304,7 +302,7 @@ void BulletBodies::set_paces() {
 Result<std::uint32_t> BulletBodies::turn_parts(const BulletBody& body, const Double3& spin,
                                                double substep_s) const {
     const double turn =
-        (most_spin(body.mass, body.state, spin) + length(body.push_turn)) * substep_s;
+        (most_spin(body.mass, body.state, spin) + mesh::length(body.push_turn)) * substep_s;
     if (turn <= kMostTurn) return static_cast<std::uint32_t>(std::max(turn / kPartTurn, 0.0)) + 1;
     return refused(body.given.name + ": may turn by " + text(turn) +
                    " radians in a substep, but impacts are found up to " + text(kMostTurn) +

@@ -66,11 +66,6 @@ public:
     [[nodiscard]] std::uint32_t object_number(std::size_t slot) const noexcept {
         return objects_[slot];
     }
-    /// The wall time that the library took for the last frame. Poses, more room and `response` are
-    /// excluded.
-    [[nodiscard]] double step_seconds() const noexcept {
-        return step_seconds_;
-    }
     /// The bodies, or null if their poses are given or no pair of layers asks for `response`.
     [[nodiscard]] const Response* response() const noexcept {
         return response_ ? &*response_ : nullptr;
@@ -133,7 +128,7 @@ private:
     std::unique_ptr<const Plan> plan_;        ///< outlives the scene
     std::optional<Scene> scene_;
     bool is_first_frame_ = true;  ///< objects have no way before it
-    double step_seconds_ = 0;
+    double step_seconds_ = 0;     ///< of the library; without poses, more room and `response`
     ChangeWork work_;
     std::uint64_t grown_steps_ = 0;
 };

@@ -5,13 +5,10 @@
 
 #include "mesh/half_edges.h"
 #include "mesh/point_table.h"
+#include "mesh/vectors.h"
 
 namespace cdprep::mesh {
 namespace {
-
-bool is_finite(const Double3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /// Returns the position with coordinates that are not finite set to 0.
 Double3 drawable(const Double3& p) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -182,13 +184,16 @@ TEST(CompileScene, RefusesContactsOfModelsThatChange) {
         << compiled.refusals[0];
 }
 
-// A scene file may ask for every effect that scenes compute.
-TEST(EffectWords, NameAllEffectsOfScenes) {
-    for (const Ask effect : kSceneEffects) {
-        const std::string name = effect_name(effect);
-        EXPECT_EQ(std::count(kEffectWords.begin(), kEffectWords.end(), name), 1) << name;
-        EXPECT_EQ(effect_of(name), effect);
-    }
+TEST(EffectWords, AreThoseOfTheSchema) {
+    std::ifstream file(CDPREP_SOURCE_DIR "/tools/scene_file/scene.schema.json");
+    const auto schema = nlohmann::json::parse(file);
+    auto allowed = schema["$defs"]["pair"]["properties"]["effects"]["items"]["enum"]
+                       .get<std::vector<std::string>>();
+    std::vector<std::string> words = effect_words();
+    for (const std::string& word : words) EXPECT_EQ(effect_name(effect_of(word)), word);
+    std::sort(words.begin(), words.end());
+    std::sort(allowed.begin(), allowed.end());
+    EXPECT_EQ(words, allowed);
 }
 
 }  // namespace
