@@ -5,8 +5,8 @@
 cmake_minimum_required(VERSION 3.25)
 
 # A room, then the rooms beside itself whose headers it may include. Public headers of the library,
-# "cdprep/...", may be included everywhere but in format, which may include its own alone. Rooms
-# further down know more; no two know each other.
+# "cdprep/...", may be included everywhere but in format, which may include its own alone. No
+# two know each other.
 set(lib_rooms
     "exact:"
     "kernels:"
@@ -17,7 +17,7 @@ set(lib_rooms
     "hull: core exact kernels"
     "pieces: core exact hull walk"
     "query: core exact pieces walk"
-    "motion: build core exact pieces query walk"
+    "motion: build core exact query walk"
     "scene: core kernels walk"
     "cells: core exact kernels walk"
     "cells/build: build cells core exact"
@@ -43,7 +43,7 @@ set(tools_rooms
     "export: cli command_line decompose/enclose hull mesh text write"
     "bake: cli crossings decompose/enclose decompose/surface hull import command_line mesh repair\
  text validate validate/defects write"
-    "info: bake cli decompose/surface hull command_line mesh study text validate/defects"
+    "info: cli decompose/surface hull command_line mesh study text validate/defects"
     "study: bake decompose/enclose decompose/surface mesh"
     "accuracy: cli decompose/enclose hull command_line mesh page study text"
     "cell_searches: mesh study"
@@ -54,7 +54,7 @@ set(tools_rooms
  write"
     "simulate/dynamics: mesh text"
     "simulate/run: scene_file simulate/dynamics text"
-    "simulate/page: cli page scene_file simulate/run text"
+    "simulate/page: cli page simulate/run text"
     "simulate: cli command_line import scene_file simulate/page simulate/run text")
 
 # A library of others: the pattern of its headers, then the folders that may know it.

@@ -113,7 +113,8 @@ std::string as_text(const Scoreboard& board) {
     }
     const Tally total = board.total();
     text += "asked " + std::to_string(total.asked) + ", wrong " + std::to_string(total.wrong) +
-            ", widest " + (total.widest == 0 ? "0" : widest(total)) + " of what is promised\n";
+            ", widest interval " + (total.widest == 0 ? "0" : widest(total)) +
+            " of the promised one\n";
     return text;
 }
 

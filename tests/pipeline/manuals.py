@@ -45,6 +45,16 @@ def help_is_complete(program, folder):
             must("Examples:" in text, f"{name} has no example")
 
 
+def readme_is_tested():
+    """The C++ of README.md is that of a unit test, but for comments and what it returns."""
+    readme = (ROOT / "README.md").read_text()
+    shown = re.search(r"```cpp\n#include <cdprep/cdprep.hpp>\n(.*?)```", readme, re.S).group(1)
+    test = (ROOT / "tests/unit/lib/whole/doc_examples_test.cpp").read_text()
+    tested = re.search(r" readme\(\) \{\n(.*?) *return ReadmeAnswer", test, re.S).group(1)
+    shown = re.sub(r"//.*", "", shown).replace("return 1;", "return std::nullopt;")
+    must(shown.split() == tested.split(), f"README.md has\n{shown}\nbut the test has\n{tested}")
+
+
 def man_pages_render(folder):
     for page in (folder / "man").iterdir():
         done = run("groff", "-man", "-Tutf8", "-ww", "-z", page)
@@ -87,6 +97,7 @@ def main():
         must((folder / "COMMANDS.md").read_text() == (ROOT / "docs/COMMANDS.md").read_text(),
              "docs/COMMANDS.md is old: run cdprep --write-manuals and copy COMMANDS.md")
         help_is_complete(program, folder)
+        readme_is_tested()
         man_pages_render(folder)
         bash_completes(folder)
         other_shells_read_theirs(folder)
