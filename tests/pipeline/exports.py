@@ -181,6 +181,11 @@ def check_json(program, folder, model):
     must(near([inertia[0][0], inertia[1][1], inertia[2][2]], [xx, xx, zz], 1e-9), f"{inertia}")
     must(near([inertia[0][1], inertia[1][0], inertia[0][2], inertia[1][2]], [xy, xy, 0, 0], 1e-9),
          f"{inertia}")
+    must(near(found["mass"]["moments"], sorted((xx + xy, xx - xy, zz)), 1e-9), "moments")
+    x, y, z, w = found["mass"]["axes"]
+    first = [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)]
+    must(near([abs(v) for v in first], [0.5 ** 0.5, 0.5 ** 0.5, 0], 1e-9) and
+         first[0] * first[1] < 0, f"the first axis is the diagonal of the L: {first}")
     must(near([sum(p["volume"] for p in found["pieces"])], [3], 1e-9), "volumes of the parts")
     must(report["of"] == "parts" and report["left_out"] == 0 and not report["visual"], f"{report}")
     for piece in found["pieces"]:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "export/colliders_json.h"
 
+#include "mesh/mass_properties.h"
 #include "mesh/vectors.h"
 #include "text/json_layout.h"
 
@@ -44,9 +45,12 @@ Json mass_json(const Colliders& colliders) {
     if (!colliders.mass) return nullptr;
     const auto& [mass, centre, inertia] = *colliders.mass;
     const auto& [xx, yy, zz, xy, yz, zx] = inertia;
+    const auto [moments, axes] = convex::principal_inertia(inertia);
     return {{"volume", mass},
             {"centre", position_json(centre)},
             {"inertia", {{xx, xy, zx}, {xy, yy, yz}, {zx, yz, zz}}},
+            {"moments", moments},
+            {"axes", axes},
             {"closed", colliders.is_closed}};
 }
 

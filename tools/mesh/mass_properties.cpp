@@ -2,6 +2,7 @@
 #include "mesh/mass_properties.h"
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include "mesh/eigen_vector.h"
@@ -62,6 +63,18 @@ std::optional<format::MassProperties> find_mass_properties(const mesh::Mesh& mes
         sum.area_2 / 2,
         {place.x(), place.y(), place.z()},
         {inertia(0, 0), inertia(1, 1), inertia(2, 2), inertia(0, 1), inertia(1, 2), inertia(2, 0)}};
+}
+
+PrincipalInertia principal_inertia(const std::array<double, 6>& inertia) {
+    const auto& [xx, yy, zz, xy, yz, zx] = inertia;
+    Eigen::Matrix3d tensor;
+    tensor << xx, xy, zx, xy, yy, yz, zx, yz, zz;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(tensor);
+    const Eigen::Vector3d& moments = solver.eigenvalues();
+    Eigen::Matrix3d axes = solver.eigenvectors();
+    axes.col(2) = axes.col(0).cross(axes.col(1));  // right-handed
+    const Eigen::Quaterniond turn = Eigen::Quaterniond(axes).normalized();
+    return {{moments.x(), moments.y(), moments.z()}, {turn.x(), turn.y(), turn.z(), turn.w()}};
 }
 
 }  // namespace cdprep::convex

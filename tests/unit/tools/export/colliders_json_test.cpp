@@ -39,6 +39,8 @@ TEST(CollidersJson, HasPointsTrianglesAndMass) {
     EXPECT_EQ(json["mass"]["centre"], Json({1, 2, 3}));
     EXPECT_EQ(json["mass"]["inertia"], Json({{11, 12, 31}, {12, 22, 23}, {31, 23, 33}}));
     EXPECT_EQ(json["mass"]["closed"], true);
+    EXPECT_EQ(json["mass"]["moments"].size(), 3U);
+    EXPECT_EQ(json["mass"]["axes"].size(), 4U);
     ASSERT_EQ(json["pieces"].size(), 2U);
     const Json& piece = json["pieces"][1];
     EXPECT_EQ(piece["name"], "box_01");

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "cdprep/pose.h"
 #include "unit/tools/soup_of.h"
 
 namespace cdprep::convex {
@@ -154,6 +156,42 @@ TEST(MassPropertiesLaws, ARandomTetrahedronAgreesWithDrawnPoints) {
     EXPECT_NEAR(sum_x / kPoints, 0, 2e-3) << "seed " << kSeed;
     EXPECT_NEAR(xx / kPoints, found->inertia[0] / found->volume, 2e-3) << "seed " << kSeed;
     EXPECT_NEAR(xy / kPoints, found->inertia[3] / found->volume, 2e-3) << "seed " << kSeed;
+}
+
+// Moments m about axes r, as columns: the tensor is the sum of m r r^T.
+TEST(PrincipalInertia, IsTheTensor) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> entry(-1, 1);
+    for (int round = 0; round < 1000; ++round) {
+        const double scale = std::ldexp(1.0, static_cast<int>(random() % 200) - 100);
+        std::array<double, 6> inertia;
+        for (double& x : inertia) x = scale * entry(random);
+        if (round % 4 == 0) inertia[3] = inertia[4] = inertia[5] = 0;
+        if (round % 8 == 0) inertia[1] = inertia[0];
+        const auto [m, q] = principal_inertia(inertia);
+        EXPECT_LE(m[0], m[1]);
+        EXPECT_LE(m[1], m[2]);
+        EXPECT_NEAR(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3], 1, 1e-15);
+        const Pose turn = Pose::from_quaternion(q[3], q[0], q[1], q[2], {}).value();
+        const auto& r = turn.rotation();
+        const auto tensor = [&](std::size_t i, std::size_t j) {
+            double sum = 0;
+            for (std::size_t k = 0; k < 3; ++k) sum += r[3 * i + k] * m[k] * r[3 * j + k];
+            return sum;
+        };
+        const std::array<double, 6> found = {tensor(0, 0), tensor(1, 1), tensor(2, 2),
+                                             tensor(0, 1), tensor(1, 2), tensor(2, 0)};
+        for (std::size_t i = 0; i < 6; ++i) {
+            EXPECT_NEAR(found[i], inertia[i], 1e-14 * scale) << "entry " << i;
+        }
+    }
+}
+
+// A body without extent has no moments, and its axes are those of the model.
+TEST(PrincipalInertia, OfAPointIsNone) {
+    const auto [moments, axes] = principal_inertia({});
+    EXPECT_EQ(moments, (std::array<double, 3>{}));
+    EXPECT_EQ(axes, (std::array<double, 4>{0, 0, 0, 1}));
 }
 
 }  // namespace
