@@ -29,8 +29,9 @@ struct EngineForm {
     const char* name_before = "";  ///< of a part: before the name of the model
     const char* name_after = "";   ///< and after its number
     const char* parts_node = "";   ///< the node above the parts; "": none
+    bool stores_parts_large = false;  ///< as HullsFileOptions::stores_hulls_large
     /// The size that a smaller part counts as in ignored_height(), in metres. 0: its own. Unreal's
-    /// unit is the centimetre. Unity's parts are written as large as PhysX needs, see glb_bytes().
+    /// unit is the centimetre. Unity's parts are stored as large as PhysX needs.
     double least_size = 0;
 };
 

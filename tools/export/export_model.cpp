@@ -164,6 +164,7 @@ Result<Done> write_for_engine(Body& body, const EngineForm& form, const ExportOp
     how.is_floating = options.is_floating;
     how.package = options.package;
     how.hulls_node = form.parts_node;
+    how.stores_hulls_large = form.stores_parts_large;
     if (form.has_mass) {
         const auto weighed =
             weigh(body.mesh, body.is_closed, body.parts, options.density, report.metres_per_unit);

@@ -127,7 +127,7 @@ std::size_t add_scaled_node(Glb& glb, const HullArrays& hull) {
     return node;
 }
 
-/// Adds the shown mesh, then the hulls, which may have a node above them. Those are for Unity.
+/// Adds the shown mesh, then the hulls, which may have a node above them.
 void add_nodes(Glb& glb, const RobotFile& file) {
     std::vector<std::size_t> roots;
     if (file.options.visual) {
@@ -135,12 +135,12 @@ void add_nodes(Glb& glb, const RobotFile& file) {
         roots.push_back(add_node(glb, file.name, shown.positions, shown.triangles));
     }
     std::vector<std::size_t> hulls;
-    const bool is_below_node = !file.options.hulls_node.empty();
     for (const HullArrays& hull : file.hulls) {
-        hulls.push_back(is_below_node ? add_scaled_node(glb, hull)
-                                      : add_node(glb, hull.name, hull.points, hull.facets));
+        hulls.push_back(file.options.stores_hulls_large
+                            ? add_scaled_node(glb, hull)
+                            : add_node(glb, hull.name, hull.points, hull.facets));
     }
-    if (!hulls.empty() && is_below_node) {
+    if (!hulls.empty() && !file.options.hulls_node.empty()) {
         hulls = {append(glb.document, "nodes",
                         {{"name", file.options.hulls_node}, {"children", hulls}})};
     }

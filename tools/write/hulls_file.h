@@ -55,6 +55,9 @@ struct HullsFileOptions {
     std::optional<MeshArrays> visual = {};
     bool is_floating = false;     ///< MJCF: a free joint; otherwise the body is fixed to the world
     std::string hulls_node = {};  ///< GLB: the name of a node above the hulls; empty: none
+    /// GLB: small hulls are stored larger by a power of two, in nodes that scale them down. For
+    /// Unity, which cooks a mesh before its node scales it: PhysX drops points of small ones.
+    bool stores_hulls_large = false;
     /// URDF: the package and the folder in it, as in package://PACKAGE/FOLDER, where the meshes are
     /// found. Empty: paths relative to the file.
     std::string package = {};
@@ -73,15 +76,13 @@ struct HullsFileOptions {
 /// A shown mesh becomes the first node of a GLB, named as the model, or a geom without collisions.
 ///
 /// Coordinates are written in the fewest digits that read back bit for bit. GLB has only
-/// floats: its corners are rounded to the nearest float. Hulls below HullsFileOptions::hulls_node
-/// are for Unity, which cooks a mesh before its node scales it. Small ones are stored larger by a
-/// power of two, below a node that scales them down. PhysX drops points of small ones. URDF and SDF
-/// refer to mesh files by paths relative to their own. Each hull is written beside the file as
-/// STEM_NAME.obj. The mesh that URDF, SDF and MJCF show is written as STEM_visual.obj. STEM is
-/// model_name(); if that replaced characters, a number distinguishes such names. URDF, SDF and MJCF
-/// omit hulls of fewer than three dimensions, because their readers require a volume. Returns the
-/// number of omitted hulls. Fails with `bad_argument` if a GLB would exceed 4 GiB. All files appear
-/// when they are complete, or none does (write_all()).
+/// floats: its corners are rounded to the nearest float. URDF and SDF refer to mesh files by paths
+/// relative to their own. Each hull is written beside the file as STEM_NAME.obj. The mesh that
+/// URDF, SDF and MJCF show is written as STEM_visual.obj. STEM is model_name(); if that replaced
+/// characters, a number distinguishes such names. URDF, SDF and MJCF omit hulls of fewer than three
+/// dimensions, because their readers require a volume. Returns the number of omitted hulls. Fails
+/// with `bad_argument` if a GLB would exceed 4 GiB. All files appear when they are complete, or
+/// none does (write_all()).
 [[nodiscard]] Result<std::size_t> write_hulls(const std::filesystem::path& path, HullsFormat format,
                                               std::span<const HullArrays> hulls,
                                               const HullsFileOptions& options = {});

@@ -146,11 +146,11 @@ TEST(HullsFile, AGlbShowsTheMeshBesideTheHulls) {
 
 // PhysX drops points by an absolute height from hulls smaller than 1, and Unity cooks the stored
 // mesh.
-TEST(HullsFile, SmallHullsBelowANodeAreStoredLarger) {
+TEST(HullsFile, SmallHullsMayBeStoredLarger) {
     const test::ScratchFolder folder;
     const auto path = folder.path() / "bolt.glb";
     HullsFileOptions options;
-    options.hulls_node = "colliders";
+    options.stores_hulls_large = true;
     for (const double size : {1e-9, 0.034, 0.49, 0.51, 0.7, 1.01, 40.0}) {
         // Half the sum of the sides of this tetrahedron is its size.
         const double side = 2 * size / 3;
@@ -170,8 +170,12 @@ TEST(HullsFile, SmallHullsBelowANodeAreStoredLarger) {
         EXPECT_LT(1.5 * stored, 2) << size;
         EXPECT_EQ(node["scale"], nlohmann::json({scale, scale, scale}));
     }
-    options.hulls_node.clear();
-    ASSERT_TRUE(write_hulls(path, HullsFormat::glb, solid_and_flat(), options).ok());
+    // A node above them does not scale them.
+    const std::array<Double3, 4> corners = {{{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.01}}};
+    const std::array<HullArrays, 1> small = {{{"small", corners, kFacets, 3}}};
+    options.stores_hulls_large = false;
+    options.hulls_node = "colliders";
+    ASSERT_TRUE(write_hulls(path, HullsFormat::glb, small, options).ok());
     for (const auto& node : document_of(test::content_of(path.string()))["nodes"]) {
         EXPECT_FALSE(node.contains("scale"));
     }
