@@ -92,7 +92,7 @@ def the_plans(program):
                   "not computed, for no pair of layers asks: overlap, distance, contacts, continuous, "
                   "self, haptic, response\n", "never touched: 4 sections",
                   "layers in no pair, whose objects are never looked at: debris\n",
-                  "layers never paired: ground-triggers (1 pair of objects), ",
+                  "layers that are never looked at together: ground-triggers (1 pair of objects)",
                   "debris-debris (1770 pairs of objects)\n"):
         must(words in text, f"the plan does not say '{words}':\n{text}")
     the_state(program)
@@ -302,7 +302,8 @@ def the_thousand(program, folder):
 
     text = run(program, "simulate", scene, "--format", "text").stdout
     for words in ("not computed, for no pair of layers asks: overlap, distance",
-                  "layers never paired: resting-resting (124750 pairs of objects), resting-crossing",
+                  "layers that are never looked at together: resting-resting (124750 pairs of "
+                  "objects), resting-crossing",
                   "not read: 4 sections, ", f"state {one[1]['state_hash']}"):
         must(words in text, text)
     # The rows are read from the clock of the frame: nothing but its own reads is left out.
