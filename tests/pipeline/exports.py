@@ -309,6 +309,32 @@ def check_bake_leaves_colliders_out(program, folder):
     must("remarks" not in report and near([volume], [of_parts], 1e-4), f"{report}")
 
 
+def check_kept_colliders_are_told(program, folder):
+    """hull and decompose keep colliders, and say how many. They can leave them out too."""
+    bolt, triangles = folder / "thread.cdp.h5", 212
+    for engine in GLB:
+        output = folder / f"kept_{engine}.glb"
+        export(program, bolt, engine, output)
+        for command in (("hull", "-o", folder / "hull.obj"), ("decompose",),
+                        ("decompose", "--max-error", 1)):
+            done = run(program, *command, output, "--format", "json")
+            must("kept_" + engine in done.stderr and
+                 "2 colliders are a part of the mesh: " in done.stderr and
+                 "Leave them out by --without-colliders." in done.stderr,
+                 f"{engine}, {command[0]}: {done.stderr}")
+            must(json.loads(done.stdout)["triangles"] > triangles, f"{engine}: {done.stdout}")
+            done = run(program, *command, output, "--format", "json", "--without-colliders")
+            must(not done.stderr, f"{engine}, {command[0]}: {done.stderr}")
+            must(json.loads(done.stdout)["triangles"] == triangles, f"{engine}: {done.stdout}")
+        scene = folder / "kept.json"
+        parts = [{"name": name, "model": output.name, "layer": "parts"} for name in ("a", "b")]
+        scene.write_text(json.dumps({"cdprep_scene": 1, "metres_per_unit": 1, "layers": ["parts"],
+                                     "objects": parts}))
+        done = run(program, "query", "overlap", "--scene", scene)
+        must(f"{output}: 2 colliders are a part of the mesh: " in done.stderr and
+             "'cdprep bake'" in done.stderr, f"{engine}: {done.stderr}")
+
+
 def check_package(program, model, output, names):
     """Meshes of a URDF in a ROS package; nothing else changes."""
     before = output.read_text()
@@ -553,6 +579,7 @@ def main():
         check_import_knows_names(program, folder, model, found["pieces"])
         check_import_knows_tags(program, folder)
         check_bake_leaves_colliders_out(program, folder)
+        check_kept_colliders_are_told(program, folder)
         check_robots(program, reader, folder, model, found["pieces"])
         check_mujoco(program, reader, folder, model)
         check_points_are_dropped(program, folder)

@@ -121,6 +121,26 @@ void take_triangles(const Rest& rest, mesh::TriangleSoup& soup) {
     soup.face = std::move(faces);
 }
 
+Rest find_rest(const mesh::TriangleSoup& soup) {
+    const std::size_t triangles = soup.triangles.size();
+    Rest rest = soup.instances.empty() ? find_rest(triangles, soup.groups.runs, soup.groups.names)
+                                       : find_rest(triangles, soup.instances, soup.instance_names);
+    if (!rest.colliders.empty() && rest.before.back() == 0) return {};
+    return rest;
+}
+
+/// Returns "a, b and 2 more".
+std::string first_names(std::span<const std::string> paths) {
+    const std::size_t shown = std::min(paths.size(), kMostNames);
+    std::string names;
+    for (std::size_t i = 0; i < shown; ++i) {
+        const bool is_last = i + 1 == paths.size();
+        names += (i == 0 ? "" : is_last ? " and " : ", ") + report::printable(paths[i]);
+    }
+    if (shown < paths.size()) names += " and " + std::to_string(paths.size() - shown) + " more";
+    return names;
+}
+
 /// Colliders may be the only ones that need doubles, because a transform moves them.
 bool are_floats(const std::vector<format::Double3>& positions) {
     const auto is_float = [](double x) { return double{static_cast<float>(x)} == x; };
@@ -146,11 +166,8 @@ bool is_collider(std::string_view path) noexcept {
 
 std::vector<std::string> leave_out_colliders(mesh::TriangleSoup& soup) {
     if (soup.bad_number_count > 0) return {};
-    const std::size_t triangles = soup.triangles.size();
-    const Rest rest = soup.instances.empty()
-                          ? find_rest(triangles, soup.groups.runs, soup.groups.names)
-                          : find_rest(triangles, soup.instances, soup.instance_names);
-    if (rest.colliders.empty() || rest.before.back() == 0) return {};
+    const Rest rest = find_rest(soup);
+    if (rest.colliders.empty()) return {};
     take_runs(rest, soup.instances, soup.instance_names);
     take_runs(rest, soup.groups);
     take_runs(rest, soup.materials);
@@ -160,22 +177,34 @@ std::vector<std::string> leave_out_colliders(mesh::TriangleSoup& soup) {
     return rest.colliders;
 }
 
+std::vector<std::string> find_colliders(const mesh::TriangleSoup& soup) {
+    return find_rest(soup).colliders;
+}
+
 std::string left_out_text(std::span<const std::string> paths) {
-    const std::size_t shown = std::min(paths.size(), kMostNames);
-    std::string names;
-    for (std::size_t i = 0; i < shown; ++i) {
-        const bool is_last = i + 1 == paths.size();
-        names += (i == 0 ? "" : is_last ? " and " : ", ") + report::printable(paths[i]);
-    }
-    if (shown < paths.size()) names += " and " + std::to_string(paths.size() - shown) + " more";
-    return report::counted(paths.size(), "collider was", "colliders were") + " left out: " + names +
-           ". Keep " + (paths.size() == 1 ? "it" : "them") + " by --with-colliders.";
+    return report::counted(paths.size(), "collider was", "colliders were") +
+           " left out: " + first_names(paths) + ". Keep " + (paths.size() == 1 ? "it" : "them") +
+           " by --with-colliders.";
+}
+
+std::string kept_text(std::span<const std::string> paths, const std::string& way) {
+    return report::counted(paths.size(), "collider is", "colliders are") +
+           " a part of the mesh: " + first_names(paths) + ". Leave " +
+           (paths.size() == 1 ? "it" : "them") + " out by " + way + ".";
 }
 
 void add_with_colliders(const Command& command, bool& with_colliders) {
     command
         .add_flag("--with-colliders", with_colliders,
                   "Treat nodes and groups that are colliders of an engine as parts of the mesh")
+        .group("Import");
+}
+
+void add_without_colliders(const Command& command, bool& without_colliders) {
+    command
+        .add_flag("--without-colliders", without_colliders,
+                  "Leave out nodes and groups that are colliders of an engine, as 'cdprep bake' "
+                  "does")
         .group("Import");
 }
 

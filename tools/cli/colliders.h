@@ -22,10 +22,20 @@ namespace cdprep::cli {
 /// that has nothing else, nor from one with bad numbers.
 [[nodiscard]] std::vector<std::string> leave_out_colliders(mesh::TriangleSoup& soup);
 
+/// Returns the paths of the colliders that leave_out_colliders() would remove.
+[[nodiscard]] std::vector<std::string> find_colliders(const mesh::TriangleSoup& soup);
+
 /// Returns the sentences that tell what leave_out_colliders() returned.
 [[nodiscard]] std::string left_out_text(std::span<const std::string> paths);
 
+/// Returns the sentences that tell what find_colliders() returned. The last is "Leave them out by
+/// WAY."
+[[nodiscard]] std::string kept_text(std::span<const std::string> paths, const std::string& way);
+
 /// Adds --with-colliders to a command that leaves colliders out.
 void add_with_colliders(const Command& command, bool& with_colliders);
+
+/// Adds --without-colliders to a command that keeps colliders, and says so.
+void add_without_colliders(const Command& command, bool& without_colliders);
 
 }  // namespace cdprep::cli

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cdprep/format/limits.h"
+#include "cli/colliders.h"
 #include "mesh/point_tree.h"
 #include "mesh/weld.h"
 #include "text/number_text.h"
@@ -55,6 +56,16 @@ std::optional<Error> find_too_large(const std::filesystem::path& input,
     return std::nullopt;
 }
 
+/// Leaves colliders out, or tells that they stay.
+void heed_colliders(mesh::TriangleSoup& soup, const LoadOptions& options) {
+    if (options.without_colliders) {
+        static_cast<void>(leave_out_colliders(soup));
+        return;
+    }
+    const std::vector<std::string> kept = find_colliders(soup);
+    if (!kept.empty() && options.tell) options.tell(kept_text(kept, "--without-colliders"));
+}
+
 }  // namespace
 
 std::optional<Error> find_refusal(const std::filesystem::path& input,
@@ -81,6 +92,7 @@ Result<mesh::TriangleSoup> load_soup(const std::filesystem::path& input,
     if (!imported) return imported.error();
     mesh::TriangleSoup soup = std::move(imported).value();
     if (const auto error = find_refusal(input, soup)) return *error;
+    heed_colliders(soup, options);
     if (options.normalize) mesh::normalize(soup);
     if (const auto error = find_wide_weld(input, soup, options.weld_distance)) return *error;
     return soup;

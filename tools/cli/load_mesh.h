@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "cdprep/result.h"
 #include "import/import_file.h"
@@ -23,7 +25,10 @@ namespace cdprep::cli {
 
 struct LoadOptions {
     bool normalize = false;
-    double weld_distance = 0;  ///< model units
+    double weld_distance = 0;        ///< model units
+    bool without_colliders = false;  ///< leaves out what leave_out_colliders() does
+    /// Called with sentences about colliders that stay a part of the mesh. May be empty.
+    std::function<void(const std::string&)> tell;
     import::ImportOptions import;
 };
 

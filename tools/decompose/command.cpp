@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "cli/colliders.h"
 #include "cli/command.h"
 #include "cli/import_arguments.h"
 #include "cli/load_mesh.h"
@@ -61,8 +62,12 @@ std::optional<Error> find_bad_output(const Arguments& arguments) {
                  arguments.output.string() + ": pieces can be written as .obj or .ply only."};
 }
 
-LoadOptions load_options(const Arguments& arguments, const Threads& threads) {
+LoadOptions load_options(const Arguments& arguments, const Threads& threads, Progress& progress) {
     LoadOptions load = arguments.load;
+    load.tell = [&](const std::string& sentences) {
+        progress.clear();
+        std::cerr << "cdprep decompose: " << arguments.input.string() << ": " << sentences << '\n';
+    };
     load.import = arguments.import.options();
     load.import.parallel_for = threads.parallel_for();
     return load;
@@ -72,7 +77,8 @@ Result<report::SurfacePiecesReport> decompose(const Arguments& arguments, Progre
     if (const auto error = find_bad_output(arguments)) return *error;
     const Threads threads(arguments.threads);
     progress.show(0, arguments.input.filename().string() + ": import");
-    const Result<mesh::Mesh> mesh = load_mesh(arguments.input, load_options(arguments, threads));
+    const Result<mesh::Mesh> mesh =
+        load_mesh(arguments.input, load_options(arguments, threads, progress));
     if (!mesh) return mesh.error();
     if (is_interrupted()) return interrupted(arguments.input);
 
@@ -107,7 +113,7 @@ Exit run_enclose(const Arguments& arguments, Progress& progress) {
     const Threads threads(arguments.threads);
     EncloseOptions options = arguments.enclose;
     options.output = arguments.output;
-    options.load = load_options(arguments, threads);
+    options.load = load_options(arguments, threads, progress);
     options.has_table = arguments.table;
     Result<report::ApproximateReport> found = enclose(arguments.input, options, threads, progress);
     progress.clear();
@@ -307,6 +313,7 @@ void add_decompose(const Command& app, Exit& exit) {
     add_jobs(command, arguments->threads);
     add_progress(command, arguments->progress);
     add_import_arguments(command, arguments->import);
+    add_without_colliders(command, arguments->load.without_colliders);
     command.callback([command, arguments, &exit] { exit = run(command, *arguments); });
 }
 

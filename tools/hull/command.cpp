@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include "cli/colliders.h"
 #include "cli/command.h"
 #include "cli/import_arguments.h"
 #include "cli/load_mesh.h"
@@ -40,6 +41,7 @@ struct Arguments {
     std::uint32_t max_vertices = 0;
     std::string format = "text";
     std::size_t threads = 0;
+    bool without_colliders = false;
     ImportArguments import;
 };
 
@@ -85,6 +87,10 @@ Result<report::HullReport> find_hulls(const Arguments& arguments) {
     if (!format) return format.error();
     const Threads threads(arguments.threads);
     LoadOptions load;
+    load.without_colliders = arguments.without_colliders;
+    load.tell = [&](const std::string& sentences) {
+        std::cerr << "cdprep hull: " << arguments.input.string() << ": " << sentences << '\n';
+    };
     load.import = arguments.import.options();
     load.import.parallel_for = threads.parallel_for();
     const Result<mesh::TriangleSoup> loaded = load_soup(arguments.input, load);
@@ -169,6 +175,7 @@ void add_hull(const Command& app, Exit& exit) {
     add_report_format(command, arguments->format);
     add_jobs(command, arguments->threads);
     add_import_arguments(command, arguments->import);
+    add_without_colliders(command, arguments->without_colliders);
     command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 

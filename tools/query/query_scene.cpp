@@ -190,6 +190,9 @@ private:
             scenes::load_models(scene(), plan, std::move(options), style_, threads_);
         if (!loaded.errors.empty()) return fail_all("query", loaded.errors);
         models_ = std::move(loaded.models);
+        for (const std::string& line : scenes::kept_colliders(scene(), models_)) {
+            std::cerr << "cdprep query: " << line << '\n';
+        }
         return std::nullopt;
     }
 

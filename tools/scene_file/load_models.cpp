@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cdprep/format/file_header.h"
+#include "cli/colliders.h"
 #include "scene_file/bake_cache.h"
 #include "text/number_text.h"
 #include "text/space_name.h"
@@ -91,7 +92,15 @@ private:
         }
         Result<cli::BakeOptions> bake = bake_options_for(loaded.needs.wanted(), options_.import);
         if (!bake) return bake.error();
-        if (assembly != nullptr) read_model(*assembly, assembly->models[done_], *bake);
+        if (assembly != nullptr) {
+            read_model(*assembly, assembly->models[done_], *bake);
+        } else {
+            bake->read = [&loaded](const fs::path& file, const import::ImportOptions& limits) {
+                Result<mesh::TriangleSoup> soup = import::import_file(file, limits);
+                if (soup) loaded.colliders = cli::find_colliders(*soup);
+                return soup;
+            };
+        }
         const auto begins = [&](const char* stage) {
             options_.begins(done_, path.filename().string() + ": " + stage);
         };
@@ -170,6 +179,18 @@ LoadedModels load_models(const SceneFile& scene, const Plan& plan, LoadOptions o
     LoadedModels loaded = load_models(scene, plan, options, threads);
     progress.clear();
     return loaded;
+}
+
+std::vector<std::string> kept_colliders(const SceneFile& scene,
+                                        const std::vector<SceneModel>& models) {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        if (models[i].colliders.empty()) continue;
+        lines.push_back(
+            scene.models[i].string() + ": " +
+            cli::kept_text(models[i].colliders, "naming the file that 'cdprep bake' makes of it"));
+    }
+    return lines;
 }
 
 std::vector<ModelUse> uses_of(const SceneFile& scene, const std::vector<SceneModel>& models,

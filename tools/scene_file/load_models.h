@@ -31,6 +31,9 @@ struct SceneModel {
     std::optional<cli::BakedImage> image;  ///< the bytes of a model in memory
     std::optional<Model> model;            ///< nothing if unused
     ModelNeeds needs;
+    /// Of a mesh file that was baked now: nodes and groups that engines collide with and do not
+    /// show. They are a part of the model.
+    std::vector<std::string> colliders;
 };
 
 struct LoadOptions {
@@ -59,6 +62,10 @@ struct LoadedModels {
 [[nodiscard]] LoadedModels load_models(const SceneFile& scene, const Plan& plan,
                                        LoadOptions options, cli::ProgressStyle style,
                                        const cli::Threads& threads);
+
+/// Returns a line for each mesh file that has colliders as a part of its model.
+[[nodiscard]] std::vector<std::string> kept_colliders(const SceneFile& scene,
+                                                      const std::vector<SceneModel>& models);
 
 /// Returns the uses of the models that were opened, for compile_scene(). `names` gets the names
 /// that they refer to.

@@ -245,6 +245,9 @@ private:
             scenes::load_models(scene_, plan, std::move(options), style_, threads_);
         if (!loaded.errors.empty()) return fail_all("simulate", loaded.errors);
         models_ = std::move(loaded.models);
+        for (const std::string& line : scenes::kept_colliders(scene_, models_)) {
+            std::cerr << "cdprep simulate: " << line << '\n';
+        }
         return std::nullopt;
     }
 

@@ -108,6 +108,29 @@ TEST(LoadModels, BakesAgainAfterAChangeAndOnlyThen) {
     EXPECT_FALSE(bakes(Ask::within));
 }
 
+// A scene keeps colliders, and says so when it bakes the mesh.
+TEST(LoadModels, TellsOfCollidersInAMesh) {
+    const test::ScratchFolder folder;
+    const std::string text =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+        "o a\nf 1 3 2\nf 1 2 4\no UCX_a_00\nf 2 3 4\nf 3 1 4\n";
+    const SceneFile scene = scene_of(folder.write("m.obj", std::string_view(text)), Ask::collide);
+    LoadOptions options;
+    options.cache = folder.path() / "cache";
+    for (const bool is_first : {true, false}) {
+        const auto models = load(scene, options);
+        ASSERT_TRUE(models) << models.error().message;
+        EXPECT_EQ(models->front().model->triangle_count(), 4U);
+        const std::vector<std::string> lines = kept_colliders(scene, *models);
+        ASSERT_EQ(lines.size(), is_first ? 1U : 0U);
+        if (!is_first) continue;
+        EXPECT_EQ(lines.front(),
+                  scene.models[0].string() +
+                      ": 1 collider is a part of the mesh: UCX_a_00. Leave it out by naming the "
+                      "file that 'cdprep bake' makes of it.");
+    }
+}
+
 // The files that a mesh refers to decide its bake too.
 TEST(LoadModels, BakesAgainAfterAChangeOfAnotherFile) {
     const test::ScratchFolder folder;
