@@ -2,7 +2,9 @@
 #include "scene/ask_pair.h"
 
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "cdprep/self.h"
 #include "scene/object_box.h"
@@ -29,20 +31,51 @@ std::optional<Motion> motion_of(const Model& model, const Pose& start, const Pos
     return motion ? std::optional(*motion) : std::nullopt;
 }
 
+}  // namespace
+
+/// A query for each effect. They are not inlined: there are many kernels, and the functions called
+/// here take far longer than a call.
 class PairQueries {
 public:
-    PairQueries(const PairQuestion& question, Workspace& workspace, PairAnswer& answer) noexcept
+    PairQueries(const PairQuestion& question, Workspace& workspace, const ListWriters& lists,
+                PairAnswer& answer) noexcept
         : question_(question),
           pair_(question.pair),
           asks_(question.asks),
           workspace_(workspace),
+          lists_(lists),
           answer_(answer) {}
 
-    // The later ones use what the earlier ones have found.
-    void overlap(ListPages<TrianglePair>::Writer& list) noexcept {
+    // The later ones use what the earlier ones, kAsked, have found.
+    [[gnu::noinline]] void overlap() noexcept {
+        timed(lists_, Ask::overlap, [&] { find_overlaps(); });
+    }
+    [[gnu::noinline]] void distance() noexcept {
+        timed(lists_, Ask::distance, [&] { find_distance(); });
+    }
+    template <Ask kAsked>
+    [[gnu::noinline]] void collide() noexcept {
+        timed(lists_, Ask::collide, [&] { decide_collide<kAsked>(); });
+    }
+    template <Ask kAsked>
+    [[gnu::noinline]] void within() noexcept {
+        timed(lists_, Ask::within, [&] { decide_within<kAsked>(); });
+    }
+    [[gnu::noinline]] void contacts() noexcept {
+        timed(lists_, Ask::contacts, [&] { find_contacts(); });
+    }
+    [[gnu::noinline]] void continuous() noexcept {
+        timed(lists_, Ask::continuous, [&] { find_impact(); });
+    }
+    [[gnu::noinline]] void haptic() noexcept {
+        timed(lists_, Ask::haptic, [&] { find_haptic(); });
+    }
+
+private:
+    void find_overlaps() noexcept {
         call(Ask::overlap);
         const auto add = [&](const TrianglePair& found) {
-            list.add(found);
+            lists_.triangle_pairs->add(found);
             ++answer_.overlapping;
             return true;
         };
@@ -50,7 +83,7 @@ public:
         hold(Ask::overlap, answer_.overlapping > 0);
     }
 
-    void distance() noexcept {
+    void find_distance() noexcept {
         call(Ask::distance);
         const auto found =
             cdprep::distance(pair_, workspace_, {.max_distance = asks_.max_distance});
@@ -58,15 +91,17 @@ public:
         hold(Ask::distance, found.has_value());
     }
 
-    void collide() noexcept {
+    template <Ask kAsked>
+    void decide_collide() noexcept {
         std::optional<Answer> known;
-        if (called(Ask::overlap))
+        if constexpr (contains(kAsked, Ask::overlap)) {
             known = answer_.overlapping > 0 ? Answer::yes : Answer::no;
-        else if (asks_.overlap == Overlap::closed)
-            known = touches_by_distance();
+        } else if constexpr (contains(kAsked, Ask::distance)) {
+            known = touch_by_distance();
+        }
         // Whether one solid is inside the other is a query of its own.
-        const bool is_decided = asks_.body == Body::surface || known == Answer::yes;
-        if (known && is_decided) {
+        if (asks_.body == Body::solid && known != Answer::yes) known = std::nullopt;
+        if (known) {
             answer_.collision.hit = *known;
         } else {
             call(Ask::collide);
@@ -75,8 +110,10 @@ public:
         hold(Ask::collide, answer_.collision.hit == Answer::yes);
     }
 
-    void within() noexcept {
-        std::optional<bool> known = within_by_distance();
+    template <Ask kAsked>
+    void decide_within() noexcept {
+        std::optional<bool> known;
+        if constexpr (contains(kAsked, Ask::distance)) known = within_by_distance();
         if (!known) {
             call(Ask::within);
             known = cdprep::within(pair_, asks_.tolerance, workspace_);
@@ -84,16 +121,16 @@ public:
         hold(Ask::within, *known);
     }
 
-    void contacts(const ListWriters& lists) noexcept {
+    void find_contacts() noexcept {
         call(Ask::contacts);
-        answer_.contacts = cdprep::contacts(pair_, workspace_, lists.contact_room, asks_.contacts);
+        answer_.contacts = cdprep::contacts(pair_, workspace_, lists_.contact_room, asks_.contacts);
         for (std::size_t i = 0; i < answer_.contacts.count; ++i) {
-            lists.contacts->add(lists.contact_room[i]);
+            lists_.contacts->add(lists_.contact_room[i]);
         }
         hold(Ask::contacts, answer_.contacts.count > 0);
     }
 
-    void continuous() noexcept {
+    void find_impact() noexcept {
         call(Ask::continuous);
         const Model &a = pair_.a, &b = pair_.b;
         const auto motion_a = motion_of(a, question_.last_a, pair_.placement.pose_a());
@@ -109,7 +146,7 @@ public:
         hold(Ask::continuous, impact.kind != ImpactKind::none);
     }
 
-    void haptic() noexcept {
+    void find_haptic() noexcept {
         call(Ask::haptic);
         HapticRecord& record = *question_.haptic;
         Pair cached = pair_;
@@ -121,12 +158,8 @@ public:
                                                    : record.found.lower <= asks_.max_distance);
     }
 
-private:
     void call(Ask effect) noexcept {
         answer_.called = answer_.called | effect;
-    }
-    [[nodiscard]] bool called(Ask effect) const noexcept {
-        return contains(answer_.called, effect);
     }
     void hold(Ask effect, bool holds) noexcept {
         if (holds) answer_.holds = answer_.holds | effect;
@@ -140,25 +173,26 @@ private:
         return {inside.answer, inside};
     }
 
+    /// Whether the distance proves a gap.
+    [[nodiscard]] bool is_apart() const noexcept {
+        return !contains(answer_.holds, Ask::distance) || answer_.distance.lower > 0;
+    }
     /// Whether the surfaces touch, if the distance tells.
-    [[nodiscard]] std::optional<Answer> touches_by_distance() const noexcept {
-        if (!called(Ask::distance) || asks_.body == Body::solid) return std::nullopt;
-        if (!contains(answer_.holds, Ask::distance) || answer_.distance.lower > 0) {
-            return Answer::no;
-        }
+    [[nodiscard]] std::optional<Answer> touch_by_distance() const noexcept {
+        if (asks_.body == Body::solid || asks_.overlap != Overlap::closed) return std::nullopt;
+        if (is_apart()) return Answer::no;
         return answer_.distance.upper == 0 ? std::optional(Answer::yes) : std::nullopt;
     }
 
     /// Whether the surfaces are near, if the distance tells.
     [[nodiscard]] std::optional<bool> within_by_distance() const noexcept {
-        if (!called(Ask::distance)) return std::nullopt;
         // The surfaces of solids are at least as far apart as the solids.
         if (!contains(answer_.holds, Ask::distance)) {
             return asks_.tolerance <= asks_.max_distance ? std::optional(false) : std::nullopt;
         }
         if (answer_.distance.lower > asks_.tolerance) return false;
-        const bool is_near =
-            asks_.body == Body::surface && answer_.distance.upper <= asks_.tolerance;
+        if (asks_.body == Body::solid) return std::nullopt;
+        const bool is_near = answer_.distance.upper <= asks_.tolerance;
         return is_near ? std::optional(true) : std::nullopt;
     }
 
@@ -166,27 +200,72 @@ private:
     const Pair& pair_;
     const LayerPair& asks_;
     Workspace& workspace_;
+    const ListWriters& lists_;
     PairAnswer& answer_;
 };
 
+namespace {
+
+/// The effects of two objects, in the order of the bits of a kernel's number.
+constexpr std::array kPairEffects = {Ask::collide,  Ask::overlap,    Ask::within, Ask::distance,
+                                     Ask::contacts, Ask::continuous, Ask::haptic};
+constexpr std::size_t kKernels = std::size_t{1} << kPairEffects.size();
+
+constexpr Ask effects_of_kernel(std::size_t number) noexcept {
+    Ask effects = Ask::nothing;
+    for (std::size_t i = 0; i < kPairEffects.size(); ++i) {
+        if ((number >> i & 1) != 0) effects = effects | kPairEffects[i];
+    }
+    return effects;
+}
+
+template <Ask kEffects>
+void ask_effects(PairQueries& queries) noexcept {
+    if constexpr (contains(kEffects, Ask::overlap)) queries.overlap();
+    if constexpr (contains(kEffects, Ask::distance)) queries.distance();
+    if constexpr (contains(kEffects, Ask::collide)) {
+        queries.template collide<kEffects&(Ask::overlap | Ask::distance)>();
+    }
+    if constexpr (contains(kEffects, Ask::within)) {
+        queries.template within<kEffects & Ask::distance>();
+    }
+    if constexpr (contains(kEffects, Ask::contacts)) queries.contacts();
+    if constexpr (contains(kEffects, Ask::continuous)) queries.continuous();
+    if constexpr (contains(kEffects, Ask::haptic)) queries.haptic();
+}
+
+template <std::size_t kNumber>
+constexpr PairKernel kernel_of() noexcept {
+    constexpr Ask kEffects = effects_of_kernel(kNumber);
+    if constexpr (are_built_together(kEffects)) return &ask_effects<kEffects>;
+    return nullptr;
+}
+
+template <std::size_t... kNumbers>
+constexpr std::array<PairKernel, kKernels> all_kernels(
+    std::index_sequence<kNumbers...> /*numbers*/) noexcept {
+    return {kernel_of<kNumbers>()...};
+}
+
+constexpr std::array<PairKernel, kKernels> kPairKernels =
+    all_kernels(std::make_index_sequence<kKernels>());
+
 }  // namespace
 
-PairAnswer ask_pair(const PairQuestion& question, Workspace& workspace,
+PairKernel pair_kernel(Ask effects) noexcept {
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < kPairEffects.size(); ++i) {
+        if (contains(effects, kPairEffects[i])) number |= std::size_t{1} << i;
+    }
+    return effects_of_kernel(number) == effects ? kPairKernels[number] : nullptr;
+}
+
+PairAnswer ask_pair(const PairQuestion& question, PairKernel kernel, Workspace& workspace,
                     const ListWriters& lists) noexcept {
-    const Ask effects = question.effects;
     PairAnswer answer;
     answer.touched = question.touched;
-    PairQueries queries(question, workspace, answer);
-    const auto ask = [&](Ask effect, const auto& query) {
-        if (contains(effects, effect)) timed(lists, effect, query);
-    };
-    ask(Ask::overlap, [&] { queries.overlap(*lists.triangle_pairs); });
-    ask(Ask::distance, [&] { queries.distance(); });
-    ask(Ask::collide, [&] { queries.collide(); });
-    ask(Ask::within, [&] { queries.within(); });
-    ask(Ask::contacts, [&] { queries.contacts(lists); });
-    ask(Ask::continuous, [&] { queries.continuous(); });
-    ask(Ask::haptic, [&] { queries.haptic(); });
+    PairQueries queries(question, workspace, lists, answer);
+    kernel(queries);
     return answer;
 }
 

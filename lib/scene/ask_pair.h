@@ -26,9 +26,8 @@ struct ListWriters {
 struct PairQuestion {
     const Pair& pair;
     const LayerPair& asks;  ///< the options of the effects
-    Ask effects;
-    TreePair touched;    ///< triangles that touched in the last step, or kNoPair
-    const Pose& last_a;  ///< the poses at the begin of the step, of `continuous`
+    TreePair touched;       ///< triangles that touched in the last step, or kNoPair
+    const Pose& last_a;     ///< the poses at the begin of the step, of `continuous`
     const Pose& last_b;
     HapticRecord* haptic;  ///< of `haptic`, otherwise null
 };
@@ -45,8 +44,19 @@ struct PairAnswer {
     TreePair touched = kNoPair;     ///< triangles found to touch
 };
 
-[[nodiscard]] PairAnswer ask_pair(const PairQuestion& question, Workspace& workspace,
-                                  const ListWriters& lists) noexcept;
+/// The queries about two objects: see ask_pair.cpp.
+class PairQueries;
+
+/// Asks one set of effects. There is an instance for each set, and none decides what to ask while
+/// it runs.
+using PairKernel = void (*)(PairQueries& queries) noexcept;
+
+/// Returns the instance for a set of effects of two objects. Null for a set that Plan refuses.
+[[nodiscard]] PairKernel pair_kernel(Ask effects) noexcept;
+
+/// Asks the effects of a kernel.
+[[nodiscard]] PairAnswer ask_pair(const PairQuestion& question, PairKernel kernel,
+                                  Workspace& workspace, const ListWriters& lists) noexcept;
 
 /// Finds the triangles of one object that overlap each other.
 [[nodiscard]] PairAnswer ask_self(const Model& model, Workspace& workspace,

@@ -170,7 +170,7 @@ private:
                 "itself.");
         }
         if (!has(pair.effects, Ask::haptic)) return;
-        if (has(pair.effects, Ask::distance)) {
+        if (!are_built_together(effects_between(pair))) {
             add(place +
                 "haptic is a distance within a limit of work. Ask for haptic or for "
                 "distance.");

@@ -21,6 +21,11 @@ inline Ask effects_between(const LayerPair& pair) noexcept {
     return without(pair.effects, Ask::self | kSceneChanges);
 }
 
+/// Whether Plan accepts these effects of two objects for a pair of layers.
+constexpr bool are_built_together(Ask effects) noexcept {
+    return !contains(effects, Ask::haptic | Ask::distance);
+}
+
 /// The place of an effect among kSceneEffects.
 inline std::size_t effect_number(Ask effect) noexcept {
     const auto* const at = std::find(kSceneEffects.begin(), kSceneEffects.end(), effect);

@@ -205,6 +205,13 @@ ListWriters Scene::State::start_lists(std::size_t worker) noexcept {
     return lists;
 }
 
+void Scene::State::choose_kernels() noexcept {
+    const std::span<const LayerPair> pairs = plan->pairs();
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        kernels[i] = pair_kernel(without(effects_between(pairs[i]), paused));
+    }
+}
+
 PairAnswer Scene::State::ask_two(std::uint32_t number, const ObjectSlot& a, const ObjectSlot& b,
                                  Workspace& workspace, const ListWriters& lists) noexcept {
     const Record& record = next.record[number];
@@ -214,11 +221,10 @@ PairAnswer Scene::State::ask_two(std::uint32_t number, const ObjectSlot& a, cons
                     Placement::world(a.pose, b.pose),
                     {.body = asks.body, .overlap = asks.overlap}};
     const bool has_ways = last_poses != nullptr;
-    return ask_pair(
-        {pair, asks, record.asked, record.touched, has_ways ? last_poses[record.a.slot] : a.pose,
-         has_ways ? last_poses[record.b.slot] : b.pose,
-         next.haptic != nullptr ? next.haptic + number : nullptr},
-        workspace, lists);
+    return ask_pair({pair, asks, record.touched, has_ways ? last_poses[record.a.slot] : a.pose,
+                     has_ways ? last_poses[record.b.slot] : b.pose,
+                     next.haptic != nullptr ? next.haptic + number : nullptr},
+                    kernels[record.pair], workspace, lists);
 }
 
 /// Asks what the plan asks for.
@@ -440,6 +446,7 @@ void Scene::State::accept_changes() noexcept {
 SceneStep Scene::State::compute(std::uint64_t begin, std::span<Workspace> workspaces,
                                 ParallelFor parallel_for) noexcept {
     keep_known();
+    choose_kernels();
     const std::uint64_t queries_begin = now();
     box_ticks = queries_begin - begin;
     ask_all(workspaces, parallel_for);

@@ -57,6 +57,7 @@ struct Scene::State {
           filters(carver.take<BoxFilter>(of.limits().objects)),
           changed(carver.take<std::uint32_t>(of.limits().objects)),
           asked(carver.take<std::uint32_t>(of.limits().pairs)),
+          kernels(carver.take<PairKernel>(of.pairs().size())),
           ticks(carver.take<EffectTicks>(of.limits().threads)),
           hits(carver.take<SceneHit>(of.limits().pairs)),
           events(carver.take<SceneEvent>(2 * effect_count(planned) * of.limits().pairs)),
@@ -115,6 +116,7 @@ struct Scene::State {
     [[nodiscard]] std::uint64_t list_given(std::span<const BoxPair> candidates) noexcept;
     void keep(std::uint32_t old, std::uint32_t now) noexcept;
     void keep_known() noexcept;
+    void choose_kernels() noexcept;
     [[nodiscard]] ListWriters start_lists(std::size_t worker) noexcept;
     [[nodiscard]] PairAnswer ask_two(std::uint32_t number, const ObjectSlot& a, const ObjectSlot& b,
                                      Workspace& workspace, const ListWriters& lists) noexcept;
@@ -149,6 +151,7 @@ struct Scene::State {
     BoxFilter* filters;
     std::uint32_t* changed;  ///< slots
     std::uint32_t* asked;    ///< numbers of records in `next`
+    PairKernel* kernels;     ///< of this step, by pair of layers
     EffectTicks* ticks;      ///< by worker
     /// By slot: the content hash of the model in the last step that was complete.
     std::uint64_t* shapes = nullptr;

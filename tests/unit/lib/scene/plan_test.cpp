@@ -12,6 +12,7 @@
 
 #include "cdprep/format/sections.h"
 #include "cdprep/scene.h"
+#include "scene/ask_pair.h"
 
 namespace cdprep {
 namespace {
@@ -155,8 +156,12 @@ TEST(Plan, DecidesEverySetOfEffects) {
         ASSERT_EQ(made.refusals, expected) << set;
         ASSERT_EQ(made.plan.has_value(), expected.empty());
         (expected.empty() ? built : refused)++;
+        // Each set of effects of two objects has a kernel, and only those that are built together.
+        const Ask of_two = effects_between(pair);
+        ASSERT_EQ(pair_kernel(of_two) != nullptr, !contains(of_two, Ask::haptic | Ask::distance));
         if (expected.empty()) {
             ASSERT_EQ(made.plan->effects(), pair.effects);
+            ASSERT_NE(pair_kernel(of_two), nullptr);
         }
     }
     // By hand. Of one layer, without and with a change: (3/4 * 256, of haptic and distance) and 3
@@ -164,6 +169,18 @@ TEST(Plan, DecidesEverySetOfEffects) {
     // Solids: without haptic, 128 sets, of which 120 read the body; with a change 32 and 24.
     EXPECT_EQ(built, 192 + 3 * 48 + 96 + 3 * 24 + 120 + 3 * 24 + 60 + 3 * 12);
     EXPECT_GT(refused, 1000);
+}
+
+TEST(Plan, HasNoKernelForEffectsOfSingleObjects) {
+    for (int bit = 0; bit < 32; ++bit) {
+        const auto one = static_cast<Ask>(1U << bit);
+        const bool is_of_two =
+            std::find(kSceneEffects.begin(), kSceneEffects.end(), one) != kSceneEffects.end() &&
+            one != Ask::self;
+        EXPECT_EQ(pair_kernel(one) != nullptr, is_of_two) << bit;
+        EXPECT_EQ(pair_kernel(one | Ask::overlap) != nullptr, is_of_two) << bit;
+    }
+    EXPECT_NE(pair_kernel(Ask::nothing), nullptr);
 }
 
 TEST(Plan, RefusesEachOtherEffectByItsName) {
