@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
+#include "cdprep/format/float_environment.h"
 #include "core/require.h"
 
 namespace cdprep {
@@ -26,6 +28,23 @@ std::optional<std::uint32_t> find_hull(const Model& model, HullScope scope,
                          [&](const Hull& hull, std::uint64_t key) { return place(hull) < key; });
     if (found == hulls.end() || place(*found) != sought) return std::nullopt;
     return static_cast<std::uint32_t>(found - hulls.begin());
+}
+
+EnclosingParts enclosing_parts(const Model& model) noexcept {
+    const format::FloatEnvironment environment;
+    if (!model.serves(Ask::hulls) || !model.is_balanced()) return {};
+    if (model.record().components.size() != 1) return {};
+    const std::optional<std::uint32_t> first = find_hull(model, HullScope::part);
+    if (!first) return {};
+    EnclosingParts parts{.first = *first};
+    for (const Hull& hull : model.hulls().hulls.subspan(*first)) {
+        // Only a damaged file holds another number.
+        if (!(hull.distance >= 0 && std::isfinite(hull.distance))) return {};
+        ++parts.count;
+        parts.error = std::max(parts.error, hull.distance);
+        parts.size = std::max(parts.size, hull.reach.x + hull.reach.y + hull.reach.z);
+    }
+    return parts;
 }
 
 ConvexPoints convex_points(const Model& model, std::uint32_t hull) noexcept {

@@ -21,6 +21,20 @@ namespace cdprep {
                                                                 format::HullScope scope,
                                                                 std::uint32_t number = 0) noexcept;
 
+/// The parts that stand for the solid of a model. Together they contain the solid.
+struct EnclosingParts {
+    std::uint32_t first = 0;  ///< part 0 in Model::hulls().hulls; the others follow
+    std::uint32_t count = 0;  ///< 0: no parts stand for the solid
+    double error = 0;         ///< no point of a part is farther from the solid, model units
+    double size = 0;          ///< at least |x| + |y| + |z| of every point of a part, model units
+};
+
+/// Returns the parts that stand for the solid of a model. There are none if the model is open or
+/// has no parts. The sections of hulls and `components` must be open. A LiveModel has none. A model
+/// of several components has none either. Where components overlap, parts and winding numbers may
+/// not agree what is inside. Needs no Ask. Takes O(parts) time.
+[[nodiscard]] CDPREP_API EnclosingParts enclosing_parts(const Model& model) noexcept;
+
 /// Returns the corners of a hull, as input for queries. They refer to the file's memory and are
 /// valid as long as the model. Needs Ask::hulls. `hull` must be below model.hulls().hulls.size().
 /// The hull of an empty set has the count 0.
