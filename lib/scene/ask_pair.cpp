@@ -8,6 +8,7 @@
 
 #include "cdprep/self.h"
 #include "scene/object_box.h"
+#include "scene/part_distance.h"
 
 // Queries begin at the roots of both models, not with the potentially colliding set (GLOSSARY.md).
 // Simulated walks over the same boxes were counted. The set takes 290 to 5,400 tests of boxes a
@@ -85,8 +86,11 @@ private:
 
     void find_distance() noexcept {
         call(Ask::distance);
-        const auto found =
-            cdprep::distance(pair_, workspace_, {.max_distance = asks_.max_distance});
+        const auto found = has_parts() ? distance_of_parts(pair_, *question_.parts_a,
+                                                           *question_.parts_b, asks_.max_distance)
+                                       : cdprep::distance(pair_, workspace_,
+                                                          {.absolute_error = question_.max_error,
+                                                           .max_distance = asks_.max_distance});
         if (found) answer_.distance = *found;
         hold(Ask::distance, found.has_value());
     }
@@ -99,8 +103,13 @@ private:
         } else if constexpr (contains(kAsked, Ask::distance)) {
             known = touch_by_distance();
         }
-        // Whether one solid is inside the other is a query of its own.
-        if (asks_.body == Body::solid && known != Answer::yes) known = std::nullopt;
+        // Whether one solid is inside the other is a query of its own, unless parts have told.
+        if (asks_.body == Body::solid && known != Answer::yes) {
+            known = std::nullopt;
+            if constexpr (contains(kAsked, Ask::distance)) {
+                if (has_parts()) known = is_apart() ? Answer::no : Answer::yes;
+            }
+        }
         if (known) {
             answer_.collision.hit = *known;
         } else {
@@ -161,6 +170,9 @@ private:
     void call(Ask effect) noexcept {
         answer_.called = answer_.called | effect;
     }
+    [[nodiscard]] bool has_parts() const noexcept {
+        return question_.parts_a != nullptr;
+    }
     void hold(Ask effect, bool holds) noexcept {
         if (holds) answer_.holds = answer_.holds | effect;
     }
@@ -184,7 +196,8 @@ private:
         return answer_.distance.upper == 0 ? std::optional(Answer::yes) : std::nullopt;
     }
 
-    /// Whether the surfaces are near, if the distance tells.
+    /// Whether the surfaces are near, if the distance tells. If an error is permitted, it always
+    /// tells of surfaces that are measured.
     [[nodiscard]] std::optional<bool> within_by_distance() const noexcept {
         // The surfaces of solids are at least as far apart as the solids.
         if (!contains(answer_.holds, Ask::distance)) {
@@ -192,7 +205,7 @@ private:
         }
         if (answer_.distance.lower > asks_.tolerance) return false;
         if (asks_.body == Body::solid) return std::nullopt;
-        const bool is_near = answer_.distance.upper <= asks_.tolerance;
+        const bool is_near = question_.max_error > 0 || answer_.distance.upper <= asks_.tolerance;
         return is_near ? std::optional(true) : std::nullopt;
     }
 

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "cdprep/contacts.h"
+#include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
 #include "cdprep/scene.h"
 #include "scene/list_pages.h"
@@ -29,7 +30,10 @@ struct PairQuestion {
     TreePair touched;       ///< triangles that touched in the last step, or kNoPair
     const Pose& last_a;     ///< the poses at the begin of the step, of `continuous`
     const Pose& last_b;
-    HapticRecord* haptic;  ///< of `haptic`, otherwise null
+    HapticRecord* haptic;           ///< of `haptic`, otherwise null
+    double max_error;               ///< of `distance`: PairRung::error
+    const EnclosingParts* parts_a;  ///< null: the rung is the walk
+    const EnclosingParts* parts_b;
 };
 
 /// What is known of two objects.

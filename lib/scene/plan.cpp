@@ -139,6 +139,8 @@ private:
         check_number(place, "tolerance", pair.tolerance, has(pair.effects, Ask::within), "within");
         check_number(place, "max_distance", pair.max_distance,
                      has_any(pair.effects, kReadsMaxDistance), "distance or haptic");
+        check_number(place, "max_error", pair.max_error, has(pair.effects, Ask::distance),
+                     "distance");
         if (pair.body != Body::surface && !has_any(pair.effects, kReadsBody)) {
             add(place + "body has no meaning without collide, distance, contacts or continuous.");
         }
@@ -256,19 +258,65 @@ private:
     std::vector<std::string> sentences_;
 };
 
+/// What the parts of all models of a layer certify.
+struct LayerParts {
+    std::uint32_t count = 0;  ///< the most parts of a model; 0: some model has none
+    double error = 0;         ///< the largest
+};
+
+LayerParts parts_of_layer(std::span<const ModelUse> models, std::uint32_t layer) noexcept {
+    LayerParts all;
+    for (const ModelUse& model : models) {
+        if ((model.layers >> layer & 1) == 0) continue;
+        const bool has_parts = model.parts.count > 0 && has(model.serves, Ask::hulls);
+        if (!has_parts || !(model.parts.error >= 0)) return {};
+        all.count = std::max(all.count, model.parts.count);
+        all.error = std::max(all.error, model.parts.error);
+    }
+    return all;
+}
+
+/// Chooses the rung of a pair. Parts do not follow models that change.
+PairRung rung_for(const LayerPair& pair, const PlanOptions& options,
+                  std::uint32_t changing_layers) noexcept {
+    PairRung walk;
+    if (has(pair.effects, Ask::distance)) walk.error = pair.max_error;
+    const bool changes = ((changing_layers >> pair.a | changing_layers >> pair.b) & 1) != 0;
+    if (walk.error == 0 || pair.body != Body::solid || changes) return walk;
+    const LayerParts a = parts_of_layer(options.models, pair.a);
+    const LayerParts b = parts_of_layer(options.models, pair.b);
+    const std::uint64_t pairs = std::uint64_t{a.count} * b.count;
+    const double error = a.error + b.error;
+    if (pairs == 0 || pairs > kMostPartPairs || !(error <= pair.max_error)) return walk;
+    return {Rung::parts, error, a.count, b.count};
+}
+
+std::string rung_text(const LayerPair& pair, const PairRung& rung) {
+    if (pair.max_error == 0) return {};
+    std::string text = "; max_error " + number_text(pair.max_error) + ": by ";
+    if (rung.rung == Rung::parts) {
+        text += "enclosing parts, at most " + std::to_string(rung.parts_a) + " and " +
+                std::to_string(rung.parts_b);
+    } else {
+        text += "the walk";
+    }
+    return text + ", error at most " + number_text(rung.error);
+}
+
 /// The query from which the answer of collide() follows: see PairQueries.
-const char* source_of(const LayerPair& pair) {
+const char* source_of(const LayerPair& pair, const PairRung& rung) {
     const bool is_solid = pair.body == Body::solid;
     if (has(pair.effects, Ask::overlap)) {
         return is_solid ? " (from overlap if any triangles overlap)" : " (from overlap)";
     }
+    if (rung.rung == Rung::parts) return " (from distance)";
     const bool is_told =
         has(pair.effects, Ask::distance) && !is_solid && pair.overlap == Overlap::closed;
     return is_told ? " (mostly from distance)" : "";
 }
 
 /// What a pair of layers computes: "collide, distance up to 2".
-std::string effects_text(const LayerPair& pair) {
+std::string effects_text(const LayerPair& pair, const PairRung& rung) {
     std::string effects;
     const auto add = [&](const std::string& text) {
         effects += (effects.empty() ? "" : ", ") + text;
@@ -285,7 +333,7 @@ std::string effects_text(const LayerPair& pair) {
     }
     if (has(pair.effects, Ask::self)) add("self (each object)");
     if (has(pair.effects, Ask::collide)) {
-        add("collide" + solid + proper + source_of(pair));
+        add("collide" + solid + proper + source_of(pair, rung));
     }
     if (has_overlap) add("overlap" + proper);
     if (has(pair.effects, Ask::within)) {
@@ -310,7 +358,7 @@ std::string effects_text(const LayerPair& pair) {
             std::to_string(pair.work));
     }
     if (pair.lists_stays) add("events for what goes on");
-    return effects;
+    return effects + rung_text(pair, rung);
 }
 
 /// The features that models must serve: "collide and solid".
@@ -366,6 +414,8 @@ Plan::Plan(const PlanOptions& options)
         const auto number = static_cast<std::uint16_t>(pairs_.size());
         number_[pair.a * kLayers + pair.b] = number_[pair.b * kLayers + pair.a] = number;
     }
+    const std::uint32_t changing = layers_of(kSceneChanges);
+    for (const LayerPair& pair : pairs_) rungs_.push_back(rung_for(pair, options, changing));
 }
 
 Plan::Compiled Plan::compile(const PlanOptions& options) {
@@ -384,8 +434,11 @@ std::optional<std::uint32_t> Plan::find_pair(std::uint32_t a, std::uint32_t b) c
 
 Ask Plan::asks_of(std::uint32_t layer) const noexcept {
     Ask asks = Ask::nothing;
-    for (const LayerPair& pair : pairs_) {
-        if (pair.a == layer || pair.b == layer) asks = asks | asks_of_models(pair);
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        const LayerPair& pair = pairs_[i];
+        if (pair.a != layer && pair.b != layer) continue;
+        asks = asks | asks_of_models(pair);
+        if (rungs_[i].rung == Rung::parts) asks = asks | Ask::hulls;
     }
     return asks;
 }
@@ -428,9 +481,9 @@ Ask Plan::effects() const noexcept {
 
 std::string Plan::describe() const {
     std::string text;
-    for (const LayerPair& pair : pairs_) {
-        text += "layers " + layers_text(layer_names_, pair.a, pair.b) + ": " + effects_text(pair) +
-                "\n";
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+        text += "layers " + layers_text(layer_names_, pairs_[i].a, pairs_[i].b) + ": " +
+                effects_text(pairs_[i], rungs_[i]) + "\n";
     }
     std::string rest;
     for (const Ask one : kSceneEffects) {

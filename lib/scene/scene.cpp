@@ -127,6 +127,7 @@ std::optional<ObjectId> Scene::add(const SceneObject& object) noexcept {
     place.layer = place.last_layer = object.layer;
     if (state.last_poses != nullptr) state.last_poses[slot] = object.world_from_model;
     if (++place.generation == 0) place.generation = 1;
+    state.find_parts(slot);
     state.change(slot);
     ++state.object_count;
     return ObjectId{slot, place.generation};
@@ -164,6 +165,7 @@ bool Scene::set_layer(ObjectId object, std::uint32_t layer) noexcept {
     require(*found->model, state_->plan->asks_of(layer));
     if (found->layer == layer) return true;
     found->layer = layer;
+    state_->find_parts(object.slot);
     state_->change(object.slot);
     return true;
 }

@@ -17,6 +17,14 @@ ObjectSlot* Scene::State::find(ObjectId id) noexcept {
     return object.model != nullptr && object.generation == id.generation ? &object : nullptr;
 }
 
+/// Learns what parts the model of a slot has. None does that no pair of its layer asks through.
+void Scene::State::find_parts(std::uint32_t slot) noexcept {
+    if (parts == nullptr) return;
+    const ObjectSlot& object = objects[slot];
+    const bool is_asked = contains(plan->asks_of(object.layer), Ask::hulls);
+    parts[slot] = is_asked ? enclosing_parts(*object.model) : EnclosingParts{};
+}
+
 void Scene::State::change(std::uint32_t slot) noexcept {
     if (!std::exchange(objects[slot].is_changed, true)) changed[changed_count++] = slot;
 }
@@ -221,10 +229,25 @@ PairAnswer Scene::State::ask_two(std::uint32_t number, const ObjectSlot& a, cons
                     Placement::world(a.pose, b.pose),
                     {.body = asks.body, .overlap = asks.overlap}};
     const bool has_ways = last_poses != nullptr;
-    return ask_pair({pair, asks, record.touched, has_ways ? last_poses[record.a.slot] : a.pose,
-                     has_ways ? last_poses[record.b.slot] : b.pose,
-                     next.haptic != nullptr ? next.haptic + number : nullptr},
-                    kernels[record.pair], workspace, lists);
+    const PairRung& rung = plan->rungs()[record.pair];
+    PairQuestion question = {pair,
+                             asks,
+                             record.touched,
+                             has_ways ? last_poses[record.a.slot] : a.pose,
+                             has_ways ? last_poses[record.b.slot] : b.pose,
+                             next.haptic != nullptr ? next.haptic + number : nullptr,
+                             rung.error,
+                             nullptr,
+                             nullptr};
+    if (rung.rung == Rung::parts) {
+        const EnclosingParts &of_a = parts[record.a.slot], &of_b = parts[record.b.slot];
+        // The plan has not seen the models of all objects.
+        if (of_a.count > 0 && of_b.count > 0 && of_a.error + of_b.error <= rung.error) {
+            question.parts_a = &of_a;
+            question.parts_b = &of_b;
+        }
+    }
+    return ask_pair(question, kernels[record.pair], workspace, lists);
 }
 
 /// Asks what the plan asks for.

@@ -64,6 +64,10 @@ struct Scene::State {
           last(carver, of),
           next(carver, of) {
         const SceneLimits& limits = of.limits();
+        const auto has_parts = [](const PairRung& rung) { return rung.rung == Rung::parts; };
+        if (std::any_of(of.rungs().begin(), of.rungs().end(), has_parts)) {
+            parts = carver.take<EnclosingParts>(limits.objects);
+        }
         if (is_planned(Ask::distance)) distances = carver.take<SceneDistance>(limits.pairs);
         if (changing_layers != 0 || self_layers != 0) {
             shapes = carver.take<std::uint64_t>(limits.objects);
@@ -116,6 +120,7 @@ struct Scene::State {
     [[nodiscard]] std::uint64_t list_given(std::span<const BoxPair> candidates) noexcept;
     void keep(std::uint32_t old, std::uint32_t now) noexcept;
     void keep_known() noexcept;
+    void find_parts(std::uint32_t slot) noexcept;
     void choose_kernels() noexcept;
     [[nodiscard]] ListWriters start_lists(std::size_t worker) noexcept;
     [[nodiscard]] PairAnswer ask_two(std::uint32_t number, const ObjectSlot& a, const ObjectSlot& b,
@@ -157,6 +162,7 @@ struct Scene::State {
     std::uint64_t* shapes = nullptr;
     /// By slot: where its way begins, which is the pose of that step or of put().
     Pose* last_poses = nullptr;
+    EnclosingParts* parts = nullptr;  ///< by slot; null: no rung has parts
     SceneClock clock = nullptr;
     SceneHit* hits;
     SceneEvent* events;

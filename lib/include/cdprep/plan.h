@@ -14,6 +14,7 @@
 #include "cdprep/broad_phase.h"
 #include "cdprep/contacts.h"
 #include "cdprep/format/api.h"
+#include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
 #include "cdprep/time_of_impact.h"
 
@@ -48,6 +49,9 @@ struct LayerPair {
     /// Of `distance` and `haptic`: farther objects have none. In units of the models; finite, at
     /// least 0.
     double max_distance = 0;
+    /// Of `distance`: the error that its answers may have, and those that follow from them (Rung).
+    /// In units of the models; finite, at least 0. 0: answers are exact.
+    double max_error = 0;
     Body body = Body::surface;          ///< of `collide`, `distance`, `contacts` and `continuous`
     Overlap overlap = Overlap::closed;  ///< of `collide` and `overlap`
     /// Of `contacts`: the tolerance is finite, and `most` is at least 1.
@@ -58,11 +62,54 @@ struct LayerPair {
     bool lists_stays = false;
 };
 
+/// How distances are computed that LayerPair::max_error permits to be inexact. The plan chooses the
+/// cheapest way that is certified for every model of both layers. It reads numbers of the files and
+/// never a clock, so the same files give the same plan.
+///
+/// `distance`: [lower, upper] contains the exact distance, and is at most PairRung::error wide,
+/// plus rounding. Rounding is at most 3e-12 of `upper` and 1e-13 of the largest coordinate.
+///
+/// Flags: a `no` is right. A `yes` may be wrong if the exact distance is above the threshold by at
+/// most PairRung::error, plus rounding. The threshold is 0 for `collide`, max_distance for
+/// `distance`, and the tolerance for `within`. `within` is exact unless distances of surfaces are
+/// asked too, and `collide` unless parts tell the distance. While `distance` is paused, both are
+/// exact. So are all other effects: they are as cheap.
+///
+/// Levels of a tetra-tree are no rung: a scene does not need cdprep::cells, a library of its own.
+enum class Rung : std::uint8_t {
+    /// Through the BVH. The search of `distance` ends at max_error; all else is exact.
+    walk,
+    /// Of solids: through their enclosing parts (EnclosingParts). Witnesses lie on parts, as far
+    /// from the solids as the parts' errors say, and have no triangles: kNoTriangleNumber. If parts
+    /// touch, solids collide; `collide` then tells no containment. Two objects whose own parts do
+    /// not certify PairRung::error take the walk.
+    parts,
+};
+
+/// The largest product of part counts of two models for which parts are cheaper than the walk:
+/// measured, see lib/scene/part_distance.h.
+inline constexpr std::uint64_t kMostPartPairs = 6;
+
+/// Instead of a triangle of a Distance: its witness lies on no triangle.
+inline constexpr std::uint32_t kNoTriangleNumber = 0xffffffffU;
+
+/// The rung of a pair of layers.
+struct PairRung {
+    Rung rung = Rung::walk;
+    double error = 0;  ///< certified: the largest error of an answer, model units
+    /// Of Rung::parts: the most parts of a model of LayerPair::a and ::b, otherwise 0.
+    std::uint32_t parts_a = 0;
+    std::uint32_t parts_b = 0;
+};
+
 /// The use of a model in a scene.
 struct ModelUse {
     std::string_view name;  ///< for refusals
     Ask serves;             ///< Model::asks()
     std::uint32_t layers;   ///< of its objects: bit i for layer i
+    /// enclosing_parts() of the model. Rung::parts needs them of all models of a layer, and that
+    /// these serve Ask::hulls.
+    EnclosingParts parts = {};
 };
 
 struct SceneLimits {
@@ -113,11 +160,16 @@ public:
     [[nodiscard]] std::span<const LayerPair> pairs() const noexcept {
         return pairs_;
     }
+    /// The rung of each pair of pairs(). It is exact if LayerPair::max_error is 0.
+    [[nodiscard]] std::span<const PairRung> rungs() const noexcept {
+        return rungs_;
+    }
     /// Returns the number of the pair of two layers among pairs(), or nothing if they are not
     /// paired.
     [[nodiscard]] CDPREP_API std::optional<std::uint32_t> find_pair(std::uint32_t a,
                                                                     std::uint32_t b) const noexcept;
-    /// Returns what the objects of a layer are asked for: open their models for this.
+    /// Returns what the objects of a layer are asked for: open their models for this. It includes
+    /// Ask::hulls for Rung::parts.
     [[nodiscard]] CDPREP_API Ask asks_of(std::uint32_t layer) const noexcept;
     /// Returns the layers with which a layer is paired. A pair counts as none if it asks for no
     /// effect of two objects, but for `self`, Ask::deform or Ask::tear.
@@ -145,6 +197,7 @@ private:
     /// Those that have a name, a model or a pair in the options: bit i for layer i.
     std::uint32_t layers_ = 0;
     std::vector<LayerPair> pairs_;
+    std::vector<PairRung> rungs_;  ///< of pairs_
     std::vector<std::string> layer_names_;
     /// [a][b]: 1 more than the pair's number.
     std::array<std::uint16_t, std::size_t{kLayers} * kLayers> number_{};

@@ -52,7 +52,8 @@ struct SceneHit {
     Collision collision;
 };
 
-/// The distance of two objects.
+/// The distance of two objects. With LayerPair::max_error, its bounds are as wide as Rung says.
+/// With Rung::parts, it has no triangles, and its witnesses are those of parts.
 struct SceneDistance {
     ObjectId a;
     ObjectId b;
@@ -264,8 +265,8 @@ public:
     /// Returns a hash of all hits, lists, distances, impacts and events. It leaves out witness
     /// points, features, the points of manifolds and the bounds of impacts. For distances of 0, it
     /// leaves out the triangles. It is equal for any number of threads and any instruction set.
-    /// Exceptions are answers of `haptic` and impacts that are `near`: they may differ between
-    /// instruction sets.
+    /// Exceptions are answers of `haptic`, those with a max_error, and impacts that are `near`. They
+    /// may differ between instruction sets.
     [[nodiscard]] CDPREP_API std::uint64_t state_hash() const noexcept;
 
 private:

@@ -183,6 +183,120 @@ TEST(Plan, HasNoKernelForEffectsOfSingleObjects) {
     EXPECT_NE(pair_kernel(Ask::nothing), nullptr);
 }
 
+// Rungs ---------------------------------------------------------------------------------------
+
+constexpr Ask kServesParts = Ask::collide | Ask::distance | Ask::solid | Ask::hulls;
+
+ModelUse with_parts(std::uint32_t layers, std::uint32_t count, double error) {
+    return {"m", kServesParts, layers, {.first = 3, .count = count, .error = error, .size = 1}};
+}
+
+LayerPair near_solids(double max_error) {
+    return {.a = 0,
+            .b = 1,
+            .effects = Ask::collide | Ask::distance,
+            .max_distance = 2,
+            .max_error = max_error,
+            .body = Body::solid};
+}
+
+PairRung rung_of(const LayerPair& pair, const std::vector<ModelUse>& models) {
+    const auto made = compiled({pair}, models);
+    EXPECT_EQ(made.refusals, Sentences());
+    return made.plan->rungs()[0];
+}
+
+// By hand: 0.25 and 0.125 are the largest errors of the two layers, 3 and 2 the most parts.
+TEST(Plan, ChoosesPartsThatCertifyTheError) {
+    const std::vector<ModelUse> models = {with_parts(1, 3, 0.25), with_parts(2, 2, 0.125),
+                                          with_parts(2, 1, 0)};
+    const auto made = compiled({near_solids(0.375)}, models);
+    ASSERT_TRUE(made.plan);
+    const PairRung& rung = made.plan->rungs()[0];
+    EXPECT_EQ(rung.rung, Rung::parts);
+    EXPECT_EQ(rung.error, 0.375);
+    EXPECT_EQ(rung.parts_a, 3U);
+    EXPECT_EQ(rung.parts_b, 2U);
+    for (const std::uint32_t layer : {0, 1}) {
+        EXPECT_EQ(made.plan->asks_of(layer), kServesParts);
+    }
+    const std::string text = made.plan->describe();
+    EXPECT_EQ(text.substr(0, text.find('\n')),
+              "layers 0 and 1: collide of solids (from distance), distance of solids up to 2; "
+              "max_error 0.375: by enclosing parts, at most 3 and 2, error at most 0.375");
+    EXPECT_NE(text.find("hull_blocks"), std::string::npos);
+}
+
+TEST(Plan, ChoosesTheWalkWherePartsDoNotCertify) {
+    const std::vector<ModelUse> models = {with_parts(1, 3, 0.25), with_parts(2, 2, 0.125)};
+    const double less = std::nextafter(0.375, 0);
+    const auto made = compiled({near_solids(less)}, models);
+    ASSERT_TRUE(made.plan);
+    EXPECT_EQ(made.plan->rungs()[0].rung, Rung::walk);
+    EXPECT_EQ(made.plan->rungs()[0].error, less);
+    EXPECT_EQ(made.plan->asks_of(0), without(kServesParts, Ask::hulls));
+    const std::string text = made.plan->describe();
+    EXPECT_EQ(text.substr(0, text.find('\n')),
+              "layers 0 and 1: collide of solids, distance of solids up to 2; max_error "
+              "0.37499999999999994: by the walk, error at most 0.37499999999999994");
+    // Without max_error, nothing is permitted, and nothing told.
+    EXPECT_EQ(rung_of(near_solids(0), {with_parts(3, 1, 0)}).rung, Rung::walk);
+    EXPECT_EQ(compiled({near_solids(0)}, models).plan->describe().find("max_error"),
+              std::string::npos);
+}
+
+TEST(Plan, ChoosesPartsWhereTheyAreFew) {
+    constexpr auto kMost = static_cast<std::uint32_t>(kMostPartPairs);
+    EXPECT_EQ(rung_of(near_solids(1), {with_parts(1, kMost, 0), with_parts(2, 1, 0)}).rung,
+              Rung::parts);
+    EXPECT_EQ(rung_of(near_solids(1), {with_parts(1, kMost + 1, 0), with_parts(2, 1, 0)}).rung,
+              Rung::walk);
+    EXPECT_EQ(rung_of(near_solids(1), {with_parts(3, 1U << 31, 0)}).rung, Rung::walk);
+}
+
+// Each of these lacks parts that hold for every model of both layers.
+TEST(Plan, ChoosesTheWalkWhereModelsLackParts) {
+    const ModelUse good = with_parts(1, 1, 0), other = with_parts(2, 1, 0);
+    ASSERT_EQ(rung_of(near_solids(1), {good, other}).rung, Rung::parts);
+    ModelUse unserved = other;
+    unserved.serves = without(kServesParts, Ask::hulls);
+    constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& models :
+         std::vector<std::vector<ModelUse>>{{},
+                                            {good},
+                                            {good, with_parts(4, 1, 0)},
+                                            {good, other, with_parts(2, 0, 0)},
+                                            {good, unserved},
+                                            {good, with_parts(2, 1, kNoNumber)},
+                                            {good, with_parts(2, 1, -1)},
+                                            {good, with_parts(2, 1, HUGE_VAL)}}) {
+        EXPECT_EQ(rung_of(near_solids(1), models).rung, Rung::walk);
+    }
+    LayerPair surfaces = near_solids(1);
+    surfaces.body = Body::surface;
+    EXPECT_EQ(rung_of(surfaces, {good, other}).rung, Rung::walk);
+    // Models of layer 1 may change, because another pair says so.
+    const auto changing = compiled(
+        {near_solids(1), {.a = 1, .b = 2, .effects = Ask::collide | Ask::deform}}, {good, other});
+    ASSERT_TRUE(changing.plan);
+    EXPECT_EQ(changing.plan->rungs()[0].rung, Rung::walk);
+}
+
+TEST(Plan, RefusesAnErrorThatNoEffectReads) {
+    constexpr const char* kUnread = "max_error has no meaning without distance.";
+    EXPECT_EQ(compiled({{.a = 0, .effects = Ask::collide | Ask::within, .max_error = 1},
+                        {.a = 1, .effects = Ask::collide, .max_error = 1, .body = Body::solid},
+                        {.a = 2, .effects = Ask::haptic, .max_error = 1, .work = 1},
+                        {.a = 3, .effects = Ask::distance, .max_error = -1},
+                        {.a = 4, .effects = Ask::distance, .max_error = HUGE_VAL}})
+                  .refusals,
+              Sentences({std::string("Pair 0 of layers: ") + kUnread,
+                         std::string("Pair 1 of layers: ") + kUnread,
+                         std::string("Pair 2 of layers: ") + kUnread,
+                         "Pair 3 of layers: max_error is -1; it must be finite and at least 0.",
+                         "Pair 4 of layers: max_error is inf; it must be finite and at least 0."}));
+}
+
 TEST(Plan, RefusesEachOtherEffectByItsName) {
     int others = 0;
     for (int bit = 0; bit < 32; ++bit) {
