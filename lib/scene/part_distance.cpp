@@ -20,7 +20,7 @@ double size_of(const Double3& p) noexcept {
 }
 
 /// Returns how much rounding may change the distance of parts, relative to that of solids. A pose
-/// shifts a point by at most 5 u (|R||v| + |t|) along each axis (Placement), which is less than
+/// shifts a point by at most 5 u (|R||v| + |t|) along each axis (Placement). That is less than
 /// 10 u (size + |t|) in all. Points of parts and of solids are shifted, of both models.
 double rounding_of(const Pair& pair, const EnclosingParts& a, const EnclosingParts& b) noexcept {
     const Placement& placement = pair.placement;

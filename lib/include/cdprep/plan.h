@@ -183,8 +183,9 @@ public:
     [[nodiscard]] CDPREP_API Ask effects() const noexcept;
 
     /// Returns a page of text. Its first lines are those of pairs(), one each: the effects, and the
-    /// queries that run. Then it lists what is not computed, and the layers that are not looked at.
-    /// At the end are the sections that are read of the models, and the size of a Scene.
+    /// queries that run. With a max_error, also the rung and its error. Then it lists what is not
+    /// computed, and the layers that are not looked at. At the end are the sections that are read
+    /// of the models, and the size of a Scene.
     [[nodiscard]] CDPREP_API std::string describe() const;
 
 private:

@@ -233,8 +233,8 @@ TEST_F(SceneParts, ObjectsWhosePartsDoNotCertifyTakeTheWalk) {
     EXPECT_GT(seen.by_parts, 0);
 }
 
-// By hand: the ball is in the hole of the torus, 0.4 from it, and in the hull that fills the hole.
-// Without a distance, the exact query tells that they do not collide.
+// By hand: the ball is in the hole of the torus, 0.4 from it. A hull fills the hole. Without a
+// distance, the exact query tells that they do not collide.
 TEST_F(SceneParts, CollideIsExactWhileDistanceIsPaused) {
     const Plan plan = plan_of(solids(2 * error_), uses_);
     Scene scene(plan);
