@@ -58,8 +58,14 @@ constexpr std::array kPairFields = {
     Field{"lists_stays", offsetof(cdprep_layer_pair, lists_stays), Holds::choice, CDPREP_YES},
     Field{"tolerance", offsetof(cdprep_layer_pair, tolerance), Holds::length},
     Field{"max_distance", offsetof(cdprep_layer_pair, max_distance), Holds::length},
+    Field{"max_error", offsetof(cdprep_layer_pair, max_error), Holds::length},
     Field{"impact_tolerance", offsetof(cdprep_layer_pair, impact_tolerance), Holds::length},
     Field{"reserved", offsetof(cdprep_layer_pair, reserved), Holds::reserved},
+};
+
+constexpr std::array kUseFields = {
+    Field{"reserved", offsetof(cdprep_model_use, reserved), Holds::reserved},
+    Field{"part_error", offsetof(cdprep_model_use, part_error), Holds::length},
 };
 
 constexpr std::array kOptionsFields = {
@@ -205,6 +211,9 @@ int check_meaning(Call& call, const Name& name, const cdprep_layer_pair& pair) n
     if (pair.max_distance > 0 && !has(CDPREP_ASK_DISTANCE | CDPREP_ASK_HAPTIC)) {
         return refuse_unused(call, name.of("max_distance"), "CDPREP_ASK_DISTANCE or _HAPTIC");
     }
+    if (pair.max_error > 0 && !has(CDPREP_ASK_DISTANCE)) {
+        return refuse_unused(call, name.of("max_error"), "CDPREP_ASK_DISTANCE");
+    }
     if (pair.impact_tolerance > 0 && !has(CDPREP_ASK_CONTINUOUS)) {
         return refuse_unused(call, name.of("impact_tolerance"), "CDPREP_ASK_CONTINUOUS");
     }
@@ -240,6 +249,7 @@ LayerPair in_cpp(const cdprep_layer_pair& pair, const ContactOptions& contacts) 
             .effects = static_cast<Ask>(pair.effects),
             .tolerance = pair.tolerance,
             .max_distance = pair.max_distance,
+            .max_error = pair.max_error,
             .body = pair.body == CDPREP_SOLID ? Body::solid : Body::surface,
             .overlap = pair.overlap == CDPREP_PROPER ? Overlap::proper : Overlap::closed,
             .contacts = contacts,
@@ -278,6 +288,11 @@ int read_model_use(Call& call, const Name& name, const cdprep_model_use* from,
     if (const int code = read_input(call, name, from, use)) return code;
     if (const int code = check_asks(call, name.of("serves"), use.serves)) return code;
     if (use.model == nullptr) return CDPREP_OK;
+    if (use.part_count != 0 || use.part_error > 0) {
+        return call.refuse(CDPREP_WHY_NO_MEANING,
+                           name.of(use.part_count != 0 ? "part_count" : "part_error"),
+                           "is set, but the model is given; leave it at 0.");
+    }
     if (use.serves != 0) {
         return call.refuse(CDPREP_WHY_NO_MEANING, name.of("serves"),
                            "is 0x%x, but the model is given; leave it at 0.", use.serves);
@@ -336,13 +351,42 @@ int read(Call& call, const cdprep_plan_options* given, Asked& asked) {
     return read_allocator(call, kOptions.of("allocator"), options.allocator, asked.allocator);
 }
 
+/// Returns what the plan learns of the models: their layers and parts. Whether they serve their
+/// layers is checked afterwards, and invalid elements are refused then.
+std::vector<ModelUse> model_uses(const cdprep_plan_options& options) {
+    std::vector<ModelUse> uses;
+    for (std::size_t i = 0; i < options.model_count; ++i) {
+        cdprep_error error;
+        Call call(&error);
+        const Name name = {"options.models", i};
+        if (i == 0 && check_head(call, name, Input<cdprep_model_use>::type, options.models)) break;
+        const cdprep_model_use* const given = element(options.models, i);
+        cdprep_model_use use;
+        if (check_head(call, name, Input<cdprep_model_use>::type, given) ||
+            check_stride(call, name, options.models, given) ||
+            read_model_use(call, name, given, use)) {
+            continue;
+        }
+        Ask serves = static_cast<Ask>(use.serves);
+        EnclosingParts parts{.count = use.part_count, .error = use.part_error};
+        if (use.model != nullptr) {
+            serves = use.model->model.asks();
+            parts = enclosing_parts(use.model->model);
+        }
+        const Ask checked_later = without(known_asks(), Ask::hulls);
+        uses.push_back({"", serves | checked_later, use.layers, parts});
+    }
+    return uses;
+}
+
 /// Compiles the pairs of layers. What the checks above do not know is refused with the sentence of
 /// the plan.
 std::optional<Plan> compiled(Refusals& refusals, const Asked& asked) {
     const cdprep_plan_options& options = asked.options;
+    const std::vector<ModelUse> uses = model_uses(options);
     Plan::Compiled compiled =
         Plan::compile({.pairs = asked.pairs,
-                       .models = {},
+                       .models = uses,
                        .limits = {.objects = options.max_objects,
                                   .pairs = options.max_pairs,
                                   .threads = options.lanes,
@@ -391,8 +435,9 @@ const InputType Input<cdprep_layer_pair>::type = {"cdprep_layer_pair", 0xcd50000
                                                   sizeof(cdprep_layer_pair),
                                                   sizeof(cdprep_layer_pair), kPairFields};
 
-const InputType Input<cdprep_model_use>::type = {
-    "cdprep_model_use", 0xcd50000cU, sizeof(cdprep_model_use), sizeof(cdprep_model_use), {}};
+const InputType Input<cdprep_model_use>::type = {"cdprep_model_use", 0xcd50000cU,
+                                                 sizeof(cdprep_model_use), sizeof(cdprep_model_use),
+                                                 kUseFields};
 
 const InputType Input<cdprep_plan_options>::type = {"cdprep_plan_options", 0xcd50000dU,
                                                     sizeof(cdprep_plan_options),

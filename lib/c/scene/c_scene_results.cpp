@@ -49,6 +49,8 @@ cdprep_scene_hit as_c(const SceneHit& hit, std::uint32_t layer_pair) noexcept {
             in_c(hit.collision.hit == Answer::yes, hit.collision.containment)};
 }
 
+static_assert(kNoTriangleNumber == CDPREP_NONE);
+
 cdprep_scene_distance as_c(const SceneDistance& found, std::uint32_t layer_pair) noexcept {
     return {as_c(found.a), as_c(found.b), layer_pair, 0, in_c(std::optional(found.distance))};
 }

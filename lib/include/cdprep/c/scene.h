@@ -26,7 +26,19 @@ enum { CDPREP_LAYERS = 32 }; /* the number of layers of a scene; an object is in
  * present ones. CDPREP_ASK_HAPTIC is a distance within a limit of work. CDPREP_ASK_DEFORM and
  * CDPREP_ASK_TEAR compute nothing. They say that models of the layers may change between two steps,
  * so that each step looks for changes. Contacts and continuous are not built together with them.
- * Haptic is not built together with distance or CDPREP_SOLID. */
+ * Haptic is not built together with distance or CDPREP_SOLID.
+ *
+ * With `max_error`, the plan chooses the cheapest way that is certified for every model of both
+ * layers. It reads numbers of the files alone. One way is the search through the BVH, which ends at
+ * max_error. The other is for CDPREP_SOLID: enclosing parts (bake --structures hull --parts N).
+ * They must be few, and their errors add up to max_error at most. Their nearest points lie on
+ * parts, and the triangles are CDPREP_NONE. The bounds contain the exact distance. They are at most
+ * max_error apart, plus rounding (3e-12 of `upper` and 1e-13 of the largest coordinate).
+ *
+ * An effect that does not hold is proven not to. One may hold if the exact distance is above its
+ * limit by at most that error. The limits are 0 for collide, max_distance for distance and
+ * tolerance for within. Within is exact unless distance of CDPREP_SURFACE is asked too, and collide
+ * unless parts tell the distance. All other effects are exact. */
 typedef struct cdprep_layer_pair {
     cdprep_head head;
     uint32_t a, b; /* 0: below CDPREP_LAYERS */
@@ -39,6 +51,8 @@ typedef struct cdprep_layer_pair {
     double tolerance;     /* 0: of within, model units */
     /* 0: of distance and haptic, model units: larger distances are not found */
     double max_distance;
+    /* 0: of distance, model units: the error that answers may have; see above */
+    double max_error;
     /* Null: of contacts, the defaults with `most` 16. Read only during the call. */
     const cdprep_contact_options* contacts;
     double impact_tolerance; /* 0: of continuous: cdprep_moving_pair.tolerance */
@@ -57,6 +71,11 @@ typedef struct cdprep_model_use {
     const char* name;          /* null: the name of a model that is not open, for messages; UTF-8 */
     uint32_t serves;           /* 0: without a model, the CDPREP_ASK_ bits that it will serve */
     uint32_t layers;           /* 0: the layers of its objects; bit i is layer i */
+    /* 0: without a model, the number of its enclosing parts, if it is closed and has one component.
+     * An open model tells its own parts, if it was opened with CDPREP_ASK_HULLS and _SOLID. */
+    uint32_t part_count;
+    uint32_t reserved; /* 0 */
+    double part_error; /* 0: with part_count, the largest error of those parts, model units */
 } cdprep_model_use;
 
 CDPREP_API void cdprep_model_use_init(cdprep_model_use* model_use, size_t size);
@@ -267,7 +286,7 @@ typedef struct cdprep_scene_distance {
     cdprep_object a, b;
     uint32_t layer_pair;
     uint32_t reserved;      /* 0 */
-    cdprep_nearest nearest; /* points are in the world */
+    cdprep_nearest nearest; /* points are in the world; see cdprep_layer_pair.max_error */
 } cdprep_scene_distance;
 
 /* The triangles of one object that overlap each other. */

@@ -170,6 +170,8 @@ TEST_F(CSceneHostile, LayerPairsAreCheckedFieldByField) {
                        "options.layer_pairs[0].tolerance"});
         all.push_back({"max_distance", [bad](P& p) { p.max_distance = bad; }, why,
                        "options.layer_pairs[0].max_distance"});
+        all.push_back({"max_error", [bad](P& p) { p.max_error = bad; }, why,
+                       "options.layer_pairs[0].max_error"});
     }
     const auto unused = [&](const char* name, std::uint32_t effects, auto set) {
         all.push_back({name,
@@ -188,6 +190,10 @@ TEST_F(CSceneHostile, LayerPairsAreCheckedFieldByField) {
     cdprep_contact_options_init(&contacts, sizeof contacts);
     unused("options.layer_pairs[0].contacts", kAll, [&](P& p) { p.contacts = &contacts; });
     unused("options.layer_pairs[0].max_distance", 0, [](P& p) { p.max_distance = 1; });
+    unused("options.layer_pairs[0].max_error", CDPREP_ASK_COLLIDE, [](P& p) {
+        p.max_error = 1;
+        p.body = CDPREP_SOLID;
+    });
     expect_refused(pair_, all, [&](const P* given) {
         cdprep_plan_options changed = options();
         changed.layer_pairs = given;
@@ -242,6 +248,15 @@ TEST_F(CSceneHostile, ModelUsesAreCheckedFieldByField) {
     all.push_back({"no bit", [](U& u) { u.serves = 1 << 19; }, CDPREP_WHY_OUT_OF_RANGE, kServes});
     all.push_back(
         {"name", [](U& u) { u.name = "cube"; }, CDPREP_WHY_NO_MEANING, "options.models[0].name"});
+    all.push_back({"parts of a model", [](U& u) { u.part_count = 1; }, CDPREP_WHY_NO_MEANING,
+                   "options.models[0].part_count"});
+    all.push_back({"an error of a model", [](U& u) { u.part_error = 1; }, CDPREP_WHY_NO_MEANING,
+                   "options.models[0].part_error"});
+    for (const auto& [number, why] : bad_numbers()) {
+        const double bad = number;
+        all.push_back({"part_error", [bad](U& u) { u.part_error = bad; }, why,
+                       "options.models[0].part_error"});
+    }
     all.push_back(
         {"not baked", [&](U& u) { u.model = rays_only_.get(); }, CDPREP_WHY_NOT_BAKED, kModel});
     all.push_back({"not opened", [&](U& u) { u.model = opened_for_rays_.get(); },
@@ -341,6 +356,46 @@ TEST_F(CSceneHostile, APlanTellsEveryReason) {
     EXPECT_EQ(cdprep_plan_compile(&changed, Told::take, &two, &plan, nullptr), CDPREP_BAD_ARGUMENT);
     EXPECT_EQ(two.sentences.size(), 2u);
     EXPECT_EQ(cdprep_plan_compile(&changed, nullptr, nullptr, &plan, nullptr), CDPREP_BAD_ARGUMENT);
+}
+
+// By hand: models that are not open yet, with 2 and 3 parts whose errors add up to 0.75.
+TEST_F(CSceneHostile, PartsOfModelsDecideTheRung) {
+    cdprep_layer_pair pair = pair_of(0, 1, CDPREP_ASK_DISTANCE);
+    pair.body = CDPREP_SOLID;
+    pair.max_distance = 2;
+    std::array<cdprep_model_use, 2> models = {use_of(nullptr, 1), use_of(nullptr, 2)};
+    for (cdprep_model_use& use : models) {
+        use.serves = CDPREP_ASK_DISTANCE | CDPREP_ASK_SOLID | CDPREP_ASK_HULLS;
+        use.part_count = use.layers + 1;
+        use.part_error = use.layers * 0.25;
+    }
+    cdprep_plan_options changed = options();
+    changed.layer_pairs = &pair;
+    changed.models = models.data();
+    changed.model_count = 2;
+    const auto told = [&](double max_error) {
+        pair.max_error = max_error;
+        cdprep_plan* const plan = compiled(changed);
+        std::array<char, 2000> text{};
+        std::size_t length = 0;
+        EXPECT_EQ(cdprep_plan_text(plan, text.data(), text.size(), &length, nullptr), CDPREP_OK);
+        std::uint32_t ask = 0;
+        EXPECT_EQ(cdprep_plan_ask(plan, 1, &ask, nullptr), CDPREP_OK);
+        cdprep_plan_end(plan);
+        const std::string line = text.data();
+        return line.substr(0, line.find('\n')) + ((ask & CDPREP_ASK_HULLS) != 0 ? " hulls" : "");
+    };
+    EXPECT_EQ(told(0.75),
+              "layers 0 and 1: distance of solids up to 2; max_error 0.75: by enclosing parts, at "
+              "most 2 and 3, error at most 0.75 hulls");
+    EXPECT_EQ(told(0.5),
+              "layers 0 and 1: distance of solids up to 2; max_error 0.5: by the walk, error at "
+              "most 0.5");
+    // A model that will not serve hulls has no parts to ask.
+    models[1].serves &= ~std::uint32_t{CDPREP_ASK_HULLS};
+    EXPECT_EQ(told(0.75),
+              "layers 0 and 1: distance of solids up to 2; max_error 0.75: by the walk, error at "
+              "most 0.75");
 }
 
 // By hand: the third layer has an empty name, and the fourth is in no pair.
