@@ -339,6 +339,68 @@ def many_pairs(program, folder):
     must("needs room for " in few.stderr and "limits.pairs is 10000" in few.stderr, few.stderr)
 
 
+L_SHAPE = ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))
+
+
+def write_l_prism(path):
+    """A closed solid of one component that is not convex."""
+    points = [(x, y, z) for z in (0, 1) for x, y in L_SHAPE]
+    faces = [(1, i + 1, i) for i in range(2, 6)] + [(7, i + 6, i + 7) for i in range(2, 6)]
+    faces += [(i, i % 6 + 1, i % 6 + 7, i + 6) for i in range(1, 7)]
+    path.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in points) +
+                    "".join(f"f {' '.join(map(str, face))}\n" for face in faces))
+
+
+def the_rungs(program, folder):
+    """Enclosing parts stand for solids where their errors allow it. Otherwise no hull is read."""
+    write_l_prism(folder / "l.obj")
+    bake(program, folder / "l.obj", "-o", folder / "l.cdp.h5", "--effects", "collide,distance",
+         "--structures", "hull", "--parts", 1)
+    motion = {"path": [{"time_s": 0, "pose": {"translation": [5, 0, 0]}},
+                       {"time_s": 1, "pose": {"translation": [1.25, 1.25, 0]}}]}
+
+    def scene_of(max_error, model="l.cdp.h5"):
+        return write_scene(
+            folder / "rungs.json", layers=["a"], step_s=0.25, duration_s=1.25,
+            pairs=[{"layers": ["a", "a"], "effects": ["collide", "distance"], "body": "solid",
+                    "max_distance": 1.5, "max_error": max_error}],
+            objects=[{"name": "x", "model": model, "layer": "a"},
+                     {"name": "y", "model": model, "layer": "a", "motion": motion}])
+
+    def planned(max_error, model="l.cdp.h5"):
+        scene = scene_of(max_error, model)
+        check_schema(SCENE_SCHEMA, json.loads(scene.read_text()), scene)
+        plan = plan_of(program, scene)
+        read = {section["name"] for section in plan["models"][0]["read"]}
+        return plan["pairs"][0], "hull_blocks" in read, plan["models"][0]["serves"]
+
+    pair, hulls, serves = planned(100)
+    error = pair["rung"]["error"]
+    must(pair["rung"] == {"name": "parts", "error": error, "parts": [1, 1]} and hulls, f"{pair}")
+    # By hand: of the hull, (1.5, 1.5) is the farthest from the walls of the notch, by a half.
+    must(1 - 1e-9 <= error < 1.1 and "hull" in serves, f"{pair}")
+    text = run(program, "simulate", scene_of(100), "--plan").stdout
+    must("; max_error 100: by enclosing parts, at most 1 and 1, error at most " in text, text)
+    must(planned(error)[0]["rung"]["name"] == "parts", "an error that just suffices")
+    for pair, hulls, serves in (planned(0.999 * error), planned(100, "l.obj")):
+        must(pair["rung"] == {"name": "walk", "error": pair["max_error"]}, f"{pair}")
+        must(not hulls and "hull" not in serves, f"{serves}")
+    must("rung" not in planned(0)[0], "a rung of exact answers")
+    # By hand: at the end, each solid is in the other's notch, and parts touch. The solids do not.
+    events, _ = simulate(program, scene_of(100))
+    hit, = (event for event in events if event["effect"] == "collide")
+    must(hit["event"] == "begins", f"{hit}")
+    near = next(event for event in events if event["effect"] == "distance")
+    must(near["upper"] - near["lower"] <= error + 1e-9, f"{near}")
+    exact, _ = simulate(program, scene_of(0))
+    must(all(event["effect"] == "distance" for event in exact) and exact, f"{exact}")
+    scene = scene_of(1)
+    scene.write_text(scene.read_text().replace('"max_error": 1', '"max_error": -1'))
+    done = run(program, "simulate", scene, "--plan")
+    must(done.returncode != 0 and "/pairs/0/max_error: found -1; expected a number, 0 or more." in
+         done.stderr, done.stderr)
+
+
 def unused_models(program, folder):
     """A model that no pair of layers asks for is not opened: this one could not be."""
     (folder / "secret.obj").write_text("no mesh\n")
@@ -477,7 +539,7 @@ def main():
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))
     with tempfile.TemporaryDirectory() as scratch:
-        for check in (many_pairs, unused_models, refusals, mistakes, the_effects):
+        for check in (many_pairs, unused_models, the_rungs, refusals, mistakes, the_effects):
             check(program, pathlib.Path(scratch))
     an_interrupt(program)
 

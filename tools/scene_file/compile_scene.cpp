@@ -174,6 +174,7 @@ void drop_effect(SceneFile& scene, Ask effect) {
         };
         if (!is_read_by(Ask::within)) asked.tolerance = unused.tolerance;
         if (!is_read_by(Ask::distance | Ask::haptic)) asked.max_distance = unused.max_distance;
+        if (!is_read_by(Ask::distance)) asked.max_error = unused.max_error;
         if (!is_read_by(Ask::continuous)) asked.impact = unused.impact;
         if (!is_read_by(Ask::haptic)) asked.work = unused.work;
         if (!is_read_by(Ask::collide | Ask::overlap)) asked.overlap = unused.overlap;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cdprep/format/file_header.h"
+#include "cdprep/hulls.h"
 #include "cli/colliders.h"
 #include "scene_file/bake_cache.h"
 #include "text/number_text.h"
@@ -193,14 +194,32 @@ std::vector<std::string> kept_colliders(const SceneFile& scene,
     return lines;
 }
 
-std::vector<ModelUse> uses_of(const SceneFile& scene, const std::vector<SceneModel>& models,
+std::vector<ModelUse> uses_of_parts(const SceneFile& scene) {
+    const bool permits_error = std::ranges::any_of(scene.pairs, [](const AskedPair& pair) {
+        return pair.asked.max_error > 0 && pair.asked.body == Body::solid;
+    });
+    if (!permits_error) return {};
+    std::vector<ModelUse> uses(scene.models.size(), {"", known_asks(), 0});
+    for (const FileObject& object : scene.objects) uses[object.model].layers |= 1U << object.layer;
+    SectionSet sections = sections_for(Ask::hulls);
+    sections.insert({SectionId::components});
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        if (uses[i].layers == 0 || !is_baked_file(scene.models[i])) continue;
+        const Result<Model> model = Model::open(scene.models[i], sections);
+        if (model) uses[i].parts = enclosing_parts(*model);
+    }
+    return uses;
+}
+
+std::vector<ModelUse> uses_of(const SceneFile& scene, std::span<const SceneModel> models,
                               std::vector<std::string>& names) {
     names.clear();
     for (const fs::path& path : scene.models) names.push_back(path.string());
     std::vector<ModelUse> uses;
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (!models[i].model) continue;
-        uses.push_back({names[i], models[i].model->asks(), models[i].needs.layers});
+        const Model& model = *models[i].model;
+        uses.push_back({names[i], model.asks(), models[i].needs.layers, enclosing_parts(model)});
     }
     return uses;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -67,10 +68,15 @@ struct LoadedModels {
 [[nodiscard]] std::vector<std::string> kept_colliders(const SceneFile& scene,
                                                       const std::vector<SceneModel>& models);
 
+/// Returns what the enclosing parts of baked files certify, for a first compile_scene(). These uses
+/// serve everything else. Reads the hulls of the files if a pair of layers permits an error of
+/// solids; otherwise there are none. Files that cannot be read have no parts: load_models() tells.
+[[nodiscard]] std::vector<ModelUse> uses_of_parts(const SceneFile& scene);
+
 /// Returns the uses of the models that were opened, for compile_scene(). `names` gets the names
 /// that they refer to.
 [[nodiscard]] std::vector<ModelUse> uses_of(const SceneFile& scene,
-                                            const std::vector<SceneModel>& models,
+                                            std::span<const SceneModel> models,
                                             std::vector<std::string>& names);
 
 }  // namespace cdprep::scenes

@@ -129,8 +129,8 @@ private:
 
     void read_pair(const JsonElement& element) {
         AskedPair pair;
-        if (!element.is_object_of({"layers", "effects", "tolerance", "max_distance", "body",
-                                   "overlap", "contacts", "impact", "work", "events"})) {
+        if (!element.is_object_of({"layers", "effects", "tolerance", "max_distance", "max_error",
+                                   "body", "overlap", "contacts", "impact", "work", "events"})) {
             return;
         }
         if (const auto layers = element.require("layers")) read_pair_layers(*layers, pair.asked);
@@ -142,6 +142,7 @@ private:
         };
         read_length("tolerance", pair.asked.tolerance);
         read_length("max_distance", pair.asked.max_distance);
+        read_length("max_error", pair.asked.max_error);
         if (const auto body = element.find("body")) {
             const auto word = body->one_of(Names{"surface", "solid"}, "a body");
             pair.asked.body = word == 1 ? Body::solid : Body::surface;

@@ -106,7 +106,10 @@ public:
             return fail("simulate", dropped.error());
         }
         // First without models: nothing is baked for a plan that does not exist.
-        Plan::Compiled compiled = scenes::compile_scene(scene_, limits());
+        // Of baked files, the parts are read that tell the rungs.
+        std::vector<ModelUse> parts;
+        if (!assembly_) parts = scenes::uses_of_parts(scene_);
+        Plan::Compiled compiled = scenes::compile_scene(scene_, limits(), parts);
         if (!compiled.plan) return refuse(compiled.refusals);
         if (const auto failed = load(*compiled.plan)) return *failed;
         std::vector<std::string> names;

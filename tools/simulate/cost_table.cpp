@@ -29,19 +29,30 @@ std::vector<std::string> asked_by(const scenes::SceneFile& scene, Ask effect) {
 }
 
 /// Returns by how much the scene of a plan is larger than without an effect.
-std::uint64_t state_bytes_of(const scenes::SceneFile& scene, const Plan& plan, Ask effect) {
+std::uint64_t state_bytes_of(const scenes::SceneFile& scene, const scenes::Simulation& simulation,
+                             Ask effect) {
+    const Plan& plan = simulation.plan();
     scenes::SceneFile less;
     less.layers = scene.layers;
     less.pairs = scene.pairs;
     scenes::drop_effect(less, Ask::response);
     scenes::drop_effect(less, effect);
-    const Plan::Compiled compiled = scenes::compile_scene(less, plan.limits());
+    std::vector<std::string> names;
+    const Plan::Compiled compiled = scenes::compile_scene(
+        less, plan.limits(), scenes::uses_of(scene, simulation.models(), names));
     const std::size_t whole = Scene::size(plan);
     return compiled.plan ? whole - std::min(whole, Scene::size(*compiled.plan)) : 0;
 }
 
+/// Returns whether a pair of layers asks an effect through enclosing parts.
+bool asks_parts(const Plan& plan, const LayerPair& pair, Ask effect) {
+    if ((effect & (Ask::collide | Ask::distance)) == Ask::nothing) return false;
+    const auto number = plan.find_pair(pair.a, pair.b);
+    return number && plan.rungs()[*number].rung == Rung::parts;
+}
+
 /// Returns the queries of an effect of a pair of layers.
-Ask asks_of(const scenes::SceneFile& scene, const LayerPair& pair, Ask effect) {
+Ask asks_of(const scenes::SceneFile& scene, const Plan& plan, const LayerPair& pair, Ask effect) {
     constexpr Ask kReadsBody = Ask::collide | Ask::distance | Ask::contacts | Ask::continuous;
     if (effect == Ask::response) {
         const bool continuous =
@@ -50,20 +61,21 @@ Ask asks_of(const scenes::SceneFile& scene, const LayerPair& pair, Ask effect) {
         return continuous ? bodies | Ask::distance : bodies;
     }
     const bool solid = pair.body == Body::solid && (effect & kReadsBody) != Ask::nothing;
-    return solid ? effect | Ask::solid : effect;
+    const Ask asks = solid ? effect | Ask::solid : effect;
+    return asks_parts(plan, pair, effect) ? asks | Ask::hulls : asks;
 }
 
 std::uint64_t read_bytes_of(const scenes::SceneFile& scene, Ask effect,
-                            std::span<const scenes::SceneModel> models) {
+                            const scenes::Simulation& simulation) {
     std::uint64_t bytes = 0;
-    for (const scenes::SceneModel& model : models) {
+    for (const scenes::SceneModel& model : simulation.models()) {
         if (!model.model) continue;
         format::SectionSet sections;
         for (const scenes::AskedPair& pair : scene.pairs) {
             const std::uint32_t layers = 1U << pair.asked.a | 1U << pair.asked.b;
             if (!contains(pair.asked.effects, effect) || (model.needs.layers & layers) == 0)
                 continue;
-            sections.insert(sections_for(asks_of(scene, pair.asked, effect)));
+            sections.insert(sections_for(asks_of(scene, simulation.plan(), pair.asked, effect)));
         }
         bytes += bytes_of(*model.model, sections);
     }
@@ -137,7 +149,7 @@ std::vector<EffectRow> CostTable::effects(const scenes::Simulation& simulation) 
         row.asked_by = asked_by(scene_, effect);
         row.nanoseconds = times_of(effect).sum();
         row.p99 = times_of(effect).at(0.99);
-        row.read_bytes = read_bytes_of(scene_, effect, simulation.models());
+        row.read_bytes = read_bytes_of(scene_, effect, simulation);
         const std::size_t number = is_response ? kResponse : effect_number(effect);
         row.begins = begins_[number];
         row.ends = ends_[number];
@@ -146,7 +158,7 @@ std::vector<EffectRow> CostTable::effects(const scenes::Simulation& simulation) 
             row.state_bytes = simulation.response()->bodies().state_bytes();
         } else {
             row.calls = counts_.calls[number];
-            row.state_bytes = state_bytes_of(scene_, simulation.plan(), effect);
+            row.state_bytes = state_bytes_of(scene_, simulation, effect);
         }
         rows.push_back(std::move(row));
     }

@@ -141,8 +141,9 @@ private:
     void add(const SceneDistance& item) {
         const Distance& found = item.distance;
         // Surfaces that touch have one witness; solids one in the other have two.
-        if (found.upper == 0 && found.witness_a.x == found.witness_b.x &&
-            found.witness_a.y == found.witness_b.y && found.witness_a.z == found.witness_b.z) {
+        if (found.upper == 0 && found.triangle_a != kNoTriangleNumber &&
+            found.witness_a.x == found.witness_b.x && found.witness_a.y == found.witness_b.y &&
+            found.witness_a.z == found.witness_b.z) {
             light(number_of(item.a), found.triangle_a);
             light(number_of(item.b), found.triangle_b);
         }

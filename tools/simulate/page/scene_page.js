@@ -289,6 +289,7 @@ function pair_options(pair) {
   const words = [];
   if (pair.effects.includes('within')) words.push('tolerance ' + number(pair.tolerance));
   if (pair.effects.includes('distance')) words.push('at most ' + number(pair.max_distance));
+  if (pair.rung) words.push('error at most ' + number(pair.rung.error) + ', by ' + (pair.rung.name === 'parts' ? 'enclosing parts' : 'the walk'));
   if (pair.contacts) words.push('contacts within ' + number(pair.contacts.tolerance) + ', most ' + whole(pair.contacts.most));
   if (pair.body === 'solid') words.push('solids');
   if (pair.overlap === 'proper') words.push('proper overlap');

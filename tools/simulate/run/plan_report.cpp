@@ -117,7 +117,13 @@ Json model_json(const std::string& path, const SceneModel& model) {
     return json;
 }
 
-Json pair_json(const SceneFile& scene, const LayerPair& pair) {
+Json rung_json(const PairRung& rung) {
+    Json json = {{"name", rung.rung == Rung::parts ? "parts" : "walk"}, {"error", rung.error}};
+    if (rung.rung == Rung::parts) json["parts"] = {rung.parts_a, rung.parts_b};
+    return json;
+}
+
+Json pair_json(const SceneFile& scene, const Plan& plan, const LayerPair& pair) {
     Json json = {{"layers", {scene.layers[pair.a], scene.layers[pair.b]}},
                  {"effects", names_of(pair.effects)},
                  {"tolerance", pair.tolerance},
@@ -138,6 +144,10 @@ Json pair_json(const SceneFile& scene, const LayerPair& pair) {
                           {"most_steps", pair.impact.most_steps}};
     }
     if (contains(pair.effects, Ask::haptic)) json["work"] = pair.work;
+    if (pair.max_error > 0) {
+        json["max_error"] = pair.max_error;
+        json["rung"] = rung_json(plan.rungs()[*plan.find_pair(pair.a, pair.b)]);
+    }
     return json;
 }
 
@@ -315,7 +325,7 @@ std::string plan_json(const SceneFile& scene, const Plan& plan, std::span<const 
     json["pairs"] = Json::array();
     for (const scenes::AskedPair& pair : scene.pairs) {
         if (pair.asked.effects == Ask::nothing) continue;
-        json["pairs"].push_back(pair_json(scene, pair.asked));
+        json["pairs"].push_back(pair_json(scene, plan, pair.asked));
     }
     if (scenes::has_response(scene)) json["response"] = response_json(scene);
     json["not_computed"] = not_computed(scene, plan);

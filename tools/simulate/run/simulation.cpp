@@ -112,7 +112,8 @@ Result<Done> Simulation::fill(double time_s, const std::vector<Pose>& poses) {
     objects_.clear();
     ids_.clear();
     poses_.clear();
-    Plan::Compiled compiled = compile_scene(*file_, limits_);
+    std::vector<std::string> names;
+    Plan::Compiled compiled = compile_scene(*file_, limits_, uses_of(*file_, models_, names));
     if (!compiled.plan) return Error{ErrorCode::bad_argument, compiled.refusals.front()};
     plan_ = std::make_unique<const Plan>(std::move(*compiled.plan));
     scene_.emplace(*plan_);

@@ -173,6 +173,21 @@ TEST(DropEffect, LeavesBodiesWhereTheyAre) {
     EXPECT_TRUE(compile_scene(scene, kLimits).plan);
 }
 
+TEST(DropEffect, DropsAnErrorThatNoEffectReads) {
+    SceneFile scene = scene_of({{.asked = {.a = 0,
+                                           .b = 1,
+                                           .effects = Ask::collide | Ask::distance,
+                                           .max_distance = 1,
+                                           .max_error = 0.5,
+                                           .body = Body::solid}}});
+    drop_effect(scene, Ask::collide);
+    EXPECT_EQ(scene.pairs[0].asked.max_error, 0.5);
+    EXPECT_TRUE(compile_scene(scene, kLimits).plan);
+    drop_effect(scene, Ask::distance);
+    EXPECT_EQ(scene.pairs[0].asked.max_error, 0);
+    EXPECT_TRUE(compile_scene(scene, kLimits).plan);
+}
+
 // Pieces do not follow a surface that changes: the plan refuses the two together.
 TEST(CompileScene, RefusesContactsOfModelsThatChange) {
     const SceneFile scene =

@@ -131,6 +131,28 @@ TEST(LoadModels, TellsOfCollidersInAMesh) {
     }
 }
 
+// Parts of baked files are read only for an error of solids. A mesh has none.
+TEST(UsesOfParts, TellModelsWithoutParts) {
+    const test::ScratchFolder folder;
+    SceneFile scene =
+        scene_of(folder.write("m.off", std::string_view(kTetrahedron)), Ask::distance);
+    LayerPair& pair = scene.pairs[0].asked;
+    pair.max_error = 1;
+    EXPECT_TRUE(uses_of_parts(scene).empty());
+    pair.body = Body::solid;
+    const std::vector<ModelUse> uses = uses_of_parts(scene);
+    ASSERT_EQ(uses.size(), 2u);
+    EXPECT_EQ(uses[0].layers, 0b11u);
+    EXPECT_EQ(uses[1].layers, 0b100u) << "a file that does not exist";
+    for (const ModelUse& use : uses) {
+        EXPECT_EQ(use.parts.count, 0u);
+        EXPECT_EQ(use.serves, known_asks());
+    }
+    const auto compiled = compile_scene(scene, {.objects = 3, .pairs = 3}, uses);
+    ASSERT_TRUE(compiled.plan);
+    EXPECT_EQ(compiled.plan->rungs()[0].rung, Rung::walk);
+}
+
 // The files that a mesh refers to decide its bake too.
 TEST(LoadModels, BakesAgainAfterAChangeOfAnotherFile) {
     const test::ScratchFolder folder;

@@ -53,7 +53,8 @@ TEST(ReadScene, ReadsAWholeFile) {
         "pairs": [
             {"layers": ["gates", "crates"], "effects": ["collide", "within"], "tolerance": 2,
              "body": "solid", "overlap": "proper", "events": ["begins"]},
-            {"layers": ["gates", "gates"], "effects": ["distance"], "max_distance": 3}
+            {"layers": ["gates", "gates"], "effects": ["distance"], "max_distance": 3,
+             "max_error": 0.25}
         ],
         "objects": [
             {"name": "gate", "model": "gate.obj", "layer": "gates",
@@ -83,6 +84,8 @@ TEST(ReadScene, ReadsAWholeFile) {
     EXPECT_TRUE(first.tells_begins);
     EXPECT_FALSE(first.tells_ends);
     EXPECT_EQ(scene.pairs[1].asked.max_distance, 3);
+    EXPECT_EQ(scene.pairs[1].asked.max_error, 0.25);
+    EXPECT_EQ(first.asked.max_error, 0);
     EXPECT_TRUE(scene.pairs[1].tells_begins && scene.pairs[1].tells_ends);
 
     EXPECT_EQ(scene.models.size(), 2u) << "two spellings of one file are one model";
@@ -199,10 +202,13 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
           "line 3: /pairs/0/effects/1: found 3; expected an effect: " + words,
           "line 3: /pairs/0/body: 'hull' is not a body. Choose from surface or solid.",
           "line 3: /pairs/0/overlap: found 1; expected a meaning of overlap: closed or proper."}},
-        {one_object("", "\"tolerance\": -1, \"max_distance\": [], \"events\": [\"pauses\"]"),
+        {one_object("",
+                    "\"tolerance\": -1, \"max_distance\": [], \"max_error\": -2, \"events\": "
+                    "[\"pauses\"]"),
          {"line 3: /pairs/0: the key 'effects' is missing.",
           "line 3: /pairs/0/tolerance: found -1; expected a number, 0 or more.",
           "line 3: /pairs/0/max_distance: found []; expected a number, 0 or more.",
+          "line 3: /pairs/0/max_error: found -2; expected a number, 0 or more.",
           "line 3: /pairs/0/events/0: 'pauses' is not an event. Choose from begins, ends or "
           "stays."}},
         {one_object("", "\"effects\": [\"collide\"], \"contacts\": {}"),
