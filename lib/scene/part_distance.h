@@ -21,7 +21,7 @@ namespace cdprep {
 //
 //     pairs     1         3           4           9           walk
 //     1,024     6.7       9.7         10.8        23.6        18.5
-//     14,400    11.8      13.9        14.4        31.1        28.5
+//     14,400    11.8      13.9        14.4        31.1        28.7
 //
 // So the bound for cheaper parts is between 4 and 9 pairs: kMostPartPairs. Whether parts touch
 // takes 3.8 and 5.7 with one pair. The exact collide() takes 4.2 and 4.9. So parts answer `collide`
