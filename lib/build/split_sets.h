@@ -19,7 +19,7 @@
 // A cut is by rank along one axis. The policy has counted the items of each bin of that axis. The
 // items before the bin in which the rank falls go to the left side, those after it to the right.
 // Only the few in that bin are compared one by one. Every item moves once per cut, into the other
-// of two arrays. Large sets are cut in chunks of a fixed size, all of one generation in parallel.
+// of two arrays. Large sets are cut in batchs of a fixed size, all of one generation in parallel.
 // Each step keeps the order in which it found the items, and its decisions depend on nothing else.
 // So the result is the same for any schedule and any standard library.
 
@@ -130,7 +130,7 @@ void place_by_rank(std::span<const Item> items, const Ranks& rank, std::span<Ite
 }
 
 /// Cuts and orders a set of items by a policy. A policy has an Item, with a middle and a number,
-/// and Bins. clear() prepares the bins, count() counts a chunk's items into them, and add() joins
+/// and Bins. clear() prepares the bins, count() counts a batch's items into them, and add() joins
 /// them. choose() cuts by the bins. cut_small() orders a set of at most kSmallSet items and returns
 /// the number of items left of the cut.
 template <class Policy>
@@ -161,7 +161,7 @@ private:
     };
 
     /// A part of a large set, for one task.
-    struct Chunk {
+    struct Batch {
         std::size_t set;
         std::size_t first;
         std::size_t count;
@@ -297,37 +297,37 @@ private:
         }
     }
 
-    static std::vector<Chunk> chunks_of(const std::vector<Set>& sets) {
-        std::vector<Chunk> chunks;
+    static std::vector<Batch> batchs_of(const std::vector<Set>& sets) {
+        std::vector<Batch> batchs;
         for (std::size_t i = 0; i < sets.size(); ++i) {
             for (std::size_t first = 0; first < sets[i].count; first += kItemsPerTask) {
-                chunks.push_back({i, first, std::min(kItemsPerTask, sets[i].count - first)});
+                batchs.push_back({i, first, std::min(kItemsPerTask, sets[i].count - first)});
             }
         }
-        return chunks;
+        return batchs;
     }
 
     /// Cuts all sets; returns the sides that are still large.
     std::vector<Set> split_generation(const std::vector<Set>& sets, std::vector<Set>& tasks,
                                       ParallelFor parallel_for) const {
-        std::vector<Chunk> chunks = chunks_of(sets);
-        const auto items = [&](const Chunk& chunk) {
-            return items_of(sets[chunk.set]).subspan(chunk.first, chunk.count);
+        std::vector<Batch> batchs = batchs_of(sets);
+        const auto items = [&](const Batch& batch) {
+            return items_of(sets[batch.set]).subspan(batch.first, batch.count);
         };
-        parallel_for(chunks.size(),
-                     [&](std::size_t i) { chunks[i].bounds = bounds_of(items(chunks[i])); });
+        parallel_for(batchs.size(),
+                     [&](std::size_t i) { batchs[i].bounds = bounds_of(items(batchs[i])); });
         std::vector<MiddleBounds> bounds(sets.size());
-        for (const Chunk& chunk : chunks) bounds[chunk.set].grow(chunk.bounds);
-        parallel_for(chunks.size(), [&](std::size_t i) {
-            Policy::clear(chunks[i].bins, bounds[chunks[i].set]);
-            Policy::count(chunks[i].bins, items(chunks[i]));
+        for (const Batch& batch : batchs) bounds[batch.set].grow(batch.bounds);
+        parallel_for(batchs.size(), [&](std::size_t i) {
+            Policy::clear(batchs[i].bins, bounds[batchs[i].set]);
+            Policy::count(batchs[i].bins, items(batchs[i]));
         });
         std::vector<Cut> cuts(sets.size());
         std::vector<CutCounts> counts(sets.size());
-        aim(sets, chunks, cuts, counts);
-        parallel_for(chunks.size(), [&](std::size_t i) {
-            const Chunk& chunk = chunks[i];
-            scatter(items(chunk), cuts[chunk.set], chunk.target, target_of(sets[chunk.set]));
+        aim(sets, batchs, cuts, counts);
+        parallel_for(batchs.size(), [&](std::size_t i) {
+            const Batch& batch = batchs[i];
+            scatter(items(batch), cuts[batch.set], batch.target, target_of(sets[batch.set]));
         });
         parallel_for(sets.size(), [&](std::size_t i) {
             settle(cuts[i], counts[i], items_of(sets[i]), target_of(sets[i]));
@@ -344,17 +344,17 @@ private:
         return next;
     }
 
-    /// Chooses the cuts, and the places for the items of each chunk.
-    static void aim(const std::vector<Set>& sets, std::vector<Chunk>& chunks,
+    /// Chooses the cuts, and the places for the items of each batch.
+    static void aim(const std::vector<Set>& sets, std::vector<Batch>& batchs,
                     std::vector<Cut>& cuts, std::vector<CutCounts>& counts) {
         std::vector<typename Policy::Bins> bins(sets.size());
         std::vector<bool> begun(sets.size());
-        for (const Chunk& chunk : chunks) {
-            if (begun[chunk.set]) {
-                Policy::add(bins[chunk.set], chunk.bins);
+        for (const Batch& batch : batchs) {
+            if (begun[batch.set]) {
+                Policy::add(bins[batch.set], batch.bins);
             } else {
-                bins[chunk.set] = chunk.bins;
-                begun[chunk.set] = true;
+                bins[batch.set] = batch.bins;
+                begun[batch.set] = true;
             }
         }
         std::vector<std::array<std::size_t, 3>> target(sets.size());
@@ -364,10 +364,10 @@ private:
             assert(counts[i].all == sets[i].count);
             target[i] = {0, counts[i].before, counts[i].before + counts[i].in};
         }
-        for (Chunk& chunk : chunks) {
-            std::array<std::size_t, 3>& next = target[chunk.set];
-            chunk.target = next;
-            const CutCounts own = Policy::counts(chunk.bins, cuts[chunk.set]);
+        for (Batch& batch : batchs) {
+            std::array<std::size_t, 3>& next = target[batch.set];
+            batch.target = next;
+            const CutCounts own = Policy::counts(batch.bins, cuts[batch.set]);
             next[0] += own.before;
             next[1] += own.in;
             next[2] += own.all - own.before - own.in;

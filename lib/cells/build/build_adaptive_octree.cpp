@@ -19,13 +19,13 @@
 #include "exact/triangle_box.h"
 
 // Built level by level. The lists of a level's cells lie one after another in one array. Each list
-// is cut into chunks of a fixed size. Every chunk finds, for each of its triangles, the children
+// is cut into batchs of a fixed size. Every batch finds, for each of its triangles, the children
 // that it touches. After all have counted, each knows where its part of the children's lists goes.
-// So lists rise as the first one did, and nothing depends on which task did which chunk.
+// So lists rise as the first one did, and nothing depends on which task did which batch.
 //
 // Scratch: 48 bytes per triangle for its box; 8 bytes per triangle of each median being computed. 4
 // bytes per reference of a level and of the next, and one more per reference of the former. The
-// cells and chunks of a level, and the cells of the next. No level has more references or nodes
+// cells and batchs of a level, and the cells of the next. No level has more references or nodes
 // than the result.
 
 namespace cdprep::build {
@@ -50,7 +50,7 @@ struct Cell {
 };
 
 /// A part of a cell's list that one task processes.
-struct Chunk {
+struct Batch {
     std::size_t cell;
     std::size_t first;
     std::size_t last;
@@ -172,11 +172,11 @@ private:
         });
     }
     template <class Body>
-    void for_chunks(const Body& body) {
-        const auto size_of = [&](std::size_t i) { return chunks_[i].last - chunks_[i].first; };
-        for_groups(chunks_.size(), 1, size_of,
+    void for_batchs(const Body& body) {
+        const auto size_of = [&](std::size_t i) { return batchs_[i].last - batchs_[i].first; };
+        for_groups(batchs_.size(), 1, size_of,
                    [&](std::size_t, std::size_t first, std::size_t last) {
-                       for (std::size_t i = first; i < last; ++i) body(chunks_[i]);
+                       for (std::size_t i = first; i < last; ++i) body(batchs_[i]);
                    });
     }
 
@@ -201,19 +201,19 @@ private:
     }
 
     void sort_into_children() {
-        cut_in_chunks();
+        cut_in_batchs();
         masks_.resize(list_.size());
-        for_chunks([&](Chunk& chunk) { find_children(chunk); });
-        for (const Chunk& chunk : chunks_) {
+        for_batchs([&](Batch& batch) { find_children(batch); });
+        for (const Batch& batch : batchs_) {
             for (std::size_t child = 0; child < kChildren; ++child) {
-                cells_[chunk.cell].children[child] += chunk.children[child];
+                cells_[batch.cell].children[child] += batch.children[child];
             }
         }
         decide();
     }
 
-    void cut_in_chunks() {
-        chunks_.clear();
+    void cut_in_batchs() {
+        batchs_.clear();
         for (std::size_t i = 0; i < cells_.size(); ++i) {
             Cell& cell = cells_[i];
             if (cell.count < options_.threshold) continue;
@@ -221,19 +221,19 @@ private:
             if (!can_be_divided(cell)) continue;
             const std::size_t end = cell.first + cell.count;
             for (std::size_t at = cell.first; at < end; at += kItemsPerTask) {
-                chunks_.push_back({i, at, std::min(at + kItemsPerTask, end), {}});
+                batchs_.push_back({i, at, std::min(at + kItemsPerTask, end), {}});
             }
         }
     }
 
-    void find_children(Chunk& chunk) {
-        const Cell& cell = cells_[chunk.cell];
-        for (std::size_t i = chunk.first; i < chunk.last; ++i) {
+    void find_children(Batch& batch) {
+        const Cell& cell = cells_[batch.cell];
+        for (std::size_t i = batch.first; i < batch.last; ++i) {
             const unsigned mask = children_touched(cell, list_[i]);
             assert(mask <= 0xff);
             masks_[i] = static_cast<std::uint8_t>(mask);
             for (std::size_t child = 0; child < kChildren; ++child) {
-                chunk.children[child] += (mask >> child) & 1;
+                batch.children[child] += (mask >> child) & 1;
             }
         }
     }
@@ -322,26 +322,26 @@ private:
 
     void write_lists(std::size_t count) {
         next_list_.resize(count);
-        for (Chunk& chunk : chunks_) {
+        for (Batch& batch : batchs_) {
             for (std::size_t child = 0; child < kChildren; ++child) {
-                std::size_t& next = cells_[chunk.cell].children[child];
-                const std::uint32_t own = chunk.children[child];
-                chunk.children[child] = static_cast<std::uint32_t>(next);
+                std::size_t& next = cells_[batch.cell].children[child];
+                const std::uint32_t own = batch.children[child];
+                batch.children[child] = static_cast<std::uint32_t>(next);
                 next += own;
             }
         }
-        for_chunks([&](Chunk& chunk) { write_list(chunk); });
+        for_batchs([&](Batch& batch) { write_list(batch); });
     }
 
-    void write_list(Chunk& chunk) {
-        if (!cells_[chunk.cell].divided) return;
-        for (std::size_t i = chunk.first; i < chunk.last; ++i) {
+    void write_list(Batch& batch) {
+        if (!cells_[batch.cell].divided) return;
+        for (std::size_t i = batch.first; i < batch.last; ++i) {
             const unsigned mask = masks_[i];
             assert(mask != 0);  // a triangle that touches a cell touches a child
             const std::uint32_t shared = (mask & (mask - 1)) != 0 ? kSharedReference : 0;
             for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
                 const auto child = static_cast<std::size_t>(std::countr_zero(rest));
-                next_list_[chunk.children[child]++] = list_[i] | shared;
+                next_list_[batch.children[child]++] = list_[i] | shared;
             }
         }
     }
@@ -356,7 +356,7 @@ private:
     std::vector<std::uint32_t> list_;  ///< of all cells of the level; see Cell
     std::vector<std::uint32_t> next_list_;
     std::vector<std::uint8_t> masks_;  ///< for each entry of list_: the children that it touches
-    std::vector<Chunk> chunks_;
+    std::vector<Batch> batchs_;
     std::vector<std::size_t> groups_;
 };
 

@@ -19,7 +19,7 @@
 
 // Built level by level, all cones of a level at once. Each cone's list of triangles is passed down
 // to its children. Most triangles lie inside one finest cone, which is known from their corners
-// alone (inner_cone). The exact test decides the others. Lists are cut into chunks of
+// alone (inner_cone). The exact test decides the others. Lists are cut into batchs of
 // kItemsPerTask. These are counted first, then moved to known places. So every list rises and no
 // thread waits for another. The first levels, whose cones are split in any case, are done in one
 // step.
@@ -47,7 +47,7 @@ struct Run {
 };
 
 /// A part of a run, for one task.
-struct TetraChunk {
+struct TetraBatch {
     std::size_t run;
     std::size_t first;
     std::size_t last;
@@ -168,13 +168,13 @@ private:
         TetraLevel level = first_level(depth);
         for (; !level.runs.empty(); ++depth) {
             std::vector<Run> inner = runs_to_split(level, depth);
-            std::vector<TetraChunk> chunks = count_children(level, inner);
-            if (!has_room(level, inner, chunks)) {
+            std::vector<TetraBatch> batchs = count_children(level, inner);
+            if (!has_room(level, inner, batchs)) {
                 inner.clear();
-                chunks.clear();
+                batchs.clear();
             }
             take_nodes(level, inner);
-            level = move_down(level, inner, chunks);
+            level = move_down(level, inner, batchs);
         }
     }
 
@@ -270,11 +270,11 @@ private:
 
     /// Returns whether the references of the level, with these cones split, are few enough.
     [[nodiscard]] bool has_room(const TetraLevel& level, const std::vector<Run>& inner,
-                                const std::vector<TetraChunk>& chunks) const {
+                                const std::vector<TetraBatch>& batchs) const {
         std::uint64_t count = result_.references.size() + level.count;
         for (const Run& run : inner) count -= run.last - run.first;
-        for (const TetraChunk& chunk : chunks) {
-            for (const std::size_t child : chunk.place) count += child;
+        for (const TetraBatch& batch : batchs) {
+            for (const std::size_t child : batch.place) count += child;
         }
         return count <= most_references();
     }
@@ -299,49 +299,49 @@ private:
         }
     }
 
-    static std::vector<TetraChunk> chunks_of(const std::vector<Run>& runs) {
-        std::vector<TetraChunk> chunks;
+    static std::vector<TetraBatch> batchs_of(const std::vector<Run>& runs) {
+        std::vector<TetraBatch> batchs;
         for (std::size_t i = 0; i < runs.size(); ++i) {
             for (std::size_t first = runs[i].first; first < runs[i].last; first += kItemsPerTask) {
-                chunks.push_back({i, first, std::min(runs[i].last, first + kItemsPerTask), {}});
+                batchs.push_back({i, first, std::min(runs[i].last, first + kItemsPerTask), {}});
             }
         }
-        return chunks;
+        return batchs;
     }
 
-    /// Calls body(chunk) for each chunk, several per task.
+    /// Calls body(batch) for each batch, several per task.
     template <class Body>
-    void for_chunks(std::vector<TetraChunk>& chunks, const Body& body) const {
+    void for_batchs(std::vector<TetraBatch>& batchs, const Body& body) const {
         std::vector<std::size_t> begin;
         std::size_t items = kItemsPerTask;
-        for (std::size_t i = 0; i < chunks.size(); ++i) {
+        for (std::size_t i = 0; i < batchs.size(); ++i) {
             if (items >= kItemsPerTask) {
                 begin.push_back(i);
                 items = 0;
             }
-            items += chunks[i].last - chunks[i].first;
+            items += batchs[i].last - batchs[i].first;
         }
-        begin.push_back(chunks.size());
+        begin.push_back(batchs.size());
         options_.parallel_for(begin.size() - 1, [&](std::size_t task) {
-            for (std::size_t i = begin[task]; i < begin[task + 1]; ++i) body(chunks[i]);
+            for (std::size_t i = begin[task]; i < begin[task + 1]; ++i) body(batchs[i]);
         });
     }
 
-    /// Counts, for each chunk, how many references go to each child. Stores in mask_ the children
+    /// Counts, for each batch, how many references go to each child. Stores in mask_ the children
     /// of each reference.
-    std::vector<TetraChunk> count_children(const TetraLevel& level, const std::vector<Run>& runs) {
-        std::vector<TetraChunk> chunks = chunks_of(runs);
-        if (chunks.empty()) return chunks;
+    std::vector<TetraBatch> count_children(const TetraLevel& level, const std::vector<Run>& runs) {
+        std::vector<TetraBatch> batchs = batchs_of(runs);
+        if (batchs.empty()) return batchs;
         mask_ = std::make_unique_for_overwrite<std::uint8_t[]>(level.count);
-        for_chunks(chunks,
-                   [&](TetraChunk& chunk) { count_chunk(level, runs[chunk.run].key, chunk); });
-        return chunks;
+        for_batchs(batchs,
+                   [&](TetraBatch& batch) { count_batch(level, runs[batch.run].key, batch); });
+        return batchs;
     }
 
-    void count_chunk(const TetraLevel& level, std::uint32_t key, TetraChunk& chunk) {
+    void count_batch(const TetraLevel& level, std::uint32_t key, TetraBatch& batch) {
         ConeChildren children(input_, key);
         const int width = std::bit_width(key);
-        for (std::size_t i = chunk.first; i < chunk.last; ++i) {
+        for (std::size_t i = batch.first; i < batch.last; ++i) {
             const std::uint32_t triangle = reference_of(level.items[i]);
             const std::uint32_t home = home_[triangle];
             const int below = std::bit_width(home) - width;
@@ -351,38 +351,38 @@ private:
             assert(mask != 0 && mask <= 0xf);
             mask_[i] = static_cast<std::uint8_t>(mask);
             for (std::size_t child = 0; child < 4; ++child) {
-                chunk.place[child] += mask >> child & 1U;
+                batch.place[child] += mask >> child & 1U;
             }
         }
     }
 
     /// Returns the children with references, each list in the order of its parent's.
     TetraLevel move_down(const TetraLevel& from, const std::vector<Run>& runs,
-                         std::vector<TetraChunk>& chunks) {
+                         std::vector<TetraBatch>& batchs) {
         TetraLevel level{};
-        std::size_t chunk = 0;
+        std::size_t batch = 0;
         for (std::size_t i = 0; i < runs.size(); ++i) {
-            const std::size_t first_chunk = chunk;
-            while (chunk < chunks.size() && chunks[chunk].run == i) ++chunk;
+            const std::size_t first_batch = batch;
+            while (batch < batchs.size() && batchs[batch].run == i) ++batch;
             const std::size_t first_child = level.runs.size();
-            place_chunks(runs[i].key, std::span(chunks).subspan(first_chunk, chunk - first_chunk),
+            place_batchs(runs[i].key, std::span(batchs).subspan(first_batch, batch - first_batch),
                          level);
             link_children(result_.nodes[runs[i].node], result_.nodes.size() + first_child,
                           std::span(level.runs).subspan(first_child));
         }
-        assert(chunk == chunks.size());
+        assert(batch == batchs.size());
         level.items = std::make_unique_for_overwrite<std::uint32_t[]>(level.count);
-        for_chunks(chunks, [&](TetraChunk& part) { move_chunk(from, part, level); });
+        for_batchs(batchs, [&](TetraBatch& part) { move_batch(from, part, level); });
         return level;
     }
 
-    /// Turns the counts of one cone's chunks into places, and adds its children to the level.
-    static void place_chunks(std::uint32_t key, std::span<TetraChunk> chunks, TetraLevel& level) {
+    /// Turns the counts of one cone's batchs into places, and adds its children to the level.
+    static void place_batchs(std::uint32_t key, std::span<TetraBatch> batchs, TetraLevel& level) {
         for (std::uint32_t child = 0; child < 4; ++child) {
             const std::size_t begin = level.count;
-            for (TetraChunk& chunk : chunks) {
-                const std::size_t count = chunk.place[child];
-                chunk.place[child] = level.count;
+            for (TetraBatch& batch : batchs) {
+                const std::size_t count = batch.place[child];
+                batch.place[child] = level.count;
                 level.count += count;
             }
             if (level.count > begin)
@@ -397,13 +397,13 @@ private:
         for (const Run& child : children) parent.flags |= 1U << (child.key & 3U);
     }
 
-    void move_chunk(const TetraLevel& from, TetraChunk& chunk, TetraLevel& level) const {
-        for (std::size_t i = chunk.first; i < chunk.last; ++i) {
+    void move_batch(const TetraLevel& from, TetraBatch& batch, TetraLevel& level) const {
+        for (std::size_t i = batch.first; i < batch.last; ++i) {
             std::uint32_t item = from.items[i];
             const std::uint32_t mask = mask_[i];
             if ((mask & (mask - 1)) != 0) item |= kSharedReference;
             for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
-                level.items[chunk.place[static_cast<std::size_t>(std::countr_zero(rest))]++] = item;
+                level.items[batch.place[static_cast<std::size_t>(std::countr_zero(rest))]++] = item;
             }
         }
     }
