@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs a program for WASI in node. Usage: node run_wasi.mjs PROGRAM.wasm [ARGUMENT]...
+// Runs a program for WASI in node. Usage: node run_wasi.mjs PROGRAM [ARGUMENT]...
 import { readFile } from "node:fs/promises";
 import { WASI } from "node:wasi";
 
