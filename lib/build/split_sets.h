@@ -19,7 +19,7 @@
 // A cut is by rank along one axis. The policy has counted the items of each bin of that axis. The
 // items before the bin in which the rank falls go to the left side, those after it to the right.
 // Only the few in that bin are compared one by one. Every item moves once per cut, into the other
-// of two arrays. Large sets are cut in batchs of a fixed size, all of one generation in parallel.
+// of two arrays. Large sets are cut in batches of a fixed size, all of one generation in parallel.
 // Each step keeps the order in which it found the items, and its decisions depend on nothing else.
 // So the result is the same for any schedule and any standard library.
 
@@ -297,36 +297,36 @@ private:
         }
     }
 
-    static std::vector<Batch> batchs_of(const std::vector<Set>& sets) {
-        std::vector<Batch> batchs;
+    static std::vector<Batch> batches_of(const std::vector<Set>& sets) {
+        std::vector<Batch> batches;
         for (std::size_t i = 0; i < sets.size(); ++i) {
             for (std::size_t first = 0; first < sets[i].count; first += kItemsPerTask) {
-                batchs.push_back({i, first, std::min(kItemsPerTask, sets[i].count - first)});
+                batches.push_back({i, first, std::min(kItemsPerTask, sets[i].count - first)});
             }
         }
-        return batchs;
+        return batches;
     }
 
     /// Cuts all sets; returns the sides that are still large.
     std::vector<Set> split_generation(const std::vector<Set>& sets, std::vector<Set>& tasks,
                                       ParallelFor parallel_for) const {
-        std::vector<Batch> batchs = batchs_of(sets);
+        std::vector<Batch> batches = batches_of(sets);
         const auto items = [&](const Batch& batch) {
             return items_of(sets[batch.set]).subspan(batch.first, batch.count);
         };
-        parallel_for(batchs.size(),
-                     [&](std::size_t i) { batchs[i].bounds = bounds_of(items(batchs[i])); });
+        parallel_for(batches.size(),
+                     [&](std::size_t i) { batches[i].bounds = bounds_of(items(batches[i])); });
         std::vector<MiddleBounds> bounds(sets.size());
-        for (const Batch& batch : batchs) bounds[batch.set].grow(batch.bounds);
-        parallel_for(batchs.size(), [&](std::size_t i) {
-            Policy::clear(batchs[i].bins, bounds[batchs[i].set]);
-            Policy::count(batchs[i].bins, items(batchs[i]));
+        for (const Batch& batch : batches) bounds[batch.set].grow(batch.bounds);
+        parallel_for(batches.size(), [&](std::size_t i) {
+            Policy::clear(batches[i].bins, bounds[batches[i].set]);
+            Policy::count(batches[i].bins, items(batches[i]));
         });
         std::vector<Cut> cuts(sets.size());
         std::vector<CutCounts> counts(sets.size());
-        aim(sets, batchs, cuts, counts);
-        parallel_for(batchs.size(), [&](std::size_t i) {
-            const Batch& batch = batchs[i];
+        aim(sets, batches, cuts, counts);
+        parallel_for(batches.size(), [&](std::size_t i) {
+            const Batch& batch = batches[i];
             scatter(items(batch), cuts[batch.set], batch.target, target_of(sets[batch.set]));
         });
         parallel_for(sets.size(), [&](std::size_t i) {
@@ -345,11 +345,11 @@ private:
     }
 
     /// Chooses the cuts, and the places for the items of each batch.
-    static void aim(const std::vector<Set>& sets, std::vector<Batch>& batchs,
+    static void aim(const std::vector<Set>& sets, std::vector<Batch>& batches,
                     std::vector<Cut>& cuts, std::vector<CutCounts>& counts) {
         std::vector<typename Policy::Bins> bins(sets.size());
         std::vector<bool> begun(sets.size());
-        for (const Batch& batch : batchs) {
+        for (const Batch& batch : batches) {
             if (begun[batch.set]) {
                 Policy::add(bins[batch.set], batch.bins);
             } else {
@@ -364,7 +364,7 @@ private:
             assert(counts[i].all == sets[i].count);
             target[i] = {0, counts[i].before, counts[i].before + counts[i].in};
         }
-        for (Batch& batch : batchs) {
+        for (Batch& batch : batches) {
             std::array<std::size_t, 3>& next = target[batch.set];
             batch.target = next;
             const CutCounts own = Policy::counts(batch.bins, cuts[batch.set]);

@@ -38,11 +38,12 @@ EnclosingParts enclosing_parts(const Model& model) noexcept {
     if (!first) return {};
     EnclosingParts parts{.first = *first};
     for (const Hull& hull : model.hulls().hulls.subspan(*first)) {
-        // Only a damaged file holds another number.
-        if (!(hull.distance >= 0 && std::isfinite(hull.distance))) return {};
+        const double size = hull.reach.x + hull.reach.y + hull.reach.z;
+        // Only a damaged file holds other numbers.
+        if (!(hull.distance >= 0 && std::isfinite(hull.distance + size))) return {};
         ++parts.count;
         parts.error = std::max(parts.error, hull.distance);
-        parts.size = std::max(parts.size, hull.reach.x + hull.reach.y + hull.reach.z);
+        parts.size = std::max(parts.size, size);
     }
     return parts;
 }

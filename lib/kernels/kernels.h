@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "cdprep/format/api.h"
 #include "cdprep/format/portable.h"
@@ -274,12 +272,10 @@ struct PlaneRows {
 /// has lower > upper along each axis and meets none.
 inline constexpr std::size_t kPaddedBox = 8;
 inline constexpr std::size_t kPaddedUpper = 4;
+inline constexpr float kFarthest = static_cast<float>(format::kInfinity);
 /// The padded box that meets no other one.
-inline constexpr std::array<float, kPaddedBox> kAbsentBox = [] {
-    constexpr float kInfinite = std::numeric_limits<float>::infinity();
-    return std::array<float, kPaddedBox>{kInfinite,  kInfinite,  kInfinite,  0,
-                                         -kInfinite, -kInfinite, -kInfinite, 0};
-}();
+inline constexpr float kAbsentBox[kPaddedBox] = {kFarthest,  kFarthest,  kFarthest,  0,
+                                                 -kFarthest, -kFarthest, -kFarthest, 0};
 
 /// Boxes as a caller gives them, and what is kept of them. Arrays by the number of the box.
 struct BoxStore {

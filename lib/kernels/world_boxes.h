@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cassert>
-#include <limits>
 
 #include "kernels.h"
 
@@ -133,7 +132,7 @@ std::size_t meeting_pairs_of(const float* boxes, const std::uint32_t* pairs, std
 template <class F>
 std::size_t store_boxes_of(const BoxStore& store, const std::uint32_t* numbers, std::size_t count,
                            std::uint32_t* escaped) noexcept {
-    constexpr float kLargest = std::numeric_limits<float>::max();
+    constexpr float kLargest = 0x1.fffffep127F;  // the largest float
     const F most(kLargest), least(-kLargest);
     const BoxStore to = store;  // in registers: bytes that are stored may be anything
     std::size_t found = 0;
@@ -143,7 +142,7 @@ std::size_t store_boxes_of(const BoxStore& store, const std::uint32_t* numbers, 
         F::load(to.boxes + at).store(to.previous + at);
         const F given = F::load_box(to.given + number * 6);
         const unsigned is_absent = bits(greater(given, halves_exchanged(given))) & kLowerLanes;
-        const F box = is_absent != 0 ? F::load(kAbsentBox.data()) : max(min(given, most), least);
+        const F box = is_absent != 0 ? F::load(kAbsentBox) : max(min(given, most), least);
         box.store(to.boxes + at);
         const F around = F::load(to.around + at);
         const unsigned outside =

@@ -107,7 +107,7 @@ private:
         if (asks_.body == Body::solid && known != Answer::yes) {
             known = std::nullopt;
             if constexpr (contains(kAsked, Ask::distance)) {
-                if (has_parts()) known = is_apart() ? Answer::no : Answer::yes;
+                if (has_parts()) known = collide_by_parts();
             }
         }
         if (known) {
@@ -194,6 +194,13 @@ private:
         if (asks_.body == Body::solid || asks_.overlap != Overlap::closed) return std::nullopt;
         if (is_apart()) return Answer::no;
         return answer_.distance.upper == 0 ? std::optional(Answer::yes) : std::nullopt;
+    }
+
+    /// Whether the solids collide, if their parts tell. That parts touch says nothing about
+    /// crossing.
+    [[nodiscard]] std::optional<Answer> collide_by_parts() const noexcept {
+        if (is_apart()) return Answer::no;
+        return asks_.overlap == Overlap::closed ? std::optional(Answer::yes) : std::nullopt;
     }
 
     /// Whether the surfaces are near, if the distance tells. If an error is permitted, it always

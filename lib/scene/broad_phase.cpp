@@ -248,9 +248,9 @@ void BroadPhase::State::forget(std::uint32_t boxes) noexcept {
     of_many = of_few = wait = 0;
     if (std::exchange(has_filters, false)) std::fill_n(filters, limits.boxes, BoxFilter{});
     for (std::size_t i = 0; i < count; ++i) {
-        std::copy_n(kAbsentBox.begin(), kPaddedBox, exact + i * kPaddedBox);
-        std::copy_n(kAbsentBox.begin(), kPaddedBox, larger + i * kPaddedBox);
-        std::copy_n(kAbsentBox.begin(), kPaddedBox, previous + i * kPaddedBox);
+        std::copy_n(kAbsentBox, kPaddedBox, exact + i * kPaddedBox);
+        std::copy_n(kAbsentBox, kPaddedBox, larger + i * kPaddedBox);
+        std::copy_n(kAbsentBox, kPaddedBox, previous + i * kPaddedBox);
     }
 }
 

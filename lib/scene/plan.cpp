@@ -306,10 +306,13 @@ std::string rung_text(const LayerPair& pair, const PairRung& rung) {
 /// The query from which the answer of collide() follows: see PairQueries.
 const char* source_of(const LayerPair& pair, const PairRung& rung) {
     const bool is_solid = pair.body == Body::solid;
+    const bool is_by_parts = rung.rung == Rung::parts;
     if (has(pair.effects, Ask::overlap)) {
+        if (is_by_parts) return " (from overlap, otherwise from distance)";
         return is_solid ? " (from overlap if any triangles overlap)" : " (from overlap)";
     }
-    if (rung.rung == Rung::parts) return " (from distance)";
+    if (is_by_parts && pair.overlap == Overlap::closed) return " (from distance)";
+    if (is_by_parts) return " (mostly from distance)";
     const bool is_told =
         has(pair.effects, Ask::distance) && !is_solid && pair.overlap == Overlap::closed;
     return is_told ? " (mostly from distance)" : "";

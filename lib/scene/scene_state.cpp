@@ -17,7 +17,7 @@ ObjectSlot* Scene::State::find(ObjectId id) noexcept {
     return object.model != nullptr && object.generation == id.generation ? &object : nullptr;
 }
 
-/// Learns what parts the model of a slot has. None does that no pair of its layer asks through.
+/// Stores the parts of the model of a slot. Models of layers without Rung::parts get none.
 void Scene::State::find_parts(std::uint32_t slot) noexcept {
     if (parts == nullptr) return;
     const ObjectSlot& object = objects[slot];
@@ -181,6 +181,14 @@ void Scene::State::keep(std::uint32_t old, std::uint32_t now) noexcept {
     if (next.verdict) next.verdict[now] = last.verdict[old];
 }
 
+/// Returns whether flags came from a distance with an error, and now are exact: it is paused.
+bool Scene::State::follows_paused_distance(const Record& before, Ask effects) const noexcept {
+    const bool had_error =
+        plan->rungs()[before.pair].error > 0 && contains(before.asked, Ask::distance);
+    return had_error && !contains(effects, Ask::distance) &&
+           (effects & (Ask::collide | Ask::within)) != Ask::nothing;
+}
+
 /// Keeps the records of objects that have not changed, and lists the others to be asked.
 void Scene::State::keep_known() noexcept {
     merge(last, next, [&](std::uint32_t old, std::uint32_t now) {
@@ -188,7 +196,8 @@ void Scene::State::keep_known() noexcept {
         const Record& before = last.record[old];
         Record& record = next.record[now];
         if (!record.is_same(before)) return;
-        const bool is_known = contains(before.asked, effects_of(record));
+        const bool is_known = contains(before.asked, effects_of(record)) &&
+                              !follows_paused_distance(before, effects_of(record));
         if (is_known && !is_changed(record)) keep(old, now);
         record.touched = before.touched;
         if (next.haptic != nullptr) next.haptic[now] = last.haptic[old];
@@ -241,7 +250,7 @@ PairAnswer Scene::State::ask_two(std::uint32_t number, const ObjectSlot& a, cons
                              nullptr};
     if (rung.rung == Rung::parts) {
         const EnclosingParts &of_a = parts[record.a.slot], &of_b = parts[record.b.slot];
-        // The plan has not seen the models of all objects.
+        // An object may have a model that the plan was not told.
         if (of_a.count > 0 && of_b.count > 0 && of_a.error + of_b.error <= rung.error) {
             question.parts_a = &of_a;
             question.parts_b = &of_b;

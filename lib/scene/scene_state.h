@@ -119,6 +119,7 @@ struct Scene::State {
     [[nodiscard]] bool is_candidate(BoxPair slots) const noexcept;
     [[nodiscard]] std::uint64_t list_given(std::span<const BoxPair> candidates) noexcept;
     void keep(std::uint32_t old, std::uint32_t now) noexcept;
+    [[nodiscard]] bool follows_paused_distance(const Record& before, Ask effects) const noexcept;
     void keep_known() noexcept;
     void find_parts(std::uint32_t slot) noexcept;
     void choose_kernels() noexcept;

@@ -173,7 +173,7 @@ void WorldTree::rebuild(const float* boxes) noexcept {
     for (unsigned level = 0; level < view_.levels; ++level) {
         const std::size_t nodes = std::max<std::size_t>(groups_of(count), 1);
         for (std::size_t place = count; place < nodes * kLanes; ++place) {
-            set_lane(level, place, kAbsentBox.data());
+            set_lane(level, place, kAbsentBox);
         }
         if (level + 1 == view_.levels) break;
         for (std::size_t i = 0; i < nodes; ++i) {

@@ -5,7 +5,7 @@
  *  the principal axes. The quaternion `axes`, x, y, z, w, turns these into the model. */
 export function inMetres({ name, metres_per_unit, mass, pieces }, density) {
     const unit = metres_per_unit ?? 1;
-    if (!mass) throw new Error(`${name}: its mass is beyond the range of double`);
+    if (!mass) throw new Error(`${name}: it has no volume, or a mass beyond the range of double`);
     return {
         pieces: pieces.map(({ name, points }) => ({ name, points: points.map((x) => unit * x) })),
         mass: density * unit ** 3 * mass.volume,

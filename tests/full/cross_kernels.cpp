@@ -27,12 +27,11 @@ int print_hashes(const Table& table) {
     for (const auto& [kernel, hash] : hashes) {
         std::printf("%s %016" PRIx64 "\n", kernel.c_str(), hash.value());
         if (hash.others_than_zero() > kLeastAnswers) continue;
-        std::fprintf(stderr, "cross_kernels: '%s' hardly answers.\n", kernel.c_str());
+        std::fprintf(stderr, "cross_kernels: '%s' returns almost only zeros.\n", kernel.c_str());
         code = 1;
     }
     if (hashes.size() == kKernels) return code;
-    std::fprintf(stderr, "cross_kernels: %zu kernels are asked, of %zu.\n", hashes.size(),
-                 kKernels);
+    std::fprintf(stderr, "cross_kernels: tests %zu of %zu kernels.\n", hashes.size(), kKernels);
     return 1;
 }
 

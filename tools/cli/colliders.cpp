@@ -121,7 +121,9 @@ void take_triangles(const Rest& rest, mesh::TriangleSoup& soup) {
     soup.face = std::move(faces);
 }
 
+/// Finds nothing if numbers were not read: whose they are is not known.
 Rest find_rest(const mesh::TriangleSoup& soup) {
+    if (soup.bad_number_count > 0) return {};
     const std::size_t triangles = soup.triangles.size();
     Rest rest = soup.instances.empty() ? find_rest(triangles, soup.groups.runs, soup.groups.names)
                                        : find_rest(triangles, soup.instances, soup.instance_names);
@@ -165,7 +167,6 @@ bool is_collider(std::string_view path) noexcept {
 }
 
 std::vector<std::string> leave_out_colliders(mesh::TriangleSoup& soup) {
-    if (soup.bad_number_count > 0) return {};
     const Rest rest = find_rest(soup);
     if (rest.colliders.empty()) return {};
     take_runs(rest, soup.instances, soup.instance_names);

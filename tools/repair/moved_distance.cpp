@@ -64,7 +64,7 @@ private:
 };
 
 double apart(const Double3& a, const Double3& b) {
-    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+    return safe_length(minus(a, b));
 }
 
 struct Fragment {

@@ -106,7 +106,7 @@ public:
             return fail("simulate", dropped.error());
         }
         // First without models: nothing is baked for a plan that does not exist.
-        // Of baked files, the parts are read that tell the rungs.
+        // The parts of baked files decide the rungs.
         std::vector<ModelUse> parts;
         if (!assembly_) parts = scenes::uses_of_parts(scene_);
         Plan::Compiled compiled = scenes::compile_scene(scene_, limits(), parts);

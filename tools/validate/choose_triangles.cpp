@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validate/choose_triangles.h"
-#include "mesh/vectors.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+
+#include "mesh/vectors.h"
 
 namespace cdprep::report {
 namespace {

@@ -287,6 +287,10 @@ int read_model_use(Call& call, const Name& name, const cdprep_model_use* from,
                    cdprep_model_use& use) noexcept {
     if (const int code = read_input(call, name, from, use)) return code;
     if (const int code = check_asks(call, name.of("serves"), use.serves)) return code;
+    if (use.part_count == 0 && use.part_error > 0) {
+        return call.refuse(CDPREP_WHY_NO_MEANING, name.of("part_error"),
+                           "is set, but part_count is 0.");
+    }
     if (use.model == nullptr) return CDPREP_OK;
     if (use.part_count != 0 || use.part_error > 0) {
         return call.refuse(CDPREP_WHY_NO_MEANING,

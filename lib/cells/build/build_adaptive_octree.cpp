@@ -19,13 +19,13 @@
 #include "exact/triangle_box.h"
 
 // Built level by level. The lists of a level's cells lie one after another in one array. Each list
-// is cut into batchs of a fixed size. Every batch finds, for each of its triangles, the children
+// is cut into batches of a fixed size. Every batch finds, for each of its triangles, the children
 // that it touches. After all have counted, each knows where its part of the children's lists goes.
 // So lists rise as the first one did, and nothing depends on which task did which batch.
 //
 // Scratch: 48 bytes per triangle for its box; 8 bytes per triangle of each median being computed. 4
 // bytes per reference of a level and of the next, and one more per reference of the former. The
-// cells and batchs of a level, and the cells of the next. No level has more references or nodes
+// cells and batches of a level, and the cells of the next. No level has more references or nodes
 // than the result.
 
 namespace cdprep::build {
@@ -172,11 +172,11 @@ private:
         });
     }
     template <class Body>
-    void for_batchs(const Body& body) {
-        const auto size_of = [&](std::size_t i) { return batchs_[i].last - batchs_[i].first; };
-        for_groups(batchs_.size(), 1, size_of,
+    void for_batches(const Body& body) {
+        const auto size_of = [&](std::size_t i) { return batches_[i].last - batches_[i].first; };
+        for_groups(batches_.size(), 1, size_of,
                    [&](std::size_t, std::size_t first, std::size_t last) {
-                       for (std::size_t i = first; i < last; ++i) body(batchs_[i]);
+                       for (std::size_t i = first; i < last; ++i) body(batches_[i]);
                    });
     }
 
@@ -201,10 +201,10 @@ private:
     }
 
     void sort_into_children() {
-        cut_in_batchs();
+        cut_in_batches();
         masks_.resize(list_.size());
-        for_batchs([&](Batch& batch) { find_children(batch); });
-        for (const Batch& batch : batchs_) {
+        for_batches([&](Batch& batch) { find_children(batch); });
+        for (const Batch& batch : batches_) {
             for (std::size_t child = 0; child < kChildren; ++child) {
                 cells_[batch.cell].children[child] += batch.children[child];
             }
@@ -212,8 +212,8 @@ private:
         decide();
     }
 
-    void cut_in_batchs() {
-        batchs_.clear();
+    void cut_in_batches() {
+        batches_.clear();
         for (std::size_t i = 0; i < cells_.size(); ++i) {
             Cell& cell = cells_[i];
             if (cell.count < options_.threshold) continue;
@@ -221,7 +221,7 @@ private:
             if (!can_be_divided(cell)) continue;
             const std::size_t end = cell.first + cell.count;
             for (std::size_t at = cell.first; at < end; at += kItemsPerTask) {
-                batchs_.push_back({i, at, std::min(at + kItemsPerTask, end), {}});
+                batches_.push_back({i, at, std::min(at + kItemsPerTask, end), {}});
             }
         }
     }
@@ -322,7 +322,7 @@ private:
 
     void write_lists(std::size_t count) {
         next_list_.resize(count);
-        for (Batch& batch : batchs_) {
+        for (Batch& batch : batches_) {
             for (std::size_t child = 0; child < kChildren; ++child) {
                 std::size_t& next = cells_[batch.cell].children[child];
                 const std::uint32_t own = batch.children[child];
@@ -330,7 +330,7 @@ private:
                 next += own;
             }
         }
-        for_batchs([&](Batch& batch) { write_list(batch); });
+        for_batches([&](Batch& batch) { write_list(batch); });
     }
 
     void write_list(Batch& batch) {
@@ -356,7 +356,7 @@ private:
     std::vector<std::uint32_t> list_;  ///< of all cells of the level; see Cell
     std::vector<std::uint32_t> next_list_;
     std::vector<std::uint8_t> masks_;  ///< for each entry of list_: the children that it touches
-    std::vector<Batch> batchs_;
+    std::vector<Batch> batches_;
     std::vector<std::size_t> groups_;
 };
 

@@ -19,7 +19,7 @@
 
 // Built level by level, all cones of a level at once. Each cone's list of triangles is passed down
 // to its children. Most triangles lie inside one finest cone, which is known from their corners
-// alone (inner_cone). The exact test decides the others. Lists are cut into batchs of
+// alone (inner_cone). The exact test decides the others. Lists are cut into batches of
 // kItemsPerTask. These are counted first, then moved to known places. So every list rises and no
 // thread waits for another. The first levels, whose cones are split in any case, are done in one
 // step.
@@ -168,13 +168,13 @@ private:
         TetraLevel level = first_level(depth);
         for (; !level.runs.empty(); ++depth) {
             std::vector<Run> inner = runs_to_split(level, depth);
-            std::vector<TetraBatch> batchs = count_children(level, inner);
-            if (!has_room(level, inner, batchs)) {
+            std::vector<TetraBatch> batches = count_children(level, inner);
+            if (!has_room(level, inner, batches)) {
                 inner.clear();
-                batchs.clear();
+                batches.clear();
             }
             take_nodes(level, inner);
-            level = move_down(level, inner, batchs);
+            level = move_down(level, inner, batches);
         }
     }
 
@@ -270,10 +270,10 @@ private:
 
     /// Returns whether the references of the level, with these cones split, are few enough.
     [[nodiscard]] bool has_room(const TetraLevel& level, const std::vector<Run>& inner,
-                                const std::vector<TetraBatch>& batchs) const {
+                                const std::vector<TetraBatch>& batches) const {
         std::uint64_t count = result_.references.size() + level.count;
         for (const Run& run : inner) count -= run.last - run.first;
-        for (const TetraBatch& batch : batchs) {
+        for (const TetraBatch& batch : batches) {
             for (const std::size_t child : batch.place) count += child;
         }
         return count <= most_references();
@@ -299,43 +299,43 @@ private:
         }
     }
 
-    static std::vector<TetraBatch> batchs_of(const std::vector<Run>& runs) {
-        std::vector<TetraBatch> batchs;
+    static std::vector<TetraBatch> batches_of(const std::vector<Run>& runs) {
+        std::vector<TetraBatch> batches;
         for (std::size_t i = 0; i < runs.size(); ++i) {
             for (std::size_t first = runs[i].first; first < runs[i].last; first += kItemsPerTask) {
-                batchs.push_back({i, first, std::min(runs[i].last, first + kItemsPerTask), {}});
+                batches.push_back({i, first, std::min(runs[i].last, first + kItemsPerTask), {}});
             }
         }
-        return batchs;
+        return batches;
     }
 
     /// Calls body(batch) for each batch, several per task.
     template <class Body>
-    void for_batchs(std::vector<TetraBatch>& batchs, const Body& body) const {
+    void for_batches(std::vector<TetraBatch>& batches, const Body& body) const {
         std::vector<std::size_t> begin;
         std::size_t items = kItemsPerTask;
-        for (std::size_t i = 0; i < batchs.size(); ++i) {
+        for (std::size_t i = 0; i < batches.size(); ++i) {
             if (items >= kItemsPerTask) {
                 begin.push_back(i);
                 items = 0;
             }
-            items += batchs[i].last - batchs[i].first;
+            items += batches[i].last - batches[i].first;
         }
-        begin.push_back(batchs.size());
+        begin.push_back(batches.size());
         options_.parallel_for(begin.size() - 1, [&](std::size_t task) {
-            for (std::size_t i = begin[task]; i < begin[task + 1]; ++i) body(batchs[i]);
+            for (std::size_t i = begin[task]; i < begin[task + 1]; ++i) body(batches[i]);
         });
     }
 
     /// Counts, for each batch, how many references go to each child. Stores in mask_ the children
     /// of each reference.
     std::vector<TetraBatch> count_children(const TetraLevel& level, const std::vector<Run>& runs) {
-        std::vector<TetraBatch> batchs = batchs_of(runs);
-        if (batchs.empty()) return batchs;
+        std::vector<TetraBatch> batches = batches_of(runs);
+        if (batches.empty()) return batches;
         mask_ = std::make_unique_for_overwrite<std::uint8_t[]>(level.count);
-        for_batchs(batchs,
-                   [&](TetraBatch& batch) { count_batch(level, runs[batch.run].key, batch); });
-        return batchs;
+        for_batches(batches,
+                    [&](TetraBatch& batch) { count_batch(level, runs[batch.run].key, batch); });
+        return batches;
     }
 
     void count_batch(const TetraLevel& level, std::uint32_t key, TetraBatch& batch) {
@@ -358,29 +358,29 @@ private:
 
     /// Returns the children with references, each list in the order of its parent's.
     TetraLevel move_down(const TetraLevel& from, const std::vector<Run>& runs,
-                         std::vector<TetraBatch>& batchs) {
+                         std::vector<TetraBatch>& batches) {
         TetraLevel level{};
         std::size_t batch = 0;
         for (std::size_t i = 0; i < runs.size(); ++i) {
             const std::size_t first_batch = batch;
-            while (batch < batchs.size() && batchs[batch].run == i) ++batch;
+            while (batch < batches.size() && batches[batch].run == i) ++batch;
             const std::size_t first_child = level.runs.size();
-            place_batchs(runs[i].key, std::span(batchs).subspan(first_batch, batch - first_batch),
-                         level);
+            place_batches(runs[i].key, std::span(batches).subspan(first_batch, batch - first_batch),
+                          level);
             link_children(result_.nodes[runs[i].node], result_.nodes.size() + first_child,
                           std::span(level.runs).subspan(first_child));
         }
-        assert(batch == batchs.size());
+        assert(batch == batches.size());
         level.items = std::make_unique_for_overwrite<std::uint32_t[]>(level.count);
-        for_batchs(batchs, [&](TetraBatch& part) { move_batch(from, part, level); });
+        for_batches(batches, [&](TetraBatch& part) { move_batch(from, part, level); });
         return level;
     }
 
-    /// Turns the counts of one cone's batchs into places, and adds its children to the level.
-    static void place_batchs(std::uint32_t key, std::span<TetraBatch> batchs, TetraLevel& level) {
+    /// Turns the counts of one cone's batches into places, and adds its children to the level.
+    static void place_batches(std::uint32_t key, std::span<TetraBatch> batches, TetraLevel& level) {
         for (std::uint32_t child = 0; child < 4; ++child) {
             const std::size_t begin = level.count;
-            for (TetraBatch& batch : batchs) {
+            for (TetraBatch& batch : batches) {
                 const std::size_t count = batch.place[child];
                 batch.place[child] = level.count;
                 level.count += count;

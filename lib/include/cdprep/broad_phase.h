@@ -92,7 +92,7 @@ public:
     /// limits are invalid.
     [[nodiscard]] CDPREP_API static std::optional<BroadPhase> in_memory(
         std::span<std::byte> memory, const BroadPhaseLimits& limits) noexcept;
-    /// Returns the number of bytes that it takes: about 150 for each box and 24 for each pair. Each
+    /// Returns the number of bytes that it takes: about 165 for each box and 24 for each pair. Each
     /// thread but the first adds 4 for each box.
     [[nodiscard]] CDPREP_API static std::size_t size(const BroadPhaseLimits& limits) noexcept;
     [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two

@@ -67,7 +67,8 @@ struct LayerPair {
 /// never a clock, so the same files give the same plan.
 ///
 /// `distance`: [lower, upper] contains the exact distance, and is at most PairRung::error wide,
-/// plus rounding. Rounding is at most 3e-12 of `upper` and 1e-13 of the largest coordinate.
+/// plus rounding. Rounding is at most 3e-12 of `upper`, and 1e-13 of the largest coordinate of a
+/// model or a translation.
 ///
 /// Flags: a `no` is right. A `yes` may be wrong if the exact distance is above the threshold by at
 /// most PairRung::error, plus rounding. The threshold is 0 for `collide`, max_distance for
@@ -81,7 +82,9 @@ enum class Rung : std::uint8_t {
     walk,
     /// Of solids: through their enclosing parts (EnclosingParts). Witnesses lie on parts, as far
     /// from the solids as the parts' errors say, and have no triangles: kNoTriangleNumber. If parts
-    /// touch, solids collide; `collide` then tells no containment. Two objects whose own parts do
+    /// touch, solids collide, unless Overlap::proper is asked, which is exact. `collide` then tells
+    /// no
+    /// containment. Two objects whose own parts do
     /// not certify PairRung::error take the walk.
     parts,
 };

@@ -44,9 +44,10 @@ struct SceneHit {
     ObjectId a;
     ObjectId b;
     std::uint32_t pair;  ///< of layers: its number in Plan::pairs()
-    /// The effects that hold. `distance` holds if the distance is at most max_distance. `overlap`,
-    /// `self` and `contacts` hold if their list has items. `continuous` holds if ImpactKind is not
-    /// `none`. `haptic` holds unless the distance is proven to exceed max_distance.
+    /// The effects that hold. With LayerPair::max_error, see Rung. `distance` holds if the distance
+    /// is at most max_distance. `overlap`, `self` and `contacts` hold if their list has items.
+    /// `continuous` holds if ImpactKind is not `none`. `haptic` holds unless the distance is proven
+    /// to exceed max_distance.
     Ask holds;
     /// The answer of `collide`. If it is unknown, the pair is listed but is not a hit.
     Collision collision;
@@ -175,7 +176,8 @@ struct SceneStep {
 /// Many objects that move. A step runs the plan's queries for pairs of objects near each other, if
 /// one of the two has moved.
 ///
-/// Results are sorted by the slots of a and b. They do not depend on threads, and equal those of
+/// Results are sorted by the slots of a and b. They do not depend on threads. Without
+/// LayerPair::max_error, they equal those of
 /// single queries with Placement::world. They stay valid until the next step that is complete.
 /// After construction nothing is allocated.
 ///
@@ -265,8 +267,8 @@ public:
     /// Returns a hash of all hits, lists, distances, impacts and events. It leaves out witness
     /// points, features, the points of manifolds and the bounds of impacts. For distances of 0, it
     /// leaves out the triangles. It is equal for any number of threads and any instruction set.
-    /// Exceptions are answers of `haptic`, those with a max_error, and impacts that are `near`. They
-    /// may differ between instruction sets.
+    /// Exceptions are answers of `haptic`, those with a max_error, and impacts that are `near`.
+    /// They may differ between instruction sets.
     [[nodiscard]] CDPREP_API std::uint64_t state_hash() const noexcept;
 
 private:

@@ -2,7 +2,6 @@
 #include "decompose/enclose/merge_corners.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 

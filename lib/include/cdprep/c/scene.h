@@ -33,12 +33,15 @@ enum { CDPREP_LAYERS = 32 }; /* the number of layers of a scene; an object is in
  * max_error. The other is for CDPREP_SOLID: enclosing parts (bake --structures hull --parts N).
  * They must be few, and their errors add up to max_error at most. Their nearest points lie on
  * parts, and the triangles are CDPREP_NONE. The bounds contain the exact distance. They are at most
- * max_error apart, plus rounding (3e-12 of `upper` and 1e-13 of the largest coordinate).
+ * max_error apart, plus rounding (3e-12 of `upper`, and 1e-13 of the largest coordinate of a model
+ * or a translation). Two objects whose own parts do not certify max_error take the search through
+ * the BVH.
  *
  * An effect that does not hold is proven not to. One may hold if the exact distance is above its
  * limit by at most that error. The limits are 0 for collide, max_distance for distance and
- * tolerance for within. Within is exact unless distance of CDPREP_SURFACE is asked too, and collide
- * unless parts tell the distance. All other effects are exact. */
+ * tolerance for within. Within is exact unless distance of CDPREP_SURFACE is asked too. Collide is
+ * exact unless parts tell the distance; it then tells no containment. While distance is paused,
+ * both are exact. All other effects are exact. */
 typedef struct cdprep_layer_pair {
     cdprep_head head;
     uint32_t a, b; /* 0: below CDPREP_LAYERS */

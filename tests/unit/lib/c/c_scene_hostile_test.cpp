@@ -252,6 +252,13 @@ TEST_F(CSceneHostile, ModelUsesAreCheckedFieldByField) {
                    "options.models[0].part_count"});
     all.push_back({"an error of a model", [](U& u) { u.part_error = 1; }, CDPREP_WHY_NO_MEANING,
                    "options.models[0].part_error"});
+    all.push_back({"an error without parts",
+                   [](U& u) {
+                       u.model = nullptr;
+                       u.serves = CDPREP_ASK_COLLIDE;
+                       u.part_error = 1;
+                   },
+                   CDPREP_WHY_NO_MEANING, "options.models[0].part_error"});
     for (const auto& [number, why] : bad_numbers()) {
         const double bad = number;
         all.push_back({"part_error", [bad](U& u) { u.part_error = bad; }, why,

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -42,7 +41,7 @@ ModelUse use_of(const Model& model, std::uint32_t layers = 1) {
 }
 
 constexpr double kReach = 0.75;  ///< LayerPair::max_distance
-constexpr SceneLimits kLimits = {.objects = 12, .pairs = 80};
+constexpr SceneLimits kLimits = {.objects = 12, .pairs = 80, .triangle_pairs = 20'000};
 
 /// Both effects, of solids in one layer.
 LayerPair solids(double max_error) {
@@ -248,8 +247,7 @@ TEST_F(SceneParts, CollideIsExactWhileDistanceIsPaused) {
     EXPECT_EQ(crude.distance->distance.lower, 0);
     EXPECT_GE(crude.distance->distance.upper, 0.4);
     EXPECT_EQ(scene.counts().calls_of(Ask::collide), 0U);
-    scene.set_paused(Ask::distance);
-    scene.set_pose(ball, Pose());
+    scene.set_paused(Ask::distance);  // nothing moves
     ASSERT_TRUE(scene.step(workspaces).complete);
     EXPECT_FALSE(Found(scene, ring, ball).holds(Ask::collide));
     EXPECT_EQ(scene.counts().calls_of(Ask::collide), 1U);
@@ -327,6 +325,61 @@ TEST(SceneOfCubes, TouchingPartsCollide) {
     scene.set_pose(b, at(1.75 + 1e-9));
     ASSERT_TRUE(scene.step(workspaces).complete);
     EXPECT_FALSE(Found(scene, a, b).holds(Ask::distance));
+}
+
+// By hand: two unit cubes that share a face touch, but do not cross. The exact query tells.
+TEST(SceneOfCubes, TouchingPartsDoNotCross) {
+    const OpenModel cube = open_with_parts(unit_cube(), 1);
+    LayerPair pair = solids(1e-9);
+    pair.overlap = Overlap::proper;
+    const Plan plan = plan_of(pair, {use_of(cube.model)});
+    ASSERT_EQ(plan.rungs()[0].rung, Rung::parts);
+    Scene scene(plan);
+    std::vector<Workspace> workspaces(1);
+    const ObjectId a = *scene.add({&cube.model, 0, Pose()});
+    const ObjectId b = *scene.add({&cube.model, 0, Pose()});
+    struct Case {
+        double x;
+        bool crosses;
+        std::size_t exact_queries;
+    };
+    for (const Case& c : {Case{1, false, 1}, Case{0.5, true, 1}, Case{1.5, false, 0}}) {
+        scene.set_pose(b, Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, c.x, 0.25, 0.25}).value());
+        ASSERT_TRUE(scene.step(workspaces).complete);
+        EXPECT_EQ(Found(scene, a, b).holds(Ask::collide), c.crosses) << c.x;
+        EXPECT_EQ(scene.counts().calls_of(Ask::collide), c.exact_queries) << c.x;
+    }
+}
+
+// With parts, `overlap` and `within` are as exact as without.
+TEST_F(SceneParts, OtherEffectsStayExact) {
+    LayerPair pair = solids(2 * error_);
+    pair.effects = pair.effects | Ask::overlap | Ask::within;
+    pair.tolerance = 0.25;
+    const Plan plan = plan_of(pair, uses_);
+    ASSERT_EQ(plan.rungs()[0].rung, Rung::parts);
+    std::vector<Workspace> workspaces(1);
+    Workspace workspace;
+    std::mt19937 random(13);
+    int overlaps_seen = 0, near = 0;
+    for (int i = 0; i < 200; ++i) {
+        const Model &a = *models_[i % 3], &b = *models_[i % 2];
+        const Pose pose_a = random_pose(random, 1.5), pose_b = random_pose(random, 1.5);
+        Scene scene(plan);
+        const ObjectId id_a = *scene.add({&a, 0, pose_a}), id_b = *scene.add({&b, 0, pose_b});
+        ASSERT_TRUE(scene.step(workspaces).complete);
+        const Found found(scene, id_a, id_b);
+        const Pair exact = {a, b, Placement::world(pose_a, pose_b)};
+        const bool meets = overlaps(exact, workspace, {}) > 0;
+        const bool is_near = within(exact, pair.tolerance, workspace);
+        EXPECT_EQ(found.holds(Ask::overlap), meets);
+        EXPECT_EQ(found.holds(Ask::within), is_near);
+        if (meets) EXPECT_TRUE(found.holds(Ask::collide));
+        overlaps_seen += meets ? 1 : 0;
+        near += is_near && !meets ? 1 : 0;
+    }
+    EXPECT_GT(overlaps_seen, 20);
+    EXPECT_GT(near, 5);
 }
 
 // A query through parts reads the hulls and the root of the BVH. All else may be closed.
