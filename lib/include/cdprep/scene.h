@@ -77,8 +77,7 @@ struct SceneSelfOverlaps {
     std::span<const TrianglePair> triangles;
 };
 
-/// The time at which two objects touch on the way from their poses in the last step to the present
-/// ones.
+/// The time at which two objects touch between the last step's poses and the present ones.
 struct SceneImpact {
     ObjectId a;
     ObjectId b;

@@ -33,9 +33,9 @@ enum { CDPREP_LAYERS = 32 }; /* the number of layers of a scene; an object is in
  * max_error. The other is for CDPREP_SOLID: enclosing parts (bake --structures hull --parts N).
  * They must be few, and their errors add up to max_error at most. Their nearest points lie on
  * parts, and the triangles are CDPREP_NONE. The bounds contain the exact distance. They are at most
- * max_error apart, plus rounding (3e-12 of `upper`, and 1e-13 of the largest coordinate of a model
- * or a translation). Two objects whose own parts do not certify max_error take the search through
- * the BVH.
+ * max_error apart, plus rounding. Rounding is at most 3e-12 of `upper`, and 1e-13 of the largest
+ * coordinate of a model or a translation. Two objects whose own parts do not certify max_error take
+ * the search through the BVH.
  *
  * An effect that does not hold is proven not to. One may hold if the exact distance is above its
  * limit by at most that error. The limits are 0 for collide, max_distance for distance and
