@@ -408,9 +408,11 @@ int cdprep_model_mass(const cdprep_model* model, cdprep_mass* mass, cdprep_error
         if (mass != nullptr) *mass = {};
         if (const int code = call.need(model, {"model"})) return code;
         if (const int code = call.need(mass, {"mass"})) return code;
-        if (const int code = check_serves(call, {"model"}, *model, Ask::response)) return code;
         const cdprep::format::MassProperties* const found = model->model.record().mass;
-        if (found == nullptr) return call.fail(CDPREP_INTERNAL, "The mass properties are empty.");
+        if (found == nullptr) {
+            if (const int code = check_serves(call, {"model"}, *model, Ask::response)) return code;
+            return call.fail(CDPREP_INTERNAL, "The mass properties are empty.");
+        }
         mass->volume = found->volume;
         cdprep::c::store(found->centre, mass->centre);
         std::ranges::copy(found->inertia, mass->inertia);

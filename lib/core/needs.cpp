@@ -55,6 +55,11 @@ constexpr SectionSet kPieceHulls = {SectionId::piece_vertices, SectionId::piece_
 /// The sections that contacts between pieces require in addition.
 constexpr SectionSet kContacts = {SectionId::piece_adjacency, SectionId::edge_convexity,
                                   SectionId::triangle_piece};
+/// What contacts need, and what they use.
+constexpr SectionSet kNeededByContacts =
+    with(with(with(kPair, kNumbered), {SectionId::source_vertex, SectionId::triangles}),
+         with(with(kPieces, kPieceHulls), kContacts));
+constexpr SectionSet kUsedByContacts = with(with(with(kGeometry, kTighter), kSource), kHulls);
 
 // Queries that return triangles require source numbers: a number in tree order would be a wrong
 // answer.
@@ -67,16 +72,11 @@ constexpr std::array<Needs, 24> kNeeds = {{
      with(with(kGeometry, kTighter), kSource)},
     {Ask::within, "within", "--effects within", with(kPair, kNumbered), Vertices::corners,
      with(with(kGeometry, kTighter), kSource)},
-    {Ask::contacts, "contacts", "--effects contacts",
-     with(with(with(kPair, kNumbered), {SectionId::source_vertex, SectionId::triangles}),
-          with(with(kPieces, kPieceHulls), kContacts)),
-     Vertices::positions, with(with(with(kGeometry, kTighter), kSource), kHulls)},
-    {Ask::response,
-     "response",
-     "--effects response",
-     {SectionId::mass_properties},
-     Vertices::none,
-     {}},
+    {Ask::contacts, "contacts", "--effects contacts", kNeededByContacts, Vertices::positions,
+     kUsedByContacts},
+    // Bodies push each other by their contacts.
+    {Ask::response, "response", "--effects response",
+     with(kNeededByContacts, {SectionId::mass_properties}), Vertices::positions, kUsedByContacts},
     {Ask::continuous, "continuous", "--effects continuous", with(kPair, kNumbered),
      Vertices::corners, with(with(kGeometry, kTighter), kSource)},
     {Ask::self, "self", "--effects self", with(with(kPair, kNumbered), {SectionId::triangles}),

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bake/effects.h"
-#include "text/nearest_word.h"
 
 #include <algorithm>
+#include <ranges>
 #include <sstream>
+#include <string_view>
+
+#include "text/nearest_word.h"
 
 namespace cdprep::cli {
 namespace {
@@ -14,6 +17,10 @@ using format::SectionSet;
 /// The sections of every baked file, whatever its effects.
 constexpr SectionSet kAlways = {SectionId::bounds, SectionId::provenance, SectionId::verdicts,
                                 SectionId::findings};
+
+/// The effects whose queries measure.
+constexpr Ask kMeasures =
+    Ask::distance | Ask::within | Ask::contacts | Ask::response | Ask::continuous | Ask::haptic;
 
 bool is_effect(const Needs& row) {
     return row.bake_option == std::string("--effects ") + row.name;
@@ -38,6 +45,27 @@ SectionSet sections_of_structures() {
         if (is_structure) structures = structures | row.ask;
     }
     return sections_for(structures);
+}
+
+/// Returns the row that the option of a row names: that of collide for solid.
+const Needs& row_of_option(const Needs& row) {
+    const std::string_view option = row.bake_option;
+    return *find_needs(option.substr(option.rfind(' ') + 1));
+}
+
+/// Returns the sections of a bake for one row alone.
+SectionSet baked_for(const Needs& row) {
+    SectionSet sections = sections_for(row.ask);
+    if (is_effect(row)) sections.erase(sections_of_structures());
+    if ((row.ask & kMeasures) == Ask::nothing) sections.erase(SectionId::swept_nodes);
+    return sections;
+}
+
+SectionSet common(SectionSet a, SectionSet b) {
+    SectionSet only_a = a;
+    only_a.erase(b);
+    a.erase(only_a);
+    return a;
 }
 
 Error unknown_effect(const std::string& name) {
@@ -77,12 +105,32 @@ Result<Effects> parse_effects(const std::string& list) {
     return effects;
 }
 
+std::string options_to_bake(Ask needed, Ask served, SectionSet sections) {
+    Ask named = Ask::nothing, asks = Ask::nothing;
+    for (const Needs& row : needs()) {
+        if (contains(needed, row.ask)) named = named | row_of_option(row).ask;
+        if (contains(needed | served, row.ask)) asks = asks | row_of_option(row).ask;
+    }
+    // From the last row on, so that distance is named rather than haptic.
+    for (const Needs& row : std::views::reverse(needs())) {
+        if (contains(named, row.ask)) continue;
+        SectionSet others;
+        for (const Needs& other : needs()) {
+            if (contains(without(asks, row.ask), other.ask)) others.insert(baked_for(other));
+        }
+        if (others.contains(common(baked_for(row), sections))) asks = without(asks, row.ask);
+    }
+    std::string effects, structures;
+    for (const Needs& row : needs()) {
+        if (!contains(asks, row.ask)) continue;
+        std::string& list = is_effect(row) ? effects : structures;
+        list += list.empty() ? row.bake_option : std::string(",") + row.name;
+    }
+    return effects + (effects.empty() || structures.empty() ? "" : " ") + structures;
+}
+
 build::BvhBounds bounds_for(const Effects& effects) {
-    const bool measures =
-        std::any_of(effects.names.begin(), effects.names.end(), [](const std::string& name) {
-            return name == "distance" || name == "within" || name == "contacts" ||
-                   name == "continuous" || name == "haptic";
-        });
+    const bool measures = (effects.asks & kMeasures) != Ask::nothing;
     return measures ? build::BvhBounds::oriented_and_swept : build::BvhBounds::oriented;
 }
 

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cdprep::cli {
@@ -59,9 +62,61 @@ TEST(ParseEffects, TheSectionsOfEachEffectServeIt) {
     EXPECT_GT(asked, 8);
 }
 
+// Bodies push each other by contacts, so the one includes the other.
+TEST(ParseEffects, ResponseIncludesContacts) {
+    const Effects effects = parse_effects("response").value();
+    EXPECT_TRUE(
+        contains(served_by(effects.sections, false), Ask::response | Ask::contacts | Ask::overlap));
+    format::SectionSet more = effects.sections;
+    more.erase(parse_effects("contacts").value().sections);
+    EXPECT_EQ(more, (format::SectionSet{format::SectionId::mass_properties}));
+}
+
+/// The options for a file that was baked for a list of effects.
+std::string options_after(Ask needed, const std::string& list) {
+    const format::SectionSet sections = parse_effects(list).value().sections;
+    return options_to_bake(needed, served_by(sections, false), sections);
+}
+
+// By the table: a bake for contacts has all of one for rays, and no components.
+TEST(OptionsToBake, KeepWhatAFileServes) {
+    EXPECT_EQ(options_after(Ask::within, "inside"), "--effects within,inside");
+    EXPECT_EQ(options_after(Ask::solid, "ray"), "--effects collide,ray");
+    EXPECT_EQ(options_after(Ask::ray, "collide,overlap,distance"),
+              "--effects collide,distance,ray");
+    EXPECT_EQ(options_after(Ask::response, "contacts"), "--effects response");
+    EXPECT_EQ(options_after(Ask::contacts | Ask::response, ""),
+              "--effects collide,contacts,response");
+    const format::SectionSet trees = sections_for(Ask::octree | Ask::hashed_octree | Ask::hulls);
+    EXPECT_EQ(options_to_bake(Ask::contacts, served_by(trees, false), trees),
+              "--effects contacts --structures hull,hashed-octree");
+}
+
+// What a bake for the options has serves both, whatever both are.
+TEST(OptionsToBake, ServeAll) {
+    for (const Needs& needed : needs()) {
+        for (const Needs& served : needs()) {
+            if (needed.ask == Ask::inaccessible || served.ask == Ask::inaccessible) continue;
+            const std::string options =
+                options_to_bake(needed.ask, served.ask, sections_for(served.ask));
+            std::string names = options;
+            std::ranges::replace(names, ' ', ',');
+            std::istringstream words(names);
+            format::SectionSet sections;
+            for (std::string word; std::getline(words, word, ',');) {
+                const Needs* row = find_needs(std::string_view(word));
+                if (row != nullptr) sections.insert(sections_for(row->ask));
+            }
+            EXPECT_TRUE(contains(served_by(sections, false), needed.ask | served.ask))
+                << needed.name << " and " << served.name << ": " << options;
+        }
+    }
+}
+
 // Queries that measure need bounds that measure well.
 TEST(BoundsFor, MeasuringEffectsGetSweptSpheres) {
-    for (const char* list : {"distance", "within", "contacts", "continuous", "haptic,ray"}) {
+    for (const char* list :
+         {"distance", "within", "contacts", "response", "continuous", "haptic,ray"}) {
         EXPECT_EQ(bounds_for(parse_effects(list).value()), build::BvhBounds::oriented_and_swept)
             << list;
     }
