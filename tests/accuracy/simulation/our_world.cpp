@@ -97,6 +97,12 @@ public:
     Double3 angular_velocity(std::uint32_t body) const override {
         return bodies_->angular_velocity(body);
     }
+    Double3 spin(std::uint32_t body) const override {
+        const auto& r = bodies_->pose(body).rotation();
+        const Double3 w = bodies_->angular_velocity(body);
+        return {r[0] * w.x + r[3] * w.y + r[6] * w.z, r[1] * w.x + r[4] * w.y + r[7] * w.z,
+                r[2] * w.x + r[5] * w.y + r[8] * w.z};
+    }
     dynamics::RigidBodies* ours() override {
         return bodies_.get();
     }

@@ -56,6 +56,12 @@ public:
             btTransform(btQuaternion(bullet(actor.axis), btScalar(actor.angle)), bullet(actor.at));
         bodies_.push_back(std::make_unique<btRigidBody>(info));
         bodies_.back()->setLinearVelocity(bullet(actor.velocity));
+        bodies_.back()->setAngularVelocity(bullet(actor.turn));
+        // Bullet sweeps convex shapes alone. The sphere that it sweeps is the whole one.
+        if (actor.is_continuous && actor.form == Form::sphere) {
+            bodies_.back()->setCcdMotionThreshold(btScalar(actor.radius / 2));
+            bodies_.back()->setCcdSweptSphereRadius(btScalar(actor.radius));
+        }
         bodies_.back()->setActivationState(DISABLE_DEACTIVATION);
         world_.addRigidBody(bodies_.back().get());
         return static_cast<std::uint32_t>(bodies_.size() - 1);
@@ -71,6 +77,12 @@ public:
     }
     Double3 angular_velocity(std::uint32_t body) const override {
         return doubles(bodies_[body]->getAngularVelocity());
+    }
+
+    Double3 spin(std::uint32_t body) const override {
+        const btRigidBody& rigid = *bodies_[body];
+        return doubles(rigid.getWorldTransform().getBasis().transpose() *
+                       rigid.getAngularVelocity());
     }
 
 private:

@@ -4,8 +4,10 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -106,26 +108,28 @@ std::size_t awake(const dynamics::RigidBodies& bodies, std::size_t count) {
 }
 
 struct Outcome {
-    double rest_s = -1;   ///< when all were slower than 1e-3 for a second; -1: never
-    double speed = 0;     ///< at the end
-    double frame_ms = 0;  ///< median
+    /// When all were slower than 1e-3 for a second; infinity: never.
+    double rest_s = std::numeric_limits<double>::infinity();
+    double speed = 0;              ///< at the end
+    std::vector<double> frame_ms;  ///< in their order
     std::size_t outside = 0;
 };
 
 Outcome play(World& world, const Pile& pile, bool prints) {
     constexpr int kRate = 60;
     Outcome outcome;
-    std::vector<double> times;
     int still = 0;
     const std::size_t count = pile.meshes.size();
     for (int frame = 1; frame <= pile.seconds * kRate; ++frame) {
         const auto begin = std::chrono::steady_clock::now();
         world.step();
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-        times.push_back(1e3 * taken.count());
+        outcome.frame_ms.push_back(1e3 * taken.count());
         outcome.speed = fastest_of(world, count);
         still = outcome.speed < 1e-3 ? still + 1 : 0;
-        if (still == kRate && outcome.rest_s < 0) outcome.rest_s = double(frame) / kRate;
+        if (still == kRate && std::isinf(outcome.rest_s)) {
+            outcome.rest_s = double(frame) / kRate;
+        }
         if (prints && frame % kRate == 0) {
             std::fflush(stdout);
             std::printf("# %5.2f s:", double(frame) / kRate);
@@ -142,45 +146,60 @@ Outcome play(World& world, const Pile& pile, bool prints) {
         }
         if (world.ours() != nullptr && awake(*world.ours(), count) == 0) break;
     }
-    std::nth_element(times.begin(), times.begin() + times.size() / 2, times.end());
-    outcome.frame_ms = times[times.size() / 2];
     outcome.outside = outside(world, count);
     return outcome;
+}
+
+/// Returns the median of the first frames.
+double median_of(std::vector<double> frame_ms, std::size_t frames) {
+    frame_ms.resize(std::min(frames, frame_ms.size()));
+    const auto middle = frame_ms.begin() + static_cast<std::ptrdiff_t>(frame_ms.size() / 2);
+    std::nth_element(frame_ms.begin(), middle, frame_ms.end());
+    return *middle;
 }
 
 dynamics::DynamicsOptions options_of_piles() {
     return {.tolerance = 0.01, .rest_gap = 5e-4, .most_speed = 2.2};
 }
 
-void play_ours(Table& table, const Pile& pile, Promise promise, bool prints) {
+Outcome play_ours(Table& table, const Pile& pile, bool prints) {
+    constexpr Promise kKept = Promise::kept;
     const auto world = make_our_world(options_of_piles());
     fill(*world, pile);
     const Outcome outcome = play(*world, pile, prints);
     const std::size_t count = pile.meshes.size();
     table.add(
-        {"piles", pile.name + ": outside the box", "cdprep", double(outcome.outside), 0, promise});
+        {"piles", pile.name + ": outside the box", "cdprep", double(outcome.outside), 0, kKept});
     table.add({"piles", pile.name + ": awake at the end", "cdprep",
-               double(awake(*world->ours(), count)), 0, promise});
+               double(awake(*world->ours(), count)), 0, kKept});
     table.add(
-        {"piles", pile.name + ": speed at the end, m/s", "cdprep", outcome.speed, 1e-3, promise});
+        {"piles", pile.name + ": speed at the end, m/s", "cdprep", outcome.speed, 1e-3, kKept});
     table.add({"piles", pile.name + ": overlap at the end, sizes", "cdprep",
-               deepest(*world->ours()) / kSize, 0.01, promise});
-    table.add({"piles", pile.name + ": at rest after, s (-1: never)", "cdprep", outcome.rest_s,
-               pile.seconds});
-    table.add({"piles", pile.name + ": median ms a frame", "cdprep", outcome.frame_ms, 1e9});
+               deepest(*world->ours()) / kSize, 0.01, kKept});
+    table.add({"piles", pile.name + ": at rest after, s (inf: never)", "cdprep", outcome.rest_s,
+               pile.seconds, kKept});
+    table.add({"piles", pile.name + ": median ms a frame", "cdprep",
+               median_of(outcome.frame_ms, outcome.frame_ms.size())});
+    return outcome;
 }
 
-void play_peer(Table& table, Pile pile) {
-    pile.seconds = std::min(pile.seconds, 5.0);
+/// Plays the same with GImpact, for fewer seconds, and compares the frames that both computed.
+void play_peer(Table& table, Pile pile, double seconds, const Outcome& ours) {
+    pile.seconds = seconds;
     const auto world = make_peer_world(Engine::gimpact, options_of_piles());
     fill(*world, pile);
     const Outcome outcome = play(*world, pile, false);
     const char* name = name_of(Engine::gimpact);
-    table.add({"piles", pile.name + ": outside the box", name, double(outcome.outside), 0});
-    table.add({"piles", pile.name + ": speed after 5 s, m/s", name, outcome.speed, 1e-3});
-    table.add({"piles", pile.name + ": at rest after, s (-1: never)", name, outcome.rest_s,
-               pile.seconds});
-    table.add({"piles", pile.name + ": median ms a frame", name, outcome.frame_ms, 1e9});
+    const std::string after =
+        pile.name + ", " + std::to_string(outcome.frame_ms.size()) + " frames";
+    table.add({"piles", after + ": outside the box", name, double(outcome.outside), 0});
+    table.add({"piles", after + ": speed at the end, m/s", name, outcome.speed, 1e-3});
+    table.add({"piles", after + ": at rest after, s (inf: never)", name, outcome.rest_s, seconds});
+    const std::size_t frames = std::min(outcome.frame_ms.size(), ours.frame_ms.size());
+    const double median = median_of(outcome.frame_ms, frames);
+    table.add({"piles", after + ": median ms a frame", name, median});
+    table.add({"piles", after + ": median time, ours / GImpact", "cdprep",
+               median_of(ours.frame_ms, frames) / median, 1.0 / 3});
 }
 
 }  // namespace
@@ -230,8 +249,9 @@ void play_small_pile(Table& table, const Extent& extent) {
     const std::vector<TestMesh> found = scanned({"horse"});
     if (found.empty()) return;
     // Three horses, which start lowest.
-    play_ours(table, {"3 of horse", std::vector<TestMesh>(3, found[0]), 12}, Promise::kept,
-              extent.is_full);
+    const Pile pile{"3 of horse", std::vector<TestMesh>(3, found[0]), 12};
+    const Outcome ours = play_ours(table, pile, extent.is_full);
+    if (extent.has_peers) play_peer(table, pile, extent.is_full ? 5 : 2, ours);
 }
 
 void play_piles(Table& table, const Extent& extent) {
@@ -239,8 +259,8 @@ void play_piles(Table& table, const Extent& extent) {
         const std::vector<TestMesh> found = scanned({name});
         if (found.empty()) continue;
         const Pile pile{std::string("5 of ") + name, std::vector<TestMesh>(5, found[0]), 20};
-        play_ours(table, pile, Promise::kept, extent.is_full);
-        if (extent.has_peers) play_peer(table, pile);
+        const Outcome ours = play_ours(table, pile, extent.is_full);
+        if (extent.has_peers) play_peer(table, pile, 5, ours);
     }
 }
 
@@ -249,8 +269,8 @@ void play_mixed_pile(Table& table, const Extent& extent) {
     if (found.empty()) return;
     Pile pile{"20 mixed", {}, 20};
     for (std::size_t i = 0; i < 20; ++i) pile.meshes.push_back(found[i % found.size()]);
-    play_ours(table, pile, Promise::measured, true);
-    if (extent.has_peers) play_peer(table, pile);
+    const Outcome ours = play_ours(table, pile, true);
+    if (extent.has_peers) play_peer(table, pile, 5, ours);
 }
 
 }  // namespace cdprep::test

@@ -29,7 +29,8 @@ struct Actor {
     double restitution = 0;
     double damping = 0;  ///< of both velocities
     Double3 velocity{};
-    Double3 turn{};  ///< radians per second; of ours alone
+    Double3 turn{};  ///< radians per second
+    /// Ours by the time of impact. Bullet's primitives by a sphere that is swept (CCD).
     bool is_continuous = false;
 };
 
@@ -42,6 +43,8 @@ public:
     [[nodiscard]] virtual Double3 position(std::uint32_t body) const = 0;  ///< centre of mass
     [[nodiscard]] virtual Double3 velocity(std::uint32_t body) const = 0;
     [[nodiscard]] virtual Double3 angular_velocity(std::uint32_t body) const = 0;
+    /// The angular velocity along the axes of the model.
+    [[nodiscard]] virtual Double3 spin(std::uint32_t body) const = 0;
     /// Null unless the bodies are ours.
     [[nodiscard]] virtual dynamics::RigidBodies* ours() {
         return nullptr;
