@@ -3,11 +3,14 @@
 """Writes a scene in which bodies fall into a tray and come to rest: pile.json and its meshes; metres.
 
 Without models, the bodies are jacks: smooth stars with six arms, which hook into each other. Given
-OBJ files, each body is a copy of one of them, scaled to SIZE.
-Usage: make_pile.py FOLDER [COUNT [MODEL.obj ...]]
+OBJ or PLY files, each body is a copy of one of them, scaled to SIZE. PLY is read as text and as
+little-endian bytes.
+Usage: make_pile.py FOLDER [COUNT [MODEL ...]]
+Example: make_pile.py piles 10 horse.ply bunny.ply
 """
 import math
 import pathlib
+import struct
 import sys
 
 from mesh_text import icosphere, obj
@@ -56,6 +59,67 @@ def read_obj(path):
     return points, faces
 
 
+# The names of numbers in PLY, and their letters in the module struct.
+PLY_LETTERS = {name: letter for letter, names in {
+    "b": "char int8", "B": "uchar uint8", "h": "short int16", "H": "ushort uint16", "i": "int int32",
+    "I": "uint uint32", "f": "float float32", "d": "double float64"}.items()
+    for name in names.split()}
+
+
+def ply_header(file, path):
+    """The format, and the name, the count and the properties of each element."""
+    if file.readline().strip() != b"ply":
+        sys.exit(f"{path}: the first line is not 'ply'.")
+    kind, elements = "", []
+    for line in file:
+        words = line.decode("latin-1").split()
+        if words[:1] == ["format"]:
+            kind = words[1]
+        elif words[:1] == ["element"]:
+            elements.append((words[1], int(words[2]), []))
+        elif words[:1] == ["property"]:
+            elements[-1][2].append(words[1:])
+        elif words[:1] == ["end_header"]:
+            break
+    if kind not in ("ascii", "binary_little_endian"):
+        sys.exit(f"{path}: found the PLY format '{kind}'; expected ascii or binary_little_endian.")
+    return kind, elements
+
+
+def ply_numbers(file, kind):
+    """A function that reads the next number of a type."""
+    if kind == "ascii":
+        words = iter(file.read().split())
+        return lambda letter: (float if letter in "fd" else int)(next(words))
+    def read(letter):
+        size = struct.calcsize("<" + letter)
+        return struct.unpack("<" + letter, file.read(size))[0]
+    return read
+
+
+def read_ply(path):
+    points, faces = [], []
+    with open(path, "rb") as file:
+        kind, elements = ply_header(file, path)
+        read = ply_numbers(file, kind)
+        for name, count, properties in elements:
+            for _ in range(count):
+                found = {}
+                for words in properties:
+                    letters = [PLY_LETTERS[word] for word in words[:-1] if word != "list"]
+                    found[words[-1]] = ([read(letters[1]) for _ in range(read(letters[0]))]
+                                        if words[0] == "list" else read(letters[0]))
+                if name == "vertex":
+                    points.append((found["x"], found["y"], found["z"]))
+                if name == "face":
+                    faces.append(tuple(found.get("vertex_indices", found.get("vertex_index"))))
+    return points, faces
+
+
+def read_mesh(path):
+    return read_ply(path) if pathlib.Path(path).suffix.lower() == ".ply" else read_obj(path)
+
+
 def scaled(mesh, size):
     """The mesh about the middle of its box, whose diagonal becomes `size`."""
     points, faces = mesh
@@ -98,9 +162,10 @@ def scene(count, models):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
+    folder.mkdir(parents=True, exist_ok=True)
     count = int(sys.argv[2]) if len(sys.argv) > 2 else 20
     given = sys.argv[3:]
-    meshes = {pathlib.Path(path).stem + ".obj": read_obj(path) for path in given}
+    meshes = {pathlib.Path(path).stem + ".obj": read_mesh(path) for path in given}
     for name, mesh in (meshes or {"jack.obj": jack()}).items():
         (folder / name).write_text(obj(f"A body of a pile, {name}", scaled(mesh, SIZE), ".5g"))
     (folder / "tray.obj").write_text(obj("A box without a lid", tray(), ".5g"))
