@@ -60,6 +60,7 @@ std::string unbuilt_effect(Ask one) {
     std::vector<std::string> built;
     built.reserve(std::size(kSceneEffects));
     for (const Ask effect : kSceneEffects) built.push_back(name_of(effect));
+    for (const Ask change : {Ask::deform, Ask::tear}) built.push_back(name_of(change));
     return name_of(one) + " is not built in a scene. Built are " + list_of(built) + ".";
 }
 
@@ -69,6 +70,33 @@ void for_each_bit(Ask asks, const Visit& visit) {
     for (auto bits = static_cast<std::uint32_t>(asks); bits != 0; bits &= bits - 1) {
         visit(static_cast<Ask>(bits & (~bits + 1)));
     }
+}
+
+/// Returns all that a pair of layers may ask for.
+Ask built_effects() noexcept {
+    Ask built = kSceneChanges;
+    for (const Ask effect : kSceneEffects) built = built | effect;
+    return built;
+}
+
+/// The features that models must serve: "collide and solid".
+std::string asks_text(Ask asks) {
+    std::vector<std::string> names;
+    for (const Needs& row : needs()) {
+        if (has(asks, row.ask)) names.emplace_back(row.name);
+    }
+    return list_of(names);
+}
+
+/// The option of `cdprep bake` for effects of a scene: "--effects within,contacts".
+std::string bake_option(Ask effects) {
+    std::string option;
+    for (const Needs& row : needs()) {
+        const Ask named = row.ask == Ask::solid ? Ask::collide : row.ask;
+        if (!has(effects, row.ask) || (named != row.ask && has(effects, named))) continue;
+        option += (option.empty() ? "--effects " : ",") + name_of(named);
+    }
+    return option;
 }
 
 /// What a pair of layers asks of the models: its effects, and Ask::solid for solid bodies. Not all
@@ -129,13 +157,14 @@ private:
             add(place + "layers " + layers_text(options_.layer_names, pair.a, pair.b) +
                 " are also those of pair " + std::to_string(other) + ".");
         }
-        for_each_bit(pair.effects, [&](Ask one) {
-            if (contains(kSceneChanges, one)) return;
-            if (std::find(kSceneEffects.begin(), kSceneEffects.end(), one) != kSceneEffects.end())
-                return;
-            add(place + unbuilt_effect(one));
-        });
+        const Ask unbuilt = without(pair.effects, built_effects());
+        for_each_bit(unbuilt, [&](Ask one) { add(place + unbuilt_effect(one)); });
         check_together(place, pair);
+        // The options may be those of the effect that is not built.
+        if (unbuilt == Ask::nothing) check_options(place, pair);
+    }
+
+    void check_options(const std::string& place, const LayerPair& pair) {
         check_number(place, "tolerance", pair.tolerance, has(pair.effects, Ask::within), "within");
         check_number(place, "max_distance", pair.max_distance,
                      has_any(pair.effects, kReadsMaxDistance), "distance or haptic");
@@ -232,21 +261,21 @@ private:
             if ((model.layers & layers) == 0) continue;
             lacking = lacking | without(asks_of_models(pair), model.serves);
         }
-        for_each_bit(lacking, [&](Ask one) {
-            const Needs* needs = find_needs(one);
-            if (needs == nullptr) return;  // refused above
-            add(std::string(model.name) + ": " + layers_that_ask(model, one) + " for " +
-                needs->name + ", which the model does not serve. Bake it with " +
-                needs->bake_option + ".");
-        });
+        // Effects that are not built are refused above.
+        lacking = lacking & (built_effects() | Ask::solid);
+        if (lacking == Ask::nothing) return;
+        add(std::string(model.name) + ": " + layers_that_ask(model, lacking) + " for " +
+            asks_text(lacking) + ", which the model does not serve. Bake it with " +
+            bake_option(lacking) + ".");
     }
 
     /// "its layers ask", or by name: "its layer 'crates' asks".
-    [[nodiscard]] std::string layers_that_ask(const ModelUse& model, Ask one) const {
+    [[nodiscard]] std::string layers_that_ask(const ModelUse& model, Ask some) const {
         if (options_.layer_names.empty()) return "its layers ask";
         std::uint32_t asking = 0;
         for (const LayerPair& pair : options_.pairs) {
-            if (std::max(pair.a, pair.b) >= kLayers || !has(asks_of_models(pair), one)) continue;
+            if (std::max(pair.a, pair.b) >= kLayers) continue;
+            if (!has_any(asks_of_models(pair), some)) continue;
             asking |= (1U << pair.a | 1U << pair.b) & model.layers;
         }
         const std::vector<std::string> names = names_in(options_.layer_names, asking);
@@ -362,15 +391,6 @@ std::string effects_text(const LayerPair& pair, const PairRung& rung) {
     }
     if (pair.lists_stays) add("events for what goes on");
     return effects + rung_text(pair, rung);
-}
-
-/// The features that models must serve: "collide and solid".
-std::string asks_text(Ask asks) {
-    std::vector<std::string> names;
-    for (const Needs& row : needs()) {
-        if (has(asks, row.ask)) names.emplace_back(row.name);
-    }
-    return list_of(names);
 }
 
 std::string sections_text(format::SectionSet sections) {

@@ -24,9 +24,9 @@ struct Effects {
 /// ones.
 [[nodiscard]] Result<Effects> parse_effects(const std::string& list);
 
-/// Returns the options of `cdprep bake` for a file that serves `needed`: "--effects collide,contacts
-/// --structures hull". It keeps what the file serves now, with its `sections`. An effect is left out
-/// if the others have those sections.
+/// Returns the options of `cdprep bake` for a file that serves `needed`, for example "--effects
+/// collide,contacts --structures hull". They keep what the file serves now, with its `sections`. An
+/// effect is left out if the others have those sections.
 [[nodiscard]] std::string options_to_bake(Ask needed, Ask served, format::SectionSet sections);
 
 /// Returns the fastest bounds for the queries that a bake serves. Swept rectangles bound distances

@@ -312,7 +312,7 @@ TEST(Plan, RefusesEachOtherEffectByItsName) {
         EXPECT_EQ(compiled({{.effects = one}}).refusals,
                   Sentences({"Pair 0 of layers: " + name +
                              " is not built in a scene. Built are collide, overlap, within, "
-                             "distance, contacts, continuous, self and haptic."}));
+                             "distance, contacts, continuous, self, haptic, deform and tear."}));
         ++others;
     }
     EXPECT_EQ(others, 22);
@@ -511,13 +511,29 @@ TEST(Plan, NamesLayers) {
         Sentences({"Pair 1 of layers, 'crates' and 'floor': layers 'crates' and 'floor' are "
                    "also those of pair 0.",
                    "Pair 2 of layers, 2 and 2: ray is not built in a scene. Built are collide, "
-                   "overlap, within, distance, contacts, continuous, self and haptic.",
+                   "overlap, within, distance, contacts, continuous, self, haptic, deform and "
+                   "tear.",
                    "arm.cdp.h5: its layer 'crates' asks for within, which the model does not "
                    "serve. Bake it with --effects within.",
-                   "arm.cdp.h5: its layer 2 asks for ray, which the model does not serve. "
-                   "Bake it with --effects ray.",
                    "cup.cdp.h5: its layers 'floor' and 'crates' ask for collide, which the "
                    "model does not serve. Bake it with --effects collide."}));
+}
+
+// One sentence for each model, with one option for all that it lacks.
+TEST(Plan, SaysHowToBakeAllThatAModelLacks) {
+    const std::vector<std::string_view> names = {"floor", "crates"};
+    const std::vector<LayerPair> pairs = {
+        {.a = 0, .b = 1, .effects = Ask::collide | Ask::contacts, .body = Body::solid},
+        {.a = 1, .b = 1, .effects = Ask::distance, .max_distance = 1}};
+    const std::vector<ModelUse> models = {{.name = "x", .serves = Ask::nothing, .layers = 1},
+                                          {.name = "y", .serves = Ask::collide, .layers = 2}};
+    EXPECT_EQ(
+        Plan::compile({.pairs = pairs, .models = models, .limits = kLimits, .layer_names = names})
+            .refusals,
+        Sentences({"x: its layer 'floor' asks for collide, contacts and solid, which the model "
+                   "does not serve. Bake it with --effects collide,contacts.",
+                   "y: its layer 'crates' asks for distance, contacts and solid, which the model "
+                   "does not serve. Bake it with --effects distance,contacts,collide."}));
 }
 
 TEST(Plan, SaysHowToBakeWhatAModelLacks) {
