@@ -7,6 +7,7 @@ Usage: recordings.py CDPREP
 """
 import json
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -215,10 +216,45 @@ def an_interrupt(program, folder):
     must(replayed["frames"] == min(frames, 50), f"{replayed}")
 
 
+def in_a_later_frame(process):
+    """Waits until the progress bar tells that frames are complete. It is drawn in the next one."""
+    told = ""
+    while not re.search(r"\] [1-9]\d*/\d+ frame", told):
+        piece = process.stderr.read(1)
+        must(piece, f"it ended: {told}")
+        told += piece
+
+
+def an_interrupt_in_a_frame(program, folder):
+    """A frame of this pile takes 0.2 s or more, so the signal comes in the middle of one."""
+    for path in SCENES.glob("*.obj"):
+        shutil.copy(path, folder)
+    scene = json.loads((SCENES / "pile.json").read_text())
+    scene["dynamics"]["substeps"] = 1000000
+    (folder / "pile.json").write_text(json.dumps(scene))
+    for number in (signal.SIGINT, signal.SIGTERM):
+        recording = folder / f"{number}.ndjson"
+        running = subprocess.Popen([program, "simulate", folder / "pile.json", "--record", recording,
+                                    "--progress", "bar"], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        in_a_later_frame(running)
+        running.send_signal(number)
+        _, told = running.communicate(timeout=20)
+        must(running.returncode == 130 and "stopped" in told, f"{running.returncode}: {told}")
+        must(recording.exists(), f"signal {number} leaves no recording")
+        lines = recording.read_text().splitlines()
+        frames = json.loads(lines[-1])["frames"]
+        must(frames == len(lines) - 2 > 0, f"{frames} frames in {len(lines)} lines")
+        must(summary_of(simulate(program, recording))["frames"] == frames, f"{frames}")
+        again = folder / "again.ndjson"
+        simulate(program, recording, "--record", again)
+        must(again.read_bytes() == recording.read_bytes(), "the replay differs")
+
+
 def main():
     program = sys.argv[1]
     for check in (replays, moves_along, until, changed_recordings, imported_alike, dropped_effects,
-                  costs, names, an_interrupt):
+                  costs, names, an_interrupt, an_interrupt_in_a_frame):
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))
 

@@ -23,7 +23,7 @@
 #include "scene_file/read_scene.h"
 #include "simulate/effect_costs.h"
 #include "simulate/page/page_output.h"
-#include "simulate/recording.h"
+#include "simulate/recording_output.h"
 #include "simulate/run/effect_counts.h"
 #include "simulate/run/plan_report.h"
 #include "simulate/run/simulation.h"
@@ -289,11 +289,13 @@ private:
             progress.advance(frame, "frame");
             if (done) done = compute(frame, *simulation);
             if (done) done = output_.append(report.add_frame(frame, *simulation));
-            if (done && recorder_) done = record_->append(recorder_->add_frame(frame, *simulation));
+            if (done && record_) done = record_->add_frame(frame, *simulation);
             if (done) done = page_.add_frame(frame, *simulation);
         }
         // What was recorded before an interrupt or an error can be replayed.
-        if (const Result<Done> kept = finish_recording(); done && !kept) done = kept;
+        if (const Result<Done> kept = record_ ? record_->finish() : Done{}; done && !kept) {
+            done = kept;
+        }
         if (done) done = page_.finish(*simulation);
         if (done && arguments_.cost) done = measure_costs(frames, progress, report);
         progress.clear();
@@ -313,24 +315,18 @@ private:
 
     Result<Done> begin_recording() {
         if (arguments_.record.empty()) return Done{};
-        Result<ReportOutput> opened = ReportOutput::open(arguments_.record);
+        auto opened = RecordingOutput::open(
+            arguments_.record,
+            {scene_, path_between(arguments_.record.parent_path(), folder_), import_}, models_);
         if (!opened) return opened.error();
-        record_.emplace(std::move(opened).value());
-        recorder_.emplace(scene_, path_between(arguments_.record.parent_path(), folder_), import_);
-        return record_->append(recorder_->begin(models_));
+        record_ = std::move(opened).value();
+        return Done{};
     }
 
     /// The way from one folder to another.
     static fs::path path_between(const fs::path& from, const fs::path& to) {
         const fs::path here = ".";
         return fs::proximate(to.empty() ? here : to, from.empty() ? here : from);
-    }
-
-    Result<Done> finish_recording() {
-        if (!recorder_) return Done{};
-        if (is_interrupted()) end_by_itself();  // the recording may take longer than an interrupt
-        Result<Done> done = record_->append(recorder_->finish());
-        return done ? record_->finish() : done;
     }
 
     Result<Done> measure_costs(std::uint64_t frames, Progress& progress,
@@ -385,8 +381,7 @@ private:
     fs::path folder_;                                ///< of the scene file
     std::vector<scenes::SceneModel> models_;
     std::optional<scenes::Recording> replay_;  ///< the scene is one
-    std::optional<ReportOutput> record_;
-    std::optional<scenes::Recorder> recorder_;
+    std::unique_ptr<RecordingOutput> record_;  ///< null: nothing is recorded
 };
 
 Exit run(const Arguments& arguments) {
@@ -437,7 +432,8 @@ void add_study_options(const Command& command, Arguments& arguments, const Optio
         .add_option("--record", arguments.record,
                     "Also write a recording: the scene, and the poses and events of each frame. "
                     "`cdprep simulate FILE` replays it, imports as the run did, and compares the "
-                    "results. It also appears after an interrupt or an error")
+                    "results. It also appears after an interrupt or an error, with the frames that "
+                    "were complete")
         .type_name("FILE")
         .excludes(plan)
         .group("Report");

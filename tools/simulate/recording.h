@@ -31,6 +31,10 @@ public:
     [[nodiscard]] std::string add_frame(std::uint64_t frame, const Simulation& simulation);
     /// Returns the last line.
     [[nodiscard]] std::string finish() const;
+    /// How many frames there are.
+    [[nodiscard]] std::uint64_t frames() const noexcept {
+        return frames_;
+    }
 
 private:
     const SceneFile* file_;
