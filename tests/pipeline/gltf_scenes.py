@@ -266,9 +266,23 @@ def the_bodies(program, folder):
     must(first.read_bytes() == second.read_bytes(), "a replay has other bytes")
 
 
+def a_long_fall(program, folder):
+    """A box falls 3 m, at 7.7 m/s. By the rule, most_speed is 2 sqrt(2 g h), and h is 8 m: from the
+    box's top, at 4, to the floor's lowest point, at -4. So nothing is too fast."""
+    nodes = [part("box", 0, [0, 3.5, 0], {"motion": {"mass": 2}, **surface("collider", 0)}),
+             part("floor", 1, [0, -2, 0], surface("collider", 1))]
+    done = simulate(program, write_scene(folder / "fall.gltf", nodes), "--frames", 240)
+    _, summary = lines_of(done)
+    must(summary["response"]["too_fast"] == 0, f"{summary}")
+    must("faster" not in done.stderr, done.stderr)
+    start = "assumed: dynamics.most_speed is "
+    told_speed = done.stderr.split(start)[1].split(":")[0]
+    must(abs(float(told_speed) - 2 * math.sqrt(2 * 9.81 * 8)) < 1e-3, done.stderr)
+
+
 def main():
     program = sys.argv[1]
-    for check in (the_triggers, the_bodies, the_plan, the_forms, the_recordings, the_list,
+    for check in (the_triggers, the_bodies, a_long_fall, the_plan, the_forms, the_recordings, the_list,
                   the_buffers, mistakes):
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))

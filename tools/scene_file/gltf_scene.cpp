@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "cdprep/pose.h"
 #include "import/source_file.h"
 #include "mesh/vectors.h"
 #include "scene_file/gltf_physics.h"
@@ -27,6 +28,7 @@ using mesh::minus;
 using mesh::scaled;
 
 constexpr double kGravity = 9.81;  ///< metres per second squared
+constexpr double kLeastSpeed = 2;  ///< metres per second: most_speed where nothing falls far
 constexpr std::uint32_t kNone = 0xffffffffU;
 
 // --- Vectors -------------------------------------------------------------------------
@@ -136,7 +138,7 @@ public:
         free_bodies();
         keep_used();
         set_world();
-        return std::nullopt;
+        return set_most_speed();
     }
 
 private:
@@ -572,6 +574,65 @@ private:
             findings_.assumed("a collider without a material has a friction of " +
                               report::number_text(kGltfFriction));
         }
+    }
+
+    /// A body may fall from the highest point of all bodies to the lowest one of the scene. A ball
+    /// that rolls down has a point that is faster than a fall, but not twice as fast.
+    std::optional<Error> set_most_speed() {
+        if (scene().bodies.empty()) return std::nullopt;
+        const Double3& gravity = *scene().dynamics.gravity;
+        const double g = length(gravity);
+        std::vector<std::vector<Double3>> corners;
+        for (const AssemblyModel& model : assembly_.models) {
+            auto found = corners_of(model);
+            if (!found) return found.error();
+            corners.push_back(std::move(found).value());
+        }
+        double highest = -HUGE_VAL, lowest = HUGE_VAL, fastest = 0;
+        for (const FileObject& object : scene().objects) {
+            const Result<Pose> pose = pose_of(scene(), object, 0);
+            if (!pose) return pose.error();
+            for (const Double3& corner : corners[object.model]) {
+                const double height = -mesh::dot(transform_point(*pose, corner), gravity) / g;
+                lowest = std::min(lowest, height);
+                if (object.body != kNoBody) highest = std::max(highest, height);
+            }
+            if (object.body == kNoBody) continue;
+            const BodyMotion& body = scene().bodies[object.body];
+            fastest = std::max(fastest, length(body.velocity));
+        }
+        const double fall = std::sqrt(fastest * fastest + 2 * g * std::max(highest - lowest, 0.0));
+        const double speed = std::max(2 * fall, kLeastSpeed / metres_per_unit_);
+        if (!std::isfinite(speed)) return std::nullopt;
+        scene().dynamics.most_speed = speed;
+        findings_.assumed("dynamics.most_speed is " + report::number_text(speed) +
+                          ": twice the speed of a fall through the height of the scene");
+        return std::nullopt;
+    }
+
+    /// Returns the corners of the box of a model, without numbers that are not finite.
+    Result<std::vector<Double3>> corners_of(const AssemblyModel& model) const {
+        std::vector<import::PlacedNode> parts;
+        for (const AssemblyPart& part : model) {
+            parts.push_back({&assembly_.file.nodes()[part.node], part.model_from_mesh});
+        }
+        const Result<mesh::TriangleSoup> soup = assembly_.file.triangles(parts);
+        if (!soup) return soup.error();
+        std::array<std::array<double, 2>, 3> box = {
+            {{HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, -HUGE_VAL}}};
+        for (const Double3& p : soup->positions) {
+            const std::array<double, 3> at = {p.x, p.y, p.z};
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                if (!std::isfinite(at[axis])) continue;
+                box[axis] = {std::min(box[axis][0], at[axis]), std::max(box[axis][1], at[axis])};
+            }
+        }
+        std::vector<Double3> corners;
+        if (box[0][0] > box[0][1] || box[1][0] > box[1][1] || box[2][0] > box[2][1]) return corners;
+        for (std::size_t i = 0; i < 8; ++i) {
+            corners.push_back({box[0][i & 1], box[1][i >> 1 & 1], box[2][i >> 2]});
+        }
+        return corners;
     }
 
     AssemblyScene& assembly_;
