@@ -59,9 +59,13 @@ public:
         if (!parts) return fail("query", parts.error());
         parts_ = std::move(parts).value();
         set_default_reach();
-        std::vector<std::string> names;
-        compiled = scenes::compile_scene(scene(), {}, scenes::uses_of(scene(), models_, names));
-        if (!compiled.plan) return fail_all("query", compiled.refusals, ErrorCode::bad_argument);
+        compiled = scenes::compile_scene(scene(), {});
+        for (std::string& refusal : scenes::model_refusals(scene(), models_)) {
+            compiled.refusals.push_back(std::move(refusal));
+        }
+        if (!compiled.refusals.empty()) {
+            return fail_all("query", compiled.refusals, ErrorCode::bad_argument);
+        }
         const Result<Done> done = search(*compiled.plan);
         return done ? Exit::success : fail("query", done.error());
     }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "scene_file/effect_words.h"
 #include "text/printable.h"
 
 namespace cdprep::scenes {
@@ -41,6 +42,58 @@ std::string words_for(const SceneFile& scene, std::size_t pair) {
     const LayerPair& asked = scene.pairs[pair].asked;
     return "Pair " + std::to_string(pair) + " of layers, " + quoted(scene.layers[asked.a]) +
            " and " + quoted(scene.layers[asked.b]);
+}
+
+/// Returns " (line 12)", the place of a pair.
+std::string line_text(const SceneFile& scene, std::size_t pair) {
+    const std::size_t line = scene.pairs[pair].line;
+    return line == 0 ? "" : " (line " + std::to_string(line) + ")";
+}
+
+/// Returns the start of a refusal: the file and, if it is about a pair, its place there.
+std::string place_of(const SceneFile& scene, const std::string& refusal) {
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+        if (scene.pairs[i].line == 0 || !refusal.starts_with(words_for(scene, i) + ":")) continue;
+        return scene.name + ": line " + std::to_string(scene.pairs[i].line) + ": /pairs/" +
+               std::to_string(i) + ": ";
+    }
+    return scene.name + ": ";
+}
+
+/// Returns why effects are not computed.
+std::vector<std::string> effect_refusals(const SceneFile& scene) {
+    std::string built;
+    for (const std::string& word : kEffectWords) {
+        if (contains(unbuilt_effects(), effect_of(word))) continue;
+        built += (built.empty() ? "" : ", ") + word;
+    }
+    std::vector<std::string> refusals;
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+        for (const std::string& word : kEffectWords) {
+            const Ask effect = effect_of(word);
+            if (!contains(scene.pairs[i].asked.effects & unbuilt_effects(), effect)) continue;
+            refusals.push_back(words_for(scene, i) + ": " + word +
+                               " is not built in a scene. Choose from " + built + ".");
+        }
+    }
+    return refusals;
+}
+
+/// Drops effects from a pair of layers, and the options that no effect reads then.
+void drop_effects(LayerPair& pair, Ask effects) {
+    const LayerPair unused;
+    pair.effects = without(pair.effects, effects);
+    const auto is_read_by = [&](Ask readers) { return (pair.effects & readers) != Ask::nothing; };
+    if (!is_read_by(Ask::within)) pair.tolerance = unused.tolerance;
+    if (!is_read_by(Ask::distance | Ask::haptic)) pair.max_distance = unused.max_distance;
+    if (!is_read_by(Ask::distance)) pair.max_error = unused.max_error;
+    if (!is_read_by(Ask::continuous)) pair.impact = unused.impact;
+    if (!is_read_by(Ask::haptic)) pair.work = unused.work;
+    if (!is_read_by(Ask::collide | Ask::overlap)) pair.overlap = unused.overlap;
+    if (!is_read_by(Ask::contacts)) pair.contacts = unused.contacts;
+    if (!is_read_by(Ask::collide | Ask::distance | Ask::contacts | Ask::continuous)) {
+        pair.body = unused.body;
+    }
 }
 
 /// Returns why objects of responding layers cannot push each other. There is a sentence for the
@@ -95,7 +148,7 @@ std::vector<std::string> change_refusals(const SceneFile& scene) {
                                (tears ? " tears" : " deforms") + ". Add " +
                                (tears ? "tear" : "deform") + " to the effects of pair " +
                                std::to_string(i) + " of layers, " + quoted(scene.layers[pair.a]) +
-                               " and " + quoted(scene.layers[pair.b]) + ".");
+                               " and " + quoted(scene.layers[pair.b]) + line_text(scene, i) + ".");
         }
     }
     return refusals;
@@ -108,12 +161,15 @@ std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan
     const bool has_continuous = std::ranges::any_of(scene.bodies, &BodyMotion::is_continuous);
     for (const FileObject& object : scene.objects) {
         ModelNeeds& model = needs[object.model];
-        model.asks = model.asks | needs_of(scene, object, plan.asks_of(object.layer));
+        Ask asks = needs_of(scene, object, plan.asks_of(object.layer));
         if (responds(scene, object.layer)) {
             const ModelNeeds more = needs_of_response(scene, object, has_continuous);
-            model.asks = model.asks | more.asks;
+            asks = asks | more.asks;
             model.wishes = model.wishes | more.wishes;
         }
+        Ask& of_layer = model.asks_of_layers[object.layer];
+        of_layer = of_layer | asks;
+        model.asks = model.asks | asks;
         model.layers |= 1U << object.layer;
         ++model.objects;
     }
@@ -136,7 +192,10 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
     std::vector<LayerPair> pairs;
     for (const AskedPair& pair : scene.pairs) {
         pairs.push_back(pair.asked);
-        pairs.back().effects = scene_effects(pair);
+        LayerPair& asked = pairs.back();
+        asked.effects = scene_effects(pair);
+        const Ask unbuilt = asked.effects & unbuilt_effects();
+        if (unbuilt != Ask::nothing) drop_effects(asked, unbuilt);
     }
     std::vector<std::string> names;
     for (const std::string& layer : scene.layers) names.push_back(report::printable(layer));
@@ -151,13 +210,15 @@ Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                                              .limits = limits,
                                              .origin = origin,
                                              .layer_names = layers});
-    for (auto* find_refusals : {change_refusals, body_refusals}) {
+    for (auto* find_refusals : {effect_refusals, change_refusals, body_refusals}) {
         for (std::string& refusal : find_refusals(scene)) {
             compiled.refusals.push_back(std::move(refusal));
         }
     }
     if (!compiled.refusals.empty()) compiled.plan.reset();
-    for (std::string& refusal : compiled.refusals) refusal.insert(0, scene.name + ": ");
+    for (std::string& refusal : compiled.refusals) {
+        refusal.insert(0, place_of(scene, refusal));
+    }
     return compiled;
 }
 
@@ -165,23 +226,9 @@ void drop_effect(SceneFile& scene, Ask effect) {
     if (effect == Ask::response) {
         for (FileObject& object : scene.objects) object.body = kNoBody;
     }
-    const LayerPair unused;
     for (AskedPair& pair : scene.pairs) {
-        LayerPair& asked = pair.asked;
-        asked.effects = without(asked.effects, effect);
-        const auto is_read_by = [&](Ask readers) {
-            return (asked.effects & readers) != Ask::nothing;
-        };
-        if (!is_read_by(Ask::within)) asked.tolerance = unused.tolerance;
-        if (!is_read_by(Ask::distance | Ask::haptic)) asked.max_distance = unused.max_distance;
-        if (!is_read_by(Ask::distance)) asked.max_error = unused.max_error;
-        if (!is_read_by(Ask::continuous)) asked.impact = unused.impact;
-        if (!is_read_by(Ask::haptic)) asked.work = unused.work;
-        if (!is_read_by(Ask::collide | Ask::overlap)) asked.overlap = unused.overlap;
-        if (!is_read_by(Ask::contacts)) asked.contacts = unused.contacts;
-        if (!is_read_by(Ask::collide | Ask::distance | Ask::contacts | Ask::continuous)) {
-            asked.body = unused.body;
-        }
+        if (contains(pair.asked.effects, effect)) scene.dropped = scene.dropped | effect;
+        drop_effects(pair.asked, effect);
     }
 }
 

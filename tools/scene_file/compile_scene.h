@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "scene_file/scene_file.h"
@@ -11,10 +11,11 @@ namespace cdprep::scenes {
 
 /// What the objects of a model are asked for.
 struct ModelNeeds {
-    Ask asks = Ask::nothing;    ///< nothing: no object of the model is looked at
-    Ask wishes = Ask::nothing;  ///< what is used if the model serves it
-    std::uint32_t layers = 0;   ///< of its objects: bit i for layer i
-    std::uint32_t objects = 0;  ///< all, also in layers without a pair
+    Ask asks = Ask::nothing;                    ///< nothing: no object of the model is looked at
+    Ask wishes = Ask::nothing;                  ///< what is used if the model serves it
+    std::uint32_t layers = 0;                   ///< of its objects: bit i for layer i
+    std::uint32_t objects = 0;                  ///< all, also in layers without a pair
+    std::array<Ask, kLayers> asks_of_layers{};  ///< `asks` of its objects in each layer
 
     [[nodiscard]] Ask wanted() const noexcept {
         return asks | wishes;
@@ -37,9 +38,11 @@ struct ModelNeeds {
 [[nodiscard]] bool responds(const SceneFile& scene, std::uint32_t layer);
 
 /// Compiles the plan of a scene file, but for `response`, which the library does not compute. Every
-/// refusal begins with the name of the file. Without `models`, their needs are not checked. Also
-/// refuses objects that deform or tear unless each pair of their layer asks for it. Refuses bodies
-/// that nothing can push, and `response` of layers in which nothing is a body.
+/// refusal begins with the name of the file, and names the line of a pair. Whether models serve
+/// their layers is checked by model_refusals(). Also refuses objects that deform or tear unless
+/// each pair of their layer asks for it. Refuses bodies that nothing can push, and `response` of
+/// layers in which nothing is a body. The parts of `models` decide the rungs of pairs with a
+/// max_error.
 [[nodiscard]] Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                                            std::span<const ModelUse> models = {});
 

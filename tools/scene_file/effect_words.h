@@ -30,6 +30,14 @@ inline constexpr Ask kSceneAsks = [] {
     return row == nullptr ? Ask::nothing : row->ask;
 }
 
+/// Returns the effects of scene files that no version computes yet.
+[[nodiscard]] inline Ask unbuilt_effects() noexcept {
+    Ask unbuilt = Ask::nothing;
+    for (const std::string& word : kEffectWords) unbuilt = unbuilt | effect_of(word);
+    for (const Ask effect : kSceneEffects) unbuilt = without(unbuilt, effect);
+    return without(unbuilt, kSceneChanges | Ask::response);
+}
+
 /// Returns the name of one effect.
 [[nodiscard]] inline std::string effect_name(Ask one) {
     const Needs* row = find_needs(one);

@@ -56,8 +56,11 @@ JsonElement::JsonElement(const JsonElement& parent, const nlohmann::json& value,
 
 void JsonElement::refuse(const std::string& what) const {
     const std::string place = pointer_.empty() ? "" : pointer_ + ": ";
-    errors_->push_back(file_->name + ": line " + std::to_string(file_->lines.at(pointer_)) + ": " +
-                       place + what);
+    errors_->push_back(file_->name + ": line " + std::to_string(line()) + ": " + place + what);
+}
+
+std::size_t JsonElement::line() const {
+    return file_->lines.at(pointer_);
 }
 
 void JsonElement::refuse_value(const std::string& expected) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
@@ -47,6 +48,9 @@ public:
     [[nodiscard]] const std::string& pointer() const noexcept {
         return pointer_;
     }
+
+    /// The line on which the value begins, from 1.
+    [[nodiscard]] std::size_t line() const;
 
     [[nodiscard]] std::optional<std::string> text() const;  ///< not empty
     [[nodiscard]] std::optional<double> number(Range range) const;

@@ -8,10 +8,12 @@
 #include <utility>
 
 #include "cdprep/format/file_header.h"
+#include "cdprep/format/sections.h"
 #include "cdprep/hulls.h"
 #include "cli/colliders.h"
 #include "scene_file/bake_cache.h"
 #include "text/number_text.h"
+#include "text/printable.h"
 #include "text/space_name.h"
 
 namespace cdprep::scenes {
@@ -60,6 +62,72 @@ void read_model(const AssemblyScene& assembly, const AssemblyModel& model, cli::
                                    const import::ImportOptions& /*options*/) {
         return assembly.file.triangles(parts);
     };
+}
+
+/// Returns all sections of the file of a model, also those that were not opened.
+format::SectionSet sections_of_file(const Model& model) {
+    format::SectionSet sections;
+    for (const format::SectionKind& kind : format::section_kinds()) {
+        if (format::find_section(model.bytes(), kind.id)) sections.insert(kind.id);
+    }
+    return sections;
+}
+
+bool has_exact_leaves(const Model& model) {
+    return (model.header().flags & format::model_exact_leaves) != 0 && model.triangle_count() > 0;
+}
+
+Ask served_by_file(const Model& model) {
+    return served_by(sections_of_file(model), has_exact_leaves(model));
+}
+
+/// Returns the sections that a file lacks for these queries.
+format::SectionSet missing_of(const Model& model, Ask asks) {
+    const format::SectionSet sections = sections_of_file(model);
+    format::SectionSet missing;
+    for (const Needs& row : needs()) {
+        if (!contains(asks, row.ask)) continue;
+        missing.insert(missing_sections(row.ask, sections, has_exact_leaves(model)));
+    }
+    return missing;
+}
+
+std::vector<std::string> names_of(Ask asks) {
+    std::vector<std::string> names;
+    for (const Needs& row : needs()) {
+        if (contains(asks, row.ask)) names.emplace_back(row.name);
+    }
+    return names;
+}
+
+/// Either kind of positions is enough, so one name covers both.
+std::vector<std::string> names_of(format::SectionSet sections) {
+    std::vector<std::string> names;
+    for (const format::SectionKind& kind : format::section_kinds()) {
+        if (!sections.contains(kind.id)) continue;
+        const bool is_positions = kind.id == format::SectionId::positions_f32;
+        names.emplace_back(is_positions ? "positions" : kind.name);
+    }
+    return names;
+}
+
+/// Words as a sentence lists them: "a, b and c".
+std::string listed(const std::vector<std::string>& words, const char* last = " and ") {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        text += (i == 0 ? "" : i + 1 < words.size() ? ", " : last) + words[i];
+    }
+    return text;
+}
+
+std::vector<std::string> layers_that_need(const SceneFile& scene, const ModelNeeds& needs,
+                                          Ask lacking) {
+    std::vector<std::string> names;
+    for (std::size_t layer = 0; layer < scene.layers.size(); ++layer) {
+        if ((needs.asks_of_layers[layer] & lacking) == Ask::nothing) continue;
+        names.push_back("'" + report::printable(scene.layers[layer]) + "'");
+    }
+    return names;
 }
 
 /// Returns whether the next model may still be opened after such an error.
@@ -222,6 +290,37 @@ std::vector<ModelUse> uses_of(const SceneFile& scene, std::span<const SceneModel
         uses.push_back({names[i], model.asks(), models[i].needs.layers, enclosing_parts(model)});
     }
     return uses;
+}
+
+Ask lacking_asks(const SceneModel& model) {
+    if (!model.model) return Ask::nothing;
+    const Ask lacking = without(model.needs.asks, model.model->asks());
+    const bool lacks_mass = contains(lacking, Ask::response);
+    if (!lacks_mass || model.model->is_balanced()) return lacking;
+    const format::SectionSet missing = missing_of(*model.model, Ask::response);
+    const bool is_all = missing == format::SectionSet{format::SectionId::mass_properties};
+    return is_all ? without(lacking, Ask::response) : lacking;
+}
+
+std::vector<std::string> model_refusals(const SceneFile& scene,
+                                        std::span<const SceneModel> models) {
+    std::vector<std::string> refusals;
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        const Ask lacking = lacking_asks(models[i]);
+        if (lacking == Ask::nothing) continue;
+        const format::SectionSet missing = missing_of(*models[i].model, lacking);
+        const std::vector<std::string> layers = layers_that_need(scene, models[i].needs, lacking);
+        const bool is_one = layers.size() == 1;
+        refusals.push_back(
+            scene.name + ": " + report::printable(scene.models[i].string()) +
+            (is_one ? ": its layer " : ": its layers ") + listed(layers) +
+            (is_one ? " needs " : " need ") + listed(names_of(lacking)) + ", but the file has no " +
+            listed(names_of(missing), " or ") + ". Bake it again with " +
+            cli::options_to_bake(models[i].needs.asks, served_by_file(*models[i].model),
+                                 sections_of_file(*models[i].model)) +
+            ".");
+    }
+    return refusals;
 }
 
 }  // namespace cdprep::scenes

@@ -54,7 +54,7 @@ struct LoadedModels {
 
 /// Opens the models that the plan asks for, with exactly the sections that it needs or uses, in the
 /// order of SceneFile::models. Mesh files are baked for these sections. A baked file may lack some:
-/// compile_scene() tells. There is an error for each model that cannot be read, or whose unit is
+/// model_refusals() tells. There is an error for each model that cannot be read, or whose unit is
 /// not that of the scene. Any other error is the last: no model is opened after it.
 [[nodiscard]] LoadedModels load_models(const SceneFile& scene, const Plan& plan,
                                        const LoadOptions& options, const cli::Threads& threads);
@@ -78,5 +78,14 @@ struct LoadedModels {
 [[nodiscard]] std::vector<ModelUse> uses_of(const SceneFile& scene,
                                             std::span<const SceneModel> models,
                                             std::vector<std::string>& names);
+
+/// Returns what a model must serve, but does not. The mass of an open mesh does not count: no bake
+/// of that mesh has it.
+[[nodiscard]] Ask lacking_asks(const SceneModel& model);
+
+/// Returns why models that were opened do not serve their layers: a sentence for each such model.
+/// It names the layers, what they need, the missing sections and how to bake the file again.
+[[nodiscard]] std::vector<std::string> model_refusals(const SceneFile& scene,
+                                                      std::span<const SceneModel> models);
 
 }  // namespace cdprep::scenes

@@ -10,6 +10,8 @@ namespace {
 
 // As the dynamics allow.
 constexpr std::uint32_t kMostSteps = 1'000'000;  ///< substeps, and iterations
+constexpr double kLeastMass = 1e-30;
+constexpr double kMostMass = 1e30;
 
 void take_number(const JsonElement& parent, const char* key, Range range, double& number) {
     if (const auto member = parent.find(key)) number = member->number(range).value_or(number);
@@ -30,13 +32,20 @@ std::optional<Double3> find_vector(const JsonElement& parent, const char* key) {
     return member ? member->vector() : std::nullopt;
 }
 
+std::optional<double> read_mass(const JsonElement& element) {
+    const std::optional<double> mass = element.number(Range::any);
+    if (!mass || (*mass >= kLeastMass && *mass <= kMostMass)) return mass;
+    element.refuse_value("a number from 1e-30 to 1e+30");
+    return std::nullopt;
+}
+
 BodyMotion read_members(const JsonElement& element) {
     BodyMotion body;
     if (!element.is_object_of({"mass", "density", "linear_damping", "angular_damping", "velocity",
                                "turn_rad_per_s", "continuous"})) {
         return body;
     }
-    take_number(element, "mass", Range::above_zero, body.mass);
+    if (const auto mass = element.find("mass")) body.mass = read_mass(*mass);
     take_number(element, "density", Range::above_zero, body.density);
     if (const auto density = element.find("density"); density && element.find("mass")) {
         density->refuse("a body has a mass or a density, not both.");

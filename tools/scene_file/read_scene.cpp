@@ -105,6 +105,7 @@ private:
     }
 
     void read_layers(const JsonElement& root) {
+        const std::size_t errors = errors_.size();
         for_each_item(root, "layers", [&](const JsonElement& layer) {
             const auto name = layer.text();
             if (!name) return;
@@ -117,9 +118,14 @@ private:
                 layer.refuse("a scene has at most " + std::to_string(kLayers) + " layers.");
             }
         });
+        are_layers_refused_ = errors_.size() > errors;
     }
 
     std::optional<std::uint32_t> read_layer(const JsonElement& element) {
+        if (scene_.layers.empty()) {
+            if (!are_layers_refused_) element.refuse_value("a layer, but the scene has none");
+            return std::nullopt;
+        }
         const auto number = element.one_of(scene_.layers, "a layer");
         if (!number) return std::nullopt;
         return static_cast<std::uint32_t>(*number);
@@ -128,7 +134,7 @@ private:
     // --- Pairs -----------------------------------------------------------------------
 
     void read_pair(const JsonElement& element) {
-        AskedPair pair;
+        AskedPair pair{.line = element.line()};
         if (!element.is_object_of({"layers", "effects", "tolerance", "max_distance", "max_error",
                                    "body", "overlap", "contacts", "impact", "work", "events"})) {
             return;
@@ -348,7 +354,12 @@ private:
 
     static Motion read_motion(const JsonElement& element, const Pose& start, bool has_pose) {
         if (element.is_text()) {
-            static_cast<void>(element.one_of(Names{"fixed", "body"}, "a motion in one word"));
+            if (!element.is_word("fixed") && !element.is_word("body")) {
+                element.refuse_value(
+                    "\"fixed\", \"body\", or an object with path, velocity, turn_rad_per_s, "
+                    "deform, "
+                    "tear or body");
+            }
             return Motion::fixed(start);
         }
         if (!element.is_object_of(
@@ -445,6 +456,7 @@ private:
     const fs::path& folder_;
     SceneFile scene_;
     std::vector<std::string> errors_;
+    bool are_layers_refused_ = false;
     std::map<fs::path, std::uint32_t> models_;
     std::map<Change, std::uint32_t> changes_;
     std::set<std::string> names_;

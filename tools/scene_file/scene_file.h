@@ -22,6 +22,7 @@ struct AskedPair {
     LayerPair asked = {};      ///< its layers are numbers of SceneFile::layers
     bool tells_begins = true;  ///< events to report
     bool tells_ends = true;
+    std::size_t line = 0;  ///< of the file; 0: it does not state the pair
 };
 
 /// A change of a model with time. Objects with the same model and change share one live model.
@@ -93,6 +94,7 @@ struct SceneFile {
     std::vector<std::string> layers;
     bool has_pairs = true;  ///< otherwise the file does not say what is asked
     std::vector<AskedPair> pairs;
+    Ask dropped = Ask::nothing;                 ///< by drop_effect(): pairs asked for these
     std::vector<std::filesystem::path> models;  ///< mesh files or baked files, each once
     std::vector<Motion> motions;
     std::vector<Change> changes;  ///< each once

@@ -112,14 +112,16 @@ public:
         Plan::Compiled compiled = scenes::compile_scene(scene_, limits(), parts);
         if (!compiled.plan) return refuse(compiled.refusals);
         if (const auto failed = load(*compiled.plan)) return *failed;
-        std::vector<std::string> names;
-        compiled = scenes::compile_scene(scene_, limits(), scenes::uses_of(scene_, models_, names));
+        std::vector<std::string> refusals = scenes::model_refusals(scene_, models_);
         if (!replay_) {
             for (std::string& refusal : scenes::response_refusals(scene_, models_)) {
-                compiled.refusals.push_back(std::move(refusal));
+                refusals.push_back(std::move(refusal));
             }
         }
-        if (!compiled.refusals.empty()) return refuse(compiled.refusals);
+        if (!refusals.empty()) return refuse(refusals);
+        std::vector<std::string> names;
+        compiled = scenes::compile_scene(scene_, limits(), scenes::uses_of(scene_, models_, names));
+        if (!compiled.plan) return refuse(compiled.refusals);
         return arguments_.plan ? show_plan(*compiled.plan) : simulate(*compiled.plan);
     }
 

@@ -90,21 +90,21 @@ std::vector<std::string> response_refusals(const SceneFile& scene,
     const auto made = dynamics::make_rigid_bodies(dynamics_options_of(scene));
     if (!made) refusals.push_back(scene.name + ": response: " + made.error().message);
     std::set<std::pair<std::uint32_t, std::uint32_t>> seen;  // models and bodies
-    std::set<std::uint32_t> without_contacts;
+    std::vector<bool> is_refused;                            // by model_refusals()
+    for (const SceneModel& model : models) {
+        is_refused.push_back(lacking_asks(model) != Ask::nothing);
+    }
     for (const FileObject& object : scene.objects) {
-        if (!responds(scene, object.layer) || !models[object.model].model) continue;
-        const Model& model = *models[object.model].model;
-        const Ask needed = models[object.model].needs.asks & (Ask::contacts | Ask::distance);
-        if (without_contacts.insert(object.model).second) {
-            if (const auto refusal = model.refusal(needed)) refusals.push_back(refusal->message);
-        }
-        if (object.body == kNoBody || !seen.insert({object.model, object.body}).second) continue;
+        const SceneModel& opened = models[object.model];
+        if (!responds(scene, object.layer) || !opened.model) continue;
+        if (is_refused[object.model] || object.body == kNoBody) continue;
+        if (!seen.insert({object.model, object.body}).second) continue;
         dynamics::RigidBody body = rigid_body_of(scene, object);
-        body.model = &model;
+        body.model = &*opened.model;
         const Result<dynamics::BodyMass> mass = dynamics::mass_of(body);
         if (!mass) refusals.push_back(mass.error().message);
     }
-    if (!refusals.empty()) return refusals;
+    if (!refusals.empty() || std::ranges::count(is_refused, true) > 0) return refusals;
     // What else may be wrong is found where the bodies are made.
     const Result<Response> whole = Response::make(scene, models, 1, serial_for);
     if (!whole) refusals.push_back(whole.error().message);

@@ -55,7 +55,7 @@ struct PushEvent {
 [[nodiscard]] dynamics::DynamicsOptions dynamics_options_of(const SceneFile& scene);
 
 /// Returns why `response` cannot be computed with these models, a sentence for each reason. Models
-/// that are not open are not judged.
+/// that are not open are not judged, nor those that model_refusals() names.
 [[nodiscard]] std::vector<std::string> response_refusals(const SceneFile& scene,
                                                          std::span<const SceneModel> models);
 

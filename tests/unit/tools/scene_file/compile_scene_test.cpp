@@ -56,22 +56,33 @@ TEST(CompileScene, ListsAllRefusals) {
     const std::string place = "s.json: Pair 0 of layers, 'a' and 'b': ";
     EXPECT_EQ(compiled.refusals[0],
               place +
-                  "inside is not built in a scene. Built are collide, overlap, within, "
-                  "distance, contacts, continuous, self and haptic.");
+                  "inside is not built in a scene. Choose from collide, overlap, distance, within, "
+                  "contacts, response, continuous, self, deform, tear, haptic.");
     EXPECT_EQ(compiled.refusals[1], place +
                                         "response needs bodies, but no object of these layers has "
                                         "the motion \"body\".");
 }
 
-TEST(CompileScene, RefusesModelsThatDoNotServe) {
-    const SceneFile scene =
-        scene_of({{.asked = {.a = 0, .b = 1, .effects = Ask::collide | Ask::within}}});
-    const std::vector<ModelUse> uses = {{"m.cdp.h5", Ask::collide, 0b11}};
-    const Plan::Compiled compiled = compile_scene(scene, kLimits, uses);
-    ASSERT_EQ(compiled.refusals.size(), 1u);
-    EXPECT_EQ(compiled.refusals[0],
-              "s.json: m.cdp.h5: its layers 'a' and 'b' ask for within, which the model does not "
-              "serve. Bake it with --effects within.");
+// What its options mean depends on the effect, and that one is not built.
+TEST(CompileScene, RefusesAnEffectThatIsNotBuiltOnce) {
+    const SceneFile scene = scene_of(
+        {{.asked = {.a = 0, .b = 1, .effects = Ask::inside, .tolerance = 3, .body = Body::solid}}});
+    EXPECT_EQ(compile_scene(scene, kLimits).refusals.size(), 1u);
+}
+
+TEST(CompileScene, NamesTheLinesOfPairs) {
+    SceneFile scene = scene_of({{.asked = {.a = 0, .b = 1, .effects = Ask::collide}, .line = 7},
+                                {.asked = {.a = 1, .b = 0, .effects = Ask::collide}, .line = 9}});
+    scene.changes = {{.deform = Twist{}}};
+    scene.objects[0].change = 0;
+    const std::vector<std::string> expected = {
+        "s.json: line 9: /pairs/1: Pair 1 of layers, 'b' and 'a': layers 'b' and 'a' are also "
+        "those of pair 0.",
+        "s.json: Object 'x' in layer 'a' deforms. Add deform to the effects of pair 0 of layers, "
+        "'a' and 'b' (line 7).",
+        "s.json: Object 'x' in layer 'a' deforms. Add deform to the effects of pair 1 of layers, "
+        "'b' and 'a' (line 9)."};
+    EXPECT_EQ(compile_scene(scene, kLimits).refusals, expected);
 }
 
 // A live model answers its layer; its base is opened for that, whatever the layer asks for.

@@ -71,6 +71,24 @@ TEST(LoadModels, LeaveAModelAloneThatNobodyAsksFor) {
     EXPECT_FALSE(models->back().model);
 }
 
+// One sentence: the layers, what they need, the sections, and a bake that keeps the rest.
+TEST(ModelRefusals, AreOneSentenceForEachModel) {
+    const test::ScratchFolder folder;
+    const auto mesh = folder.write("m.off", std::string_view(kTetrahedron));
+    SceneFile scene = scene_of(mesh, Ask::collide);
+    LoadedModels loaded = load_all(scene);
+    EXPECT_TRUE(model_refusals(scene, loaded.models).empty());
+    // The same file in a scene that asks for more.
+    scene = scene_of(mesh, Ask::within | Ask::distance);
+    loaded.models[0].needs =
+        needs_of_models(scene, *compile_scene(scene, {.objects = 3, .pairs = 3}).plan)[0];
+    EXPECT_EQ(model_refusals(scene, loaded.models),
+              (std::vector<std::string>{
+                  "s.json: " + mesh.string() +
+                  ": its layers 'a' and 'b' need distance and within, but the file has no "
+                  "source_triangle. Bake it again with --effects collide,distance,within."}));
+}
+
 TEST(LoadModels, AnswersAreThoseOfTheFile) {
     const test::ScratchFolder folder;
     const auto mesh = folder.write("m.off", std::string_view(kTetrahedron));

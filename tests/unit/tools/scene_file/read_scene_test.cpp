@@ -244,8 +244,15 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
          {"line 4: /objects/0/pose/matrix: found [[1,0,0,0]]; expected an array of 3 rows of 4 "
           "numbers."}},
         {one_object(", \"motion\": \"free\""),
-         {"line 4: /objects/0/motion: 'free' is not a motion in one word. Choose from fixed or "
-          "body."}},
+         {"line 4: /objects/0/motion: found \"free\"; expected \"fixed\", \"body\", or an object "
+          "with path, velocity, turn_rad_per_s, deform, tear or body."}},
+        {"{\"cdprep_scene\": 1, \"layers\": {},\n\"objects\": [],\n\"pairs\": "
+         "[{\"layers\": [\"a\", \"a\"], \"effects\": []}]}",
+         {"line 1: /layers: found an empty object; expected an array."}},
+        {"{\"cdprep_scene\": 1, \"layers\": [],\n\"objects\": [],\n\"pairs\": "
+         "[{\"layers\": [\"a\", \"a\"], \"effects\": []}]}",
+         {"line 3: /pairs/0/layers/0: found \"a\"; expected a layer, but the scene has none.",
+          "line 3: /pairs/0/layers/1: found \"a\"; expected a layer, but the scene has none."}},
         {one_object(", \"motion\": {}"),
          {"line 4: /objects/0/motion: a motion has a path, a velocity, a turn_rad_per_s, a deform, "
           "a "
@@ -348,7 +355,10 @@ TEST(ReadScene, NamesMistakesOfBodies) {
         "metres, or [0, 0, 0] for none.";
     const std::vector<Mistake> mistakes = {
         {one_object(", \"motion\": \"body\""), {no_gravity}},
-        {falling("\"mass\": 0"), {body + "/mass: found 0; expected a number above 0.", no_gravity}},
+        {falling("\"mass\": 0"),
+         {body + "/mass: found 0; expected a number from 1e-30 to 1e+30.", no_gravity}},
+        {falling("\"mass\": 1e-31"),
+         {body + "/mass: found 1e-31; expected a number from 1e-30 to 1e+30.", no_gravity}},
         {falling("\"mass\": 1, \"density\": 2"),
          {body + "/density: a body has a mass or a density, not both.", no_gravity}},
         {falling("\"linear_damping\": 1.5, \"angular_damping\": -1, \"continuous\": 1"),
