@@ -9,6 +9,7 @@ import json
 import math
 import pathlib
 import shutil
+import struct
 import sys
 import tempfile
 
@@ -114,6 +115,23 @@ def falls(program, folder):
     must("response" in still["not_computed"] and still["moved"] == 3, f"{still}")
 
 
+def warnings(program, folder):
+    """Standard error tells what was less exact, in every format. Contacts follow 2 m/s here."""
+    fast = ball_scene(folder, "fast.json", ["response"])
+    for path in SCENES.glob("*.obj"):
+        shutil.copy(path, folder)
+    pile = json.loads((SCENES / "pile.json").read_text())
+    pile["dynamics"]["most_contacts"] = 1
+    many = folder / "many.json"
+    many.write_text(json.dumps(pile))
+    for scene, words in ((fast, "faster than contacts can follow"), (many, "cut short")):
+        for form in ("text", "json", "ndjson"):
+            done = run(program, "simulate", scene, "--format", form, "-o", folder / "report",
+                       "--frames", 45)
+            must(done.returncode == 0 and words in done.stderr and "Raise dynamics.most_" in
+                 done.stderr and done.stderr.count("\n") == 1, f"{form}: {done.stderr}")
+
+
 def costs(program, folder):
     """Both effects are measured. What does not fit is refused before anything is computed."""
     scene = ball_scene(folder, "cost.json", ["response", "collide"])
@@ -150,21 +168,27 @@ def refusals(program, folder):
     must(done.returncode == 2, f"exit {done.returncode}: {done.stderr}")
     told = json.loads(done.stdout)
     check_schema(OUTPUT_SCHEMA, told, scene)
-    parts = ["The contact tolerance is 1e-06", "object 'baked': response needs mass, and the file has "
-             "no mass properties", "object 'open': response needs mass, and the mesh is open"]
+    parts = ["crate.cdp.h5: its layer 'a' needs response, but the file has no mass_properties. "
+             "Bake it again with --effects response.",
+             "The contact tolerance is 1e-06",
+             "object 'open': response needs mass, and the mesh is open"]
     must(len(told["refusals"]) == len(parts), f"{told['refusals']}")
     for part, sentence in zip(parts, told["refusals"]):
         must(part in sentence, sentence)
+    what_to_bake(program, folder)
     box = {"name": "box", "model": str(SCENES / "crate.obj"), "layer": "a", "motion": "body"}
     for part, code, members, material in (
             ("/dynamics/most_contacts: found 300; expected a whole number from 1 to 256", 3,
              {"dynamics": {"most_contacts": 300}}, {}),
             ("/dynamics/iterations: found 2000000; expected a whole number from 1 to 1000000", 3,
              {"dynamics": {"iterations": 2000000}}, {}),
+            ("/motion/body/mass: found 1e-31; expected a number from 1e-30 to 1e+30", 3, {},
+             {"mass": 1e-31}),
             ("object 'box': the friction is 1e+07", 2, {}, {"friction": 1e7})):
         scene = write_scene(folder / "numbers.json", layers=["a"], gravity=[0, 0, -1], **members,
                             pairs=[{"layers": ["a", "a"], "effects": ["response"]}],
-                            objects=[dict(box, material=material)])
+                            objects=[dict(box, motion={"body": {"mass": 1e-31}})
+                                     if "mass" in material else dict(box, material=material)])
         done = run(program, "simulate", scene, "--plan")
         must(done.returncode == code and part in done.stderr, f"{part}: {done.stderr}")
     alone = write_scene(folder / "alone.json", layers=["a"], gravity=[0, 0, -1], pairs=[],
@@ -173,6 +197,36 @@ def refusals(program, folder):
     done = run(program, "simulate", alone)
     must(done.returncode == 2 and "no pair of this layer asks for response" in done.stderr,
          done.stderr)
+
+
+def what_to_bake(program, folder):
+    """One sentence for each file says how to bake it again; after that it is served."""
+    scene = ball_scene(folder, "bake.json", ["response", "collide", "contacts"])
+    text = scene.read_text()
+    for name, effects in (("ground", ["--effects", "ray"]), ("crate", [])):
+        bake(program, SCENES / f"{name}.obj", "-o", folder / f"{name}.cdp.h5", *effects)
+        text = text.replace(str(SCENES / f"{name}.obj"), f"{name}.cdp.h5")
+    scene.write_text(text)
+    done = run(program, "simulate", scene)
+    told = done.stderr.splitlines()
+    must(done.returncode == 2 and len(told) == 2, done.stderr)
+    for name, needs, words in (("ground", "collide and contacts", "layer 'floors'"),
+                               ("crate", "contacts and response", "layer 'crates'")):
+        found = [line for line in told if f"{name}.cdp.h5: its {words} needs {needs}, but" in line]
+        must(len(found) == 1, f"{name}: {told}")
+        line = found[0]
+        must("piece_adjacency" in line, line)
+        option = line.split("Bake it again with ")[1].rstrip(".").split()
+        bake(program, SCENES / f"{name}.obj", "-o", folder / f"{name}.cdp.h5", *option)
+        for ask in ("ray", "collide"):
+            done = run(program, "info", folder / f"{name}.cdp.h5")
+            must(ask in done.stdout, f"{ask} is lost: {done.stdout}")
+    simulate(program, scene, "--frames", 2)
+    # By itself, the effect is enough.
+    bake(program, SCENES / "crate.obj", "-o", folder / "crate.cdp.h5", "--effects", "response")
+    alone = ball_scene(folder, "alone.json", ["response"])
+    alone.write_text(alone.read_text().replace(str(SCENES / "crate.obj"), "crate.cdp.h5"))
+    simulate(program, alone, "--frames", 2)
 
 
 def generated(program):
@@ -186,6 +240,38 @@ def generated(program):
             must(len(written_files) == 3, f"{script} wrote {written_files}")
             for written in written_files:
                 must(written.read_text() == (SCENES / written.name).read_text(), f"{written.name}")
+
+
+def piles_of_models(folder):
+    """OBJ, PLY as text and PLY as bytes of one cube give the same meshes."""
+    text = (SCENES / "crate.obj").read_text().splitlines()
+    points = [line.split()[1:] for line in text if line.startswith("v ")]
+    faces = [[int(word.split("/")[0]) - 1 for word in line.split()[1:]]
+             for line in text if line.startswith("f ")]
+    shutil.copy(SCENES / "crate.obj", folder)
+    for name, kind in (("text", "ascii"), ("bytes", "binary_little_endian")):
+        header = (f"ply\nformat {kind} 1.0\ncomment {name}\nelement vertex {len(points)}\n"
+                  "property float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+                  f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+        if kind == "ascii":
+            body = "".join(" ".join(p) + " 7\n" for p in points)
+            body += "".join(" ".join(map(str, [len(f), *f])) + "\n" for f in faces)
+            body = body.encode()
+        else:
+            body = b"".join(struct.pack("<3fB", *map(float, p), 7) for p in points)
+            body += b"".join(struct.pack(f"<B{len(f)}i", len(f), *f) for f in faces)
+        (folder / f"{name}.ply").write_bytes(header.encode() + body)
+    written = folder / "written"
+    done = run(sys.executable, SCENES / "make_pile.py", written, 3,
+               *(folder / name for name in ("crate.obj", "text.ply", "bytes.ply")))
+    must(done.returncode == 0, done.stderr)
+    meshes = [[line for line in (written / f"{name}.obj").read_text().splitlines() if line[0] != "#"]
+              for name in ("crate", "text", "bytes")]
+    must(meshes[0] == meshes[1] == meshes[2] and len(meshes[0]) == len(points) + len(faces),
+         f"{meshes}")
+    (folder / "big.ply").write_text("ply\nformat binary_big_endian 1.0\nend_header\n")
+    done = run(sys.executable, SCENES / "make_pile.py", written, 3, folder / "big.ply")
+    must(done.returncode == 1 and "found the PLY format" in done.stderr, done.stderr)
 
 
 def the_bolt(program, folder):
@@ -202,7 +288,9 @@ def the_bolt(program, folder):
 def main():
     program = sys.argv[1]
     generated(program)
-    for check in (the_pile, falls, costs, the_plan, refusals, the_bolt):
+    with tempfile.TemporaryDirectory() as scratch:
+        piles_of_models(pathlib.Path(scratch))
+    for check in (the_pile, falls, warnings, costs, the_plan, refusals, the_bolt):
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))
 

@@ -155,6 +155,14 @@ def dropped_effects(program, folder):
     kept = {effect["name"]: effect["begins"] for effect in less["effects"]}
     for effect in whole["effects"]:
         must(effect["name"] == "distance" or kept[effect["name"]] == effect["begins"], f"{less}")
+    text = simulate(program, scene, "--drop", "distance", "--format", "text").stdout
+    asked, dropped = ("not computed, for no pair of layers asks: ",
+                      "not computed, for --drop leaves it out: ")
+    must(dropped + "distance\n" in text and "contacts" in text.split(asked)[1].split("\n")[0], text)
+    must("distance" not in text.split(asked)[1].split("\n")[0], text)
+    must("not computed, for it is not built: inside\n" in text, text)
+    frames = summary_of(simulate(program, scene))["frames"]
+    must(f"\nframes {frames} of {frames} complete; " in text, text)
     wrong = simulate(program, scene, "--drop", "contacts", code=2)
     must("--drop contacts: no pair of layers asks for it." in wrong.stderr, wrong.stderr)
     recording = folder / "assembly.ndjson"

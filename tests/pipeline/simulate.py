@@ -425,7 +425,8 @@ def refusals(program, folder):
                                {"layers": ["b", "a"], "effects": ["collide"], "tolerance": 3}])
     words = ["Pair 0 of layers, 'a' and 'b': response needs bodies",
              "Pair 0 of layers, 'a' and 'b': inside is not built",
-             "layers 'b' and 'a' are also those of pair 0",
+             "line 1: /pairs/1: Pair 1 of layers, 'b' and 'a': layers 'b' and 'a' are also those of "
+             "pair 0",
              "Pair 1 of layers, 'b' and 'a': tolerance has no meaning without within"]
     done = run(program, "simulate", scene, "--plan", "--format", "json")
     must(done.returncode == 2, f"{done.returncode}: {done.stderr}")
@@ -439,9 +440,10 @@ def refusals(program, folder):
                         pairs=[{"layers": ["a", "a"], "effects": ["within", "distance"]}])
     done = run(program, "simulate", scene)
     must(done.returncode == 2 and not done.stdout, done.stderr)
-    for effect in ("within", "distance"):
-        must(f"crate.cdp.h5: its layer 'a' asks for {effect}" in done.stderr and
-             f"--effects {effect}." in done.stderr, done.stderr)
+    must(len(done.stderr.splitlines()) == 1, done.stderr)
+    for words in ("crate.cdp.h5: its layer 'a' needs distance and within, but the file has no "
+                  "source_triangle.", "Bake it again with --effects collide,distance,within."):
+        must(words in done.stderr, done.stderr)
     must(plan_of(program, write_scene(
         folder / "baked.json", layers=["a"], objects=[crate],
         pairs=[{"layers": ["a", "a"], "effects": ["collide"]}]))["models"][0]["origin"] == "baked",
@@ -461,6 +463,12 @@ def mistakes(program, folder):
                          {"name": "y", "model": "short.obj", "layer": "a"}])
     write_scene(folder / "long.json", layers=["a"], pairs=pairs, step_s=1e-3, duration_s=1e10,
                 objects=[{"name": "x", "model": "crate.obj", "layer": "a"}])
+    # The model of these cannot be baked: that they are too long is told before.
+    for name, step, duration in (("longer", 1e-3, 1e300), ("endless", 1e-320, 1)):
+        write_scene(folder / f"{name}.json", layers=["a"], pairs=pairs, step_s=step,
+                    duration_s=duration, objects=[{"name": "x", "model": "broken.obj", "layer": "a"}])
+    write_scene(folder / "fly.json", layers=["a"], pairs=pairs,
+                objects=[{"name": "x", "model": "crate.obj", "layer": "a", "motion": "fly"}])
     write_scene(folder / "schema.json", **{"$schema": 3}, layers=["a"], pairs=pairs, objects=[])
     bake(program, folder / "crate.obj", "-o", folder / "inches.cdp.h5", "--unit", "in")
     write_scene(folder / "unit.json", layers=["a"], pairs=pairs, metres_per_unit=1,
@@ -478,6 +486,9 @@ def mistakes(program, folder):
                                     "line 3: /objects/0/layer: 'b' is not a layer"]),
         ([folder / "broken.json"], 3, ["broken.obj", "short.obj"]),
         ([folder / "long.json"], 2, ["duration_s / step_s is 1e+13 frames; at most 1000000000"]),
+        ([folder / "longer.json"], 2, ["duration_s / step_s is 1e+303 frames; at most 1000000000"]),
+        ([folder / "endless.json"], 2, ["duration_s / step_s is too many frames; at most"]),
+        ([folder / "fly.json"], 3, ['found "fly"; expected "fixed", "body", or an object with path']),
         ([good, "--frames", 1000000001], 2, ["--frames", "1000000001", "from 1 to 1000000000"]),
         ([folder / "schema.json"], 3, ["schema.json: line 1: /$schema: found 3; expected"]),
         ([folder / "unit.json"], 2, ["inches.cdp.h5 is in in, but the unit of the scene is m"]),
@@ -517,6 +528,12 @@ def the_effects(program, folder):
     must(f"Choose from {', '.join(words[:-1])} or {words[-1]}." in told, told)
 
 
+def the_help(program):
+    """It states the defaults of bodies."""
+    told = " ".join(run(program, "simulate", "--help").stdout.split())
+    must("4 substeps, with 50 iterations" in told and "`dynamics`" in told, told)
+
+
 def an_interrupt(program):
     running = subprocess.Popen([program, "simulate", SCENES / "thousand.json", "--frames",
                                 "100000000"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
@@ -541,6 +558,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         for check in (many_pairs, unused_models, the_rungs, refusals, mistakes, the_effects):
             check(program, pathlib.Path(scratch))
+    the_help(program)
     an_interrupt(program)
 
 

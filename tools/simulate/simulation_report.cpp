@@ -7,13 +7,15 @@
 #include "simulate/event_json.h"
 #include "simulate/run_summary.h"
 #include "text/json_layout.h"
+#include "text/printable.h"
 
 namespace cdprep::report {
 
 SimulationReport::SimulationReport(const scenes::SceneFile& scene, const Plan& plan,
-                                   EventFormat format)
+                                   EventFormat format, std::uint64_t frames)
     : scene_(scene),
       format_(format),
+      frames_(frames),
       table_(scene, plan),
       not_computed_(not_computed(scene, plan)) {
     for (const scenes::AskedPair& pair : scene.pairs) {
@@ -65,8 +67,26 @@ std::string SimulationReport::event_text(const nlohmann::ordered_json& event) {
     return (is_first ? "\n" : ",\n") + compact(event);
 }
 
+std::vector<std::string> SimulationReport::warnings(bool is_gltf) const {
+    dynamics::DynamicsCounts fast = table_.body_counts(), cut = fast;
+    fast.incomplete = cut.too_fast = 0;
+    std::vector<std::string> sentences;
+    for (const std::string& warning : response_warnings(cut)) {
+        sentences.push_back(warning + ". Raise dynamics.most_contacts.");
+    }
+    for (const std::string& warning : response_warnings(fast)) {
+        sentences.push_back(warning + ". Raise dynamics.most_speed or dynamics.substeps, or make " +
+                            "the bodies continuous.");
+    }
+    for (std::string& sentence : sentences) {
+        sentence.insert(0, printable(scene_.name) + ": ");
+        if (is_gltf) sentence += " A glTF file cannot state that: write a scene file.";
+    }
+    return sentences;
+}
+
 std::string SimulationReport::finish(const scenes::Simulation& simulation) const {
-    const RunSummary summary = {scene_, simulation, table_, costs_, not_computed_};
+    const RunSummary summary = {scene_, simulation, table_, costs_, not_computed_, frames_};
     switch (format_) {
         case EventFormat::text:
             return summary_text(summary);

@@ -18,8 +18,9 @@ enum class EventFormat : std::uint8_t { text, json, ndjson };
 /// Collects the frames of a simulation and words its report.
 class SimulationReport {
 public:
-    /// `scene` and `plan` must outlive the object.
-    SimulationReport(const scenes::SceneFile& scene, const Plan& plan, EventFormat format);
+    /// `scene` and `plan` must outlive the object. `frames` are asked for.
+    SimulationReport(const scenes::SceneFile& scene, const Plan& plan, EventFormat format,
+                     std::uint64_t frames);
 
     /// Returns the text that begins the report.
     [[nodiscard]] std::string begin() const;
@@ -32,6 +33,8 @@ public:
     }
     /// Returns the text that ends the report: the summary of all frames.
     [[nodiscard]] std::string finish(const scenes::Simulation& simulation) const;
+    /// Returns sentences about frames that are less exact than others, and what to change.
+    [[nodiscard]] std::vector<std::string> warnings(bool is_gltf) const;
 
 private:
     [[nodiscard]] static bool tells(const scenes::AskedPair& pair, EventKind kind);
@@ -40,6 +43,7 @@ private:
 
     const scenes::SceneFile& scene_;
     EventFormat format_;
+    std::uint64_t frames_;
     std::vector<const scenes::AskedPair*> pairs_;  ///< by their numbers in the plan
     CostTable table_;
     std::vector<std::string> not_computed_;

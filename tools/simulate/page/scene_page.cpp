@@ -209,12 +209,14 @@ Json changing_json(const SceneFrames& frames, std::span<const scenes::ChangingOb
     return json;
 }
 
-/// `asked` are those of the scene file, `computed` those of the run.
-Json effects_json(Ask asked, Ask computed) {
+/// `asked` are those of the scene file, `dropped` those that it asked for before, and `computed`
+/// those of the run.
+Json effects_json(Ask asked, Ask dropped, Ask computed) {
     Json json = Json::array();
     for (const Ask effect : kSimulatedEffects) {
         json.push_back({{"name", scenes::effect_name(effect)},
                         {"asked", contains(computed, effect)},
+                        {"is_dropped", contains(dropped, effect)},
                         {"is_replayed", contains(asked, effect) && !contains(computed, effect)}});
     }
     return json;
@@ -393,24 +395,24 @@ std::string ScenePage::finish(const scenes::Simulation& simulation) {
     left_out_ = std::move(words.sentences);
 
     const std::string name = std::filesystem::path(file_.name).filename().string();
-    const Json data = {
-        {"name", name},
-        {"frames", count_},
-        {"step_s", file_.step_s},
-        {"metres_per_unit", file_.metres_per_unit},
-        {"centre", point_json(geometry.frame.centre)},
-        {"exponent", geometry.frame.exponent},
-        {"half", geometry.frame.half_box},
-        {"layers", file_.layers},
-        {"effects", effects_json(asked_effects(file_, plan), computed_effects(simulation))},
-        {"models", models_json(file_, geometry)},
-        {"objects", objects_json(file_, plan, frames_.objects())},
-        {"object_count", file_.objects.size()},
-        {"changing", changing_json(frames_, simulation.changing())},
-        {"spans", spans_json(timeline_)},
-        {"events", packed(events_)},
-        {"left_out", left_out_},
-        {"state_hash", hexadecimal(simulation.scene().state_hash())}};
+    const Json data = {{"name", name},
+                       {"frames", count_},
+                       {"step_s", file_.step_s},
+                       {"metres_per_unit", file_.metres_per_unit},
+                       {"centre", point_json(geometry.frame.centre)},
+                       {"exponent", geometry.frame.exponent},
+                       {"half", geometry.frame.half_box},
+                       {"layers", file_.layers},
+                       {"effects", effects_json(asked_effects(file_, plan), file_.dropped,
+                                                computed_effects(simulation))},
+                       {"models", models_json(file_, geometry)},
+                       {"objects", objects_json(file_, plan, frames_.objects())},
+                       {"object_count", file_.objects.size()},
+                       {"changing", changing_json(frames_, simulation.changing())},
+                       {"spans", spans_json(timeline_)},
+                       {"events", packed(events_)},
+                       {"left_out", left_out_},
+                       {"state_hash", hexadecimal(simulation.scene().state_hash())}};
     Json triangles = Json::array();
     for (const ModelDrawing& model : geometry.models) triangles.push_back(triangles_json(model));
     const auto element = [](const char* id, const std::string& json) {

@@ -155,7 +155,8 @@ function effect_table() {
              make('td', {}, whole(now.calls[k])))
       : make('tr', {class: 'off'}, make('td', {}, effect.name),
              make('td', {colspan: 4}, effect.is_replayed ? 'not computed: poses of the recording'
-                                                         : 'not computed: no pair of layers asks')));
+                                   : effect.is_dropped ? 'not computed: --drop leaves it out'
+                                                       : 'not computed: no pair of layers asks')));
   const head = ['Effect', 'Pairs', 'Begin', 'End', 'Calls'].map((name) => make('th', {scope: 'col'}, name));
   return make('table', {class: 'plain', id: 'effect-table'}, make('thead', {}, make('tr', {}, ...head)),
               make('tbody', {}, ...rows));
@@ -333,9 +334,18 @@ function write_plan() {
 }
 
 function not_computed_words() {
-  if (!plan.not_computed.length) return '';
-  return 'Not computed: ' + plan.not_computed.join(', ') + '. No pair of layers asks for ' +
-      (plan.not_computed.length === 1 ? 'it' : 'them') + ': 0 calls.';
+  const dropped = run.effects.filter((effect) => effect.is_dropped).map((effect) => effect.name);
+  const unasked = plan.not_computed.filter((name) => !dropped.includes(name));
+  const words = [];
+  if (unasked.length) {
+    words.push('Not computed: ' + unasked.join(', ') + '. No pair of layers asks for ' +
+               (unasked.length === 1 ? 'it' : 'them') + ': 0 calls.');
+  }
+  if (dropped.length) words.push('Left out by --drop: ' + dropped.join(', ') + '.');
+  if (run.effects.some((effect) => effect.is_replayed)) {
+    words.push('Response was not computed here: the poses are those of the recording.');
+  }
+  return words.join(' ');
 }
 
 function write_costs() {

@@ -49,7 +49,7 @@ inline constexpr auto kSimulatedEffects = [] {
     return counts.query_ticks - std::min(counts.query_ticks, queries);
 }
 
-/// Returns the names of the effects that no pair of layers asks for.
+/// Returns the names of the effects that no pair of layers asks for, or not any more.
 [[nodiscard]] inline std::vector<std::string> not_computed(const scenes::SceneFile& scene,
                                                            const Plan& plan) {
     std::vector<std::string> names;
@@ -60,13 +60,25 @@ inline constexpr auto kSimulatedEffects = [] {
     return names;
 }
 
-/// Returns them as a line of text, or nothing.
-[[nodiscard]] inline std::string not_computed_line(std::span<const std::string> names) {
-    std::string text;
+/// Returns them as lines of text: those that nobody asks for, and those that --drop left out. Then
+/// come those that no version computes yet.
+[[nodiscard]] inline std::string not_computed_lines(const scenes::SceneFile& scene,
+                                                    std::span<const std::string> names) {
+    std::string unasked, dropped, unbuilt;
+    const auto add = [](std::string& list, const std::string& name) {
+        list += (list.empty() ? "" : ", ") + name;
+    };
     for (const std::string& name : names) {
-        text += (text.empty() ? "not computed, for no pair of layers asks: " : ", ") + name;
+        const bool is_dropped = contains(scene.dropped, scenes::effect_of(name));
+        add(is_dropped ? dropped : unasked, name);
     }
-    return text.empty() ? text : text + "\n";
+    for (const std::string& word : scenes::kEffectWords) {
+        if (contains(scenes::unbuilt_effects(), scenes::effect_of(word))) add(unbuilt, word);
+    }
+    std::string text;
+    if (!unasked.empty()) text += "not computed, for no pair of layers asks: " + unasked + "\n";
+    if (!dropped.empty()) text += "not computed, for --drop leaves it out: " + dropped + "\n";
+    return text + "not computed, for it is not built: " + unbuilt + "\n";
 }
 
 }  // namespace cdprep::report

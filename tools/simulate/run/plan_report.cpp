@@ -218,7 +218,7 @@ std::string pairs_text(const Plan& plan) {
 
 /// What the plan leaves out.
 std::string not_computed_text(const SceneFile& scene, const Plan& plan) {
-    std::string text = not_computed_line(not_computed(scene, plan));
+    std::string text = not_computed_lines(scene, not_computed(scene, plan));
     std::string alone;
     for (const std::string& name : layers_in_no_pair(scene)) {
         alone += (alone.empty() ? "" : ", ") + printable(name);

@@ -29,14 +29,18 @@ using scenes::Simulation;
 
 constexpr SceneLimits kPlanLimits = {.objects = 2000, .pairs = 1};
 
-/// The sample scenes. Their limits do not matter for plans.
+SceneFile sample_scene(const std::string& name) {
+    auto reading =
+        scenes::read_scene(std::string(CDPREP_SOURCE_DIR) + "/samples/scenes/" + name + ".json");
+    EXPECT_TRUE(reading.scene) << name;
+    return reading.scene ? std::move(*reading.scene) : SceneFile();
+}
+
+/// The sample scenes without bodies. Their limits do not matter for plans.
 std::vector<SceneFile> sample_scenes() {
     std::vector<SceneFile> scenes;
     for (const char* name : {"crates", "assembly", "cloth", "cut", "thousand", "probe", "bolt"}) {
-        auto reading = scenes::read_scene(std::string(CDPREP_SOURCE_DIR) + "/samples/scenes/" +
-                                          name + ".json");
-        EXPECT_TRUE(reading.scene) << name;
-        if (reading.scene) scenes.push_back(std::move(*reading.scene));
+        scenes.push_back(sample_scene(name));
     }
     return scenes;
 }
@@ -58,7 +62,7 @@ Json summary_of(const SceneFile& scene, const std::vector<SceneModel>& models,
     auto simulation = Simulation::make(scene, models, threads, test::run_threads);
     EXPECT_TRUE(simulation);
     const Plan plan = plan_of(scene);
-    SimulationReport report(scene, plan, EventFormat::ndjson);
+    SimulationReport report(scene, plan, EventFormat::ndjson, frames);
     for (std::uint64_t frame = 0; frame < frames; ++frame) {
         EXPECT_TRUE(simulation->step(frame));
         static_cast<void>(report.add_frame(frame, *simulation));
@@ -141,15 +145,23 @@ public:
     void close(format::SectionId id) {
         for (const auto& pages : pages_) pages->close(id);
     }
+    [[nodiscard]] std::uint64_t contacts() const {
+        return contacts_;
+    }
     /// Returns the hash of the results of some frames.
-    [[nodiscard]] std::uint64_t hash_of_frames(bool of_whole = false) const {
+    [[nodiscard]] std::uint64_t hash_of_frames(bool of_whole = false,
+                                               std::uint64_t frames = 8) const {
         auto simulation =
             Simulation::make(scene_, of_whole ? whole_ : models_, 1, test::run_threads);
         EXPECT_TRUE(simulation);
         std::uint64_t hash = 0;
-        for (std::uint64_t frame = 0; frame < 8; ++frame) {
+        for (std::uint64_t frame = 0; frame < frames; ++frame) {
             EXPECT_TRUE(simulation->step(frame));
             hash = 31 * hash + simulation->scene().state_hash();
+            if (const scenes::Response* response = simulation->response()) {
+                hash = 31 * hash + response->bodies().state_hash();
+                contacts_ += response->bodies().counts().contacts;
+            }
             for (const Ask one : kSceneEffects) {
                 if (contains(simulation->plan().effects(), one)) continue;
                 EXPECT_EQ(simulation->scene().counts().calls_of(one), 0u);
@@ -162,7 +174,7 @@ private:
     void open(std::size_t i) {
         const std::span<const std::byte> bytes = whole_[i].model->bytes();
         const test::AlignedBytes file = test::on_pages(test::AlignedBytes(bytes));
-        const format::SectionSet wanted = sections_for(models_[i].needs.asks);
+        const format::SectionSet wanted = sections_for(models_[i].needs.wanted());
         pages_.push_back(std::make_unique<test::GuardedPages>(file.span(), wanted));
         auto model = Model::open(pages_.back()->bytes(), wanted);
         ASSERT_TRUE(model) << model.error().message;
@@ -170,6 +182,7 @@ private:
     }
 
     const SceneFile& scene_;
+    mutable std::uint64_t contacts_ = 0;  ///< of bodies, in all frames
     std::vector<SceneModel> whole_;
     std::vector<std::unique_ptr<test::GuardedPages>> pages_;
     std::vector<SceneModel> models_;
@@ -182,6 +195,16 @@ TEST(SimulationPages, ReadOnlyWhatTheSceneAsksFor) {
         EXPECT_GE(closed.closed(), 3) << scene.name;
         EXPECT_EQ(closed.hash_of_frames(), closed.hash_of_frames(true)) << scene.name;
     }
+}
+
+// Bodies fall on each other within these frames. They read contacts, solids and mass.
+TEST(SimulationPages, BodiesReadOnlyWhatPushesThem) {
+    if (!dynamics::has_dynamics()) GTEST_SKIP() << "built without Bullet";
+    const SceneFile pile = sample_scene("pile");
+    const ClosedScene closed(pile);
+    EXPECT_GE(closed.closed(), 3);
+    EXPECT_EQ(closed.hash_of_frames(false, 16), closed.hash_of_frames(true, 16));
+    EXPECT_GT(closed.contacts(), 0u);
 }
 
 // The test above would notice: a section that is needed and closed ends the program.

@@ -210,7 +210,7 @@ TEST_F(ResponseTest, ReportsTellPushes) {
         falling.file().pairs[0].asked.tolerance = 0;
         Simulation simulation = falling.make();
         report::SimulationReport report(falling.file(), simulation.plan(),
-                                        report::EventFormat::ndjson);
+                                        report::EventFormat::ndjson, 240);
         std::string text;
         for (std::uint64_t frame = 0; frame < 240; ++frame) {
             ASSERT_TRUE(simulation.step(frame));
