@@ -161,6 +161,9 @@ def dropped_effects(program, folder):
     must(dropped + "distance\n" in text and "contacts" in text.split(asked)[1].split("\n")[0], text)
     must("distance" not in text.split(asked)[1].split("\n")[0], text)
     must("not computed, for it is not built: inside\n" in text, text)
+    page = folder / "page.html"
+    simulate(program, scene, "--drop", "distance", "--html", page)
+    must(len(re.findall(r'"is_dropped": ?true', page.read_text())) == 1, "the page does not tell")
     frames = summary_of(simulate(program, scene))["frames"]
     must(f"\nframes {frames} of {frames} complete; " in text, text)
     wrong = simulate(program, scene, "--drop", "contacts", code=2)

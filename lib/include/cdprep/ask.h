@@ -20,7 +20,7 @@ enum class Ask : std::uint32_t {
     distance = 1U << 2,
     within = 1U << 3,
     contacts = 1U << 4,
-    response = 1U << 5,    ///< mass properties
+    response = 1U << 5,    ///< contacts and mass properties, of bodies that push each other
     continuous = 1U << 6,  ///< the time of impact of two models that move
     self = 1U << 7,        ///< overlaps of a model with itself
     deform = 1U << 8,      ///< to become a LiveModel

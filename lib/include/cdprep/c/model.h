@@ -20,7 +20,7 @@ enum {
     CDPREP_ASK_DISTANCE = 1 << 2,
     CDPREP_ASK_WITHIN = 1 << 3,
     CDPREP_ASK_CONTACTS = 1 << 4,
-    CDPREP_ASK_RESPONSE = 1 << 5,   /* mass properties */
+    CDPREP_ASK_RESPONSE = 1 << 5,   /* contacts, and mass properties */
     CDPREP_ASK_CONTINUOUS = 1 << 6, /* the time of impact of two models that move */
     CDPREP_ASK_SELF = 1 << 7,       /* overlaps of a model with itself */
     CDPREP_ASK_DEFORM = 1 << 8,     /* to become a live model */
@@ -195,6 +195,7 @@ typedef struct cdprep_mass {
 } cdprep_mass;
 
 /* Stores the mass properties of a closed model. If the mesh is not closed, its file has none.
+ * Of the feature, the mass properties are enough.
  * Needs: CDPREP_ASK_RESPONSE */
 CDPREP_API int cdprep_model_mass(const cdprep_model* model, cdprep_mass* mass, cdprep_error* error);
 
