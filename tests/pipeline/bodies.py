@@ -169,7 +169,7 @@ def refusals(program, folder):
     told = json.loads(done.stdout)
     check_schema(OUTPUT_SCHEMA, told, scene)
     parts = ["crate.cdp.h5: its layer 'a' needs response, but the file has no mass_properties. "
-             "Bake it again with --effects response.",
+             "Bake it again with --effects contacts,response.",
              "The contact tolerance is 1e-06",
              "object 'open': response needs mass, and the mesh is open"]
     must(len(told["refusals"]) == len(parts), f"{told['refusals']}")
@@ -211,7 +211,7 @@ def what_to_bake(program, folder):
     told = done.stderr.splitlines()
     must(done.returncode == 2 and len(told) == 2, done.stderr)
     for name, needs, words in (("ground", "collide and contacts", "layer 'floors'"),
-                               ("crate", "contacts and response", "layer 'crates'")):
+                               ("crate", "contacts", "layer 'crates'")):
         found = [line for line in told if f"{name}.cdp.h5: its {words} needs {needs}, but" in line]
         must(len(found) == 1, f"{name}: {told}")
         line = found[0]

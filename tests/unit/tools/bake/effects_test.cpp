@@ -80,7 +80,8 @@ std::string options_after(Ask needed, const std::string& list) {
 
 // By the table: a bake for contacts has all of one for rays, and no components.
 TEST(OptionsToBake, KeepWhatAFileServes) {
-    EXPECT_EQ(options_after(Ask::within, "inside"), "--effects within,inside");
+    EXPECT_EQ(options_after(Ask::within, "inside"), "--effects collide,within")
+        << "the file serves solids";
     EXPECT_EQ(options_after(Ask::solid, "ray"), "--effects collide,ray");
     EXPECT_EQ(options_after(Ask::ray, "collide,overlap,distance"),
               "--effects collide,distance,ray");
