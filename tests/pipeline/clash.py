@@ -535,8 +535,8 @@ def mistakes(program, folder):
         ("overlap", [cycle], 3, ["cycle.gltf: node 0 is below itself"]),
         ("overlap", [bad], 3, ["bad.json: line 1: /objects/0/model: there is no file",
                                "/objects/0/layer: 'b' is not a layer"]),
-        ("distance", [unserved], 2, ["crate.cdp.h5: its layer 'a' asks for distance",
-                                     "--effects distance."]),
+        ("distance", [unserved], 2, ["crate.cdp.h5: its layer 'a' needs distance",
+                                     "--effects collide,distance."]),
         ("within", [good], 2, ["good.glb: the scene states no tolerance. Give --tolerance."]),
         ("within", [no_tolerance], 2, ["tolerance.json: no pair of layers states a tolerance. Give "
                                        "--tolerance."]),
