@@ -63,13 +63,13 @@ std::string place_of(const SceneFile& scene, const std::string& refusal) {
 /// Returns why effects are not computed.
 std::vector<std::string> effect_refusals(const SceneFile& scene) {
     std::string built;
-    for (const std::string& word : kEffectWords) {
+    for (const std::string& word : effect_words()) {
         if (contains(unbuilt_effects(), effect_of(word))) continue;
         built += (built.empty() ? "" : ", ") + word;
     }
     std::vector<std::string> refusals;
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-        for (const std::string& word : kEffectWords) {
+        for (const std::string& word : effect_words()) {
             const Ask effect = effect_of(word);
             if (!contains(scene.pairs[i].asked.effects & unbuilt_effects(), effect)) continue;
             refusals.push_back(words_for(scene, i) + ": " + word +

@@ -581,7 +581,7 @@ private:
     std::optional<Error> set_most_speed() {
         if (scene().bodies.empty()) return std::nullopt;
         const Double3& gravity = *scene().dynamics.gravity;
-        const double g = length(gravity);
+        const double g = mesh::safe_length(gravity);
         std::vector<std::vector<Double3>> corners;
         for (const AssemblyModel& model : assembly_.models) {
             auto found = corners_of(model);
@@ -599,7 +599,7 @@ private:
             }
             if (object.body == kNoBody) continue;
             const BodyMotion& body = scene().bodies[object.body];
-            fastest = std::max(fastest, length(body.velocity));
+            fastest = std::max(fastest, mesh::safe_length(body.velocity));
         }
         const double fall = std::sqrt(fastest * fastest + 2 * g * std::max(highest - lowest, 0.0));
         const double speed = std::max(2 * fall, kLeastSpeed / metres_per_unit_);

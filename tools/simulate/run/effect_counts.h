@@ -72,7 +72,7 @@ inline constexpr auto kSimulatedEffects = [] {
         const bool is_dropped = contains(scene.dropped, scenes::effect_of(name));
         add(is_dropped ? dropped : unasked, name);
     }
-    for (const std::string& word : scenes::kEffectWords) {
+    for (const std::string& word : scenes::effect_words()) {
         if (contains(scenes::unbuilt_effects(), scenes::effect_of(word))) add(unbuilt, word);
     }
     std::string text;
