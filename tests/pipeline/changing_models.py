@@ -203,7 +203,7 @@ def the_refusals(program, folder):
     scene = json.loads(sheet_scene(folder / "refused.json", a_tear()).read_text())
     for effects, sentences in (
             (["collide"], ["Object 'sheet' in layer 'a' tears. Add tear to the effects of pair 0 "
-                           "of layers, 'a' and 'a'."]),
+                           "of layers, 'a' and 'a' (line 1)."]),
             (["collide", "deform"], ["Object 'sheet' in layer 'a' tears. Add tear to "]),
             (["contacts", "tear"], ["contacts of models that deform or tear are not built"]),
             (["continuous", "tear"], ["continuous is not built for models that deform or tear"])):
