@@ -32,7 +32,7 @@ struct EnclosingParts {
 /// Returns the parts that stand for the solid of a model. There are none if the model is open or
 /// has no parts. The sections of hulls and `components` must be open. A LiveModel has none. A model
 /// of several components has none either. Where components overlap, parts and winding numbers may
-/// not agree what is inside. Needs no Ask. Takes O(parts) time.
+/// not agree what is inside. Any model may be given. Takes O(parts) time.
 [[nodiscard]] CDPREP_API EnclosingParts enclosing_parts(const Model& model) noexcept;
 
 /// Returns the corners of a hull, as input for queries. They refer to the file's memory and are

@@ -221,7 +221,7 @@ TEST(FalseFact, IsAForgedComponent) {
 
 // Without source_triangle the order of components is not known, but each must be there.
 TEST(FalseFact, IsFoundWithoutSourceNumbers) {
-    const AlignedBytes file = baked(two_solids(), "collide,inside,response");
+    const AlignedBytes file = baked(two_solids(), "collide,inside");
     ASSERT_FALSE(format::find_section(file.span(), SectionId::source_triangle));
     const auto component = [&](auto change) {
         return after<Component>(file, SectionId::components, 0, change);

@@ -327,7 +327,8 @@ TEST(SceneOfCubes, TouchingPartsCollide) {
     EXPECT_FALSE(Found(scene, a, b).holds(Ask::distance));
 }
 
-// By hand: two unit cubes that share a face touch, but do not cross. The exact query tells.
+// By hand: two unit cubes that share a part of an edge touch, but do not cross. The exact query
+// tells.
 TEST(SceneOfCubes, TouchingPartsDoNotCross) {
     const OpenModel cube = open_with_parts(unit_cube(), 1);
     LayerPair pair = solids(1e-9);
@@ -339,12 +340,13 @@ TEST(SceneOfCubes, TouchingPartsDoNotCross) {
     const ObjectId a = *scene.add({&cube.model, 0, Pose()});
     const ObjectId b = *scene.add({&cube.model, 0, Pose()});
     struct Case {
-        double x;
+        double x, y;
         bool crosses;
         std::size_t exact_queries;
     };
-    for (const Case& c : {Case{1, false, 1}, Case{0.5, true, 1}, Case{1.5, false, 0}}) {
-        scene.set_pose(b, Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, c.x, 0.25, 0.25}).value());
+    for (const Case& c :
+         {Case{1, 1, false, 1}, Case{0.5, 0.25, true, 1}, Case{1.5, 0.25, false, 0}}) {
+        scene.set_pose(b, Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, c.x, c.y, 0.25}).value());
         ASSERT_TRUE(scene.step(workspaces).complete);
         EXPECT_EQ(Found(scene, a, b).holds(Ask::collide), c.crosses) << c.x;
         EXPECT_EQ(scene.counts().calls_of(Ask::collide), c.exact_queries) << c.x;
