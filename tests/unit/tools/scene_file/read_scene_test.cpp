@@ -174,7 +174,7 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
     const Folder folder;
     const std::string words =
         "collide, overlap, distance, within, contacts, response, continuous, self, deform, tear, "
-        "inside or haptic.";
+        "haptic or inside.";
     const std::vector<Mistake> mistakes = {
         {"[]", {"line 1: found []; expected an object."}},
         {"3", {"line 1: found 3; expected an object."}},
