@@ -2,7 +2,6 @@
 #include "bake/effects.h"
 
 #include <algorithm>
-#include <ranges>
 #include <sstream>
 #include <string_view>
 
@@ -112,7 +111,8 @@ std::string options_to_bake(Ask needed, Ask served, SectionSet sections) {
         if (contains(needed | served, row.ask)) asks = asks | row_of_option(row).ask;
     }
     // From the last row on, so that distance is named rather than haptic.
-    for (const Needs& row : std::views::reverse(needs())) {
+    for (std::size_t i = needs().size(); i-- > 0;) {
+        const Needs& row = needs()[i];
         if (contains(named, row.ask)) continue;
         SectionSet others;
         for (const Needs& other : needs()) {

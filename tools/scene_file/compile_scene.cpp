@@ -72,8 +72,9 @@ std::vector<std::string> effect_refusals(const SceneFile& scene) {
         for (const std::string& word : effect_words()) {
             const Ask effect = effect_of(word);
             if (!contains(scene.pairs[i].asked.effects & unbuilt_effects(), effect)) continue;
-            refusals.push_back(words_for(scene, i) + ": " + word +
-                               " is not built in a scene. Choose from " + built + ".");
+            std::string refusal = words_for(scene, i) + ": " + word;
+            refusal += " is not built in a scene. Choose from ";
+            refusals.push_back(std::move(refusal) + built + ".");
         }
     }
     return refusals;

@@ -270,7 +270,7 @@ std::vector<ModelUse> uses_of_parts(const SceneFile& scene) {
     std::vector<ModelUse> uses(scene.models.size(), {"", known_asks(), 0});
     for (const FileObject& object : scene.objects) uses[object.model].layers |= 1U << object.layer;
     SectionSet sections = sections_for(Ask::hulls);
-    sections.insert({SectionId::components});
+    sections.insert(SectionId::components);
     for (std::size_t i = 0; i < uses.size(); ++i) {
         if (uses[i].layers == 0 || !is_baked_file(scene.models[i])) continue;
         const Result<Model> model = Model::open(scene.models[i], sections);

@@ -161,6 +161,7 @@ TEST(NeedsLines, OfCppAreWhatTheQuestionsNeed) {
         }
     }
     functions.erase("ask_of");
+    functions.erase("enclosing_parts");  // of any model
     for (const auto& [name, documented] : functions) EXPECT_TRUE(asked.contains(name)) << name;
 }
 
