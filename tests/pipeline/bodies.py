@@ -13,7 +13,7 @@ import struct
 import sys
 import tempfile
 
-from shared_models import bake, must, run
+from shared_models import IS_SLOW, bake, must, run
 from simulate import (OUTPUT_SCHEMA, SCENES, check_schema, plan_of, simulate, untimed,
                       write_scene)
 
@@ -37,25 +37,32 @@ def frames_of(recording):
 def the_pile(program, folder):
     """The jacks stay in the tray and come to rest; 1 and 2 threads and a replay give the same."""
     first, second, third = (folder / f"{name}.ndjson" for name in ("first", "second", "third"))
-    events, one = simulate(program, SCENES / "pile.json", "-j", 1, "--record", first)
-    again, two = simulate(program, SCENES / "pile.json", "-j", 2, "--record", second)
+    count = 60 if IS_SLOW else 300  # the first of them are enough to compare threads
+    pile = (SCENES / "pile.json", "--frames", count)
+    events, one = simulate(program, *pile, "-j", 1, "--record", first)
+    again, two = simulate(program, *pile, "-j", 2, "--record", second)
     must(first.read_bytes() == second.read_bytes() and events == again, "threads change the pile")
     must(bodies_of(one) == bodies_of(two), f"{one['response']} {two['response']}")
     replayed, three = simulate(program, first, "--record", third)
     told = [event for event in events if event["effect"] != "response"]
     must(first.read_bytes() == third.read_bytes() and told == replayed, "the replay differs")
-    asleep = {}
-    for event in (event for event in events if "body" in event):
-        asleep[event["body"]] = event["event"]
-    must(list(asleep.values()) == ["sleeps"] * 20, f"not all were told to sleep: {asleep}")
     must("response" not in three and three["response_is_replayed"], "a replay computes bodies")
     response = one["response"]
     must(response["bodies"] == 20 and response["driven"] == 0, f"{response}")
     must(response["asked_by"] == ["bodies-trays", "bodies-bodies"], f"{response}")
     must(response["incomplete"] == 0 and response["too_fast"] == 0, f"{response}")
-    must(response["awake"] == 0 and response["deepest"] <= 0.008, f"{response}")
     frames = frames_of(first)
-    must(len(frames) == one["frames"] == 300, f"{one['frames']}")
+    must(len(frames) == one["frames"] == count, f"{one['frames']}")
+    if not IS_SLOW:
+        the_pile_rests(events, response, frames)
+
+
+def the_pile_rests(events, response, frames):
+    asleep = {}
+    for event in (event for event in events if "body" in event):
+        asleep[event["body"]] = event["event"]
+    must(list(asleep.values()) == ["sleeps"] * 20, f"not all were told to sleep: {asleep}")
+    must(response["awake"] == 0 and response["deepest"] <= 0.008, f"{response}")
     for number in range(1, 21):
         x, y, z = frames[-1][number][-3:]
         must(max(abs(x), abs(y)) < INSIDE / 2 and 0 < z < 1, f"object {number} is at {x, y, z}")
@@ -125,7 +132,7 @@ def warnings(program, folder):
     many = folder / "many.json"
     many.write_text(json.dumps(pile))
     for scene, words in ((fast, "faster than contacts can follow"), (many, "cut short")):
-        for form in ("text", "json", "ndjson"):
+        for form in ("text",) if IS_SLOW else ("text", "json", "ndjson"):
             done = run(program, "simulate", scene, "--format", form, "-o", folder / "report",
                        "--frames", 45)
             must(done.returncode == 0 and words in done.stderr and "Raise dynamics.most_" in
