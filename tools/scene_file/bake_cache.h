@@ -20,7 +20,7 @@ public:
 
     /// Returns the baked file of a mesh. Bakes it unless the folder has one of the same mesh,
     /// options and version. The files that the mesh refers to must be the same too. Each file is
-    /// hashed once, since a glTF file has many models. The folder is made if there is none.
+    /// hashed once, since a glTF file has many models. Creates the folder if it does not exist.
     [[nodiscard]] Result<std::filesystem::path> find_or_bake(
         const std::filesystem::path& mesh, const cli::BakeOptions& options,
         const cli::Threads& threads, const std::function<void(const char*)>& begins);

@@ -482,13 +482,13 @@ void add_notes(const Command& command) {
         "layers the effects to compute. Objects of layers that are not paired are never looked "
         "at. Events do not depend on the number of threads. Motions may deform and tear models: "
         "a shear, a twist, a vertex stream (PC2), or a cut along a plane. With response, bodies "
-        "fall, push each other and come to rest, and events tell what pushes. A frame then takes 4 "
-        "substeps, with 50 iterations of the solver each; `dynamics` of the scene changes that. "
-        "A glTF file is a "
-        "scene too, by its extension KHR_physics_rigid_bodies. Collision filters become layers, "
-        "and motions become bodies. Triggers tell which colliders begin and end to collide with "
-        "them. The mesh of a node is its geometry. Standard error lists what is not taken, and "
-        "what is assumed because the file does not state it.",
+        "fall, push each other and come to rest. Events name the contacts that push. A frame then "
+        "takes 4 substeps, and the solver takes 50 iterations in each; `dynamics` of the scene "
+        "changes these numbers. A glTF file is a scene too, by its extension "
+        "KHR_physics_rigid_bodies. Collision filters become layers, and motions become bodies. "
+        "Triggers report which colliders begin and end to collide with them. The geometry of a "
+        "collider is the mesh of its node. Standard error lists the parts of the file that "
+        "are ignored, and the values that are assumed because the file does not state them.",
         {"cdprep simulate samples/scenes/crates.json --plan",
          "cdprep simulate samples/scenes/crates.json --frames 100",
          "cdprep simulate samples/scenes/cut.json --format text",
@@ -535,8 +535,8 @@ void add_simulate(const Command& app, Exit& exit) {
         .group("Simulation");
     command
         .add_option("--cache", arguments->cache,
-                    "Folder for baked files of the meshes that the scene names. It is made if "
-                    "there is none. Default: bake into memory")
+                    "Folder for baked files of the meshes that the scene names, created if it "
+                    "does not exist. Default: bake into memory")
         .type_name("FOLDER")
         .group("Simulation");
     add_study_options(command, *arguments, plan);
