@@ -2,8 +2,6 @@
 #include "build/order_triangles.h"
 
 #include <cassert>
-#include <cmath>
-#include <limits>
 #include <memory>
 
 #include "build/frame_map.h"

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>

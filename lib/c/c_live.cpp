@@ -3,13 +3,10 @@
 
 #include <array>
 #include <atomic>
-#include <cassert>
 #include <cmath>
 #include <memory>
 #include <new>
-#include <optional>
 #include <span>
-#include <string>
 #include <utility>
 
 #include "c/c_model.h"

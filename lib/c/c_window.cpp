@@ -6,7 +6,6 @@
 #include <atomic>
 #include <memory>
 #include <new>
-#include <optional>
 #include <utility>
 
 #include "c/c_model.h"

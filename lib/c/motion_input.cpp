@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "c/motion_input.h"
 
-#include <array>
-
 namespace cdprep::c {
 namespace {
 

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <span>
 
 #include "cdprep/cells/overlap_through.h"
 #include "cells/cell_storage.h"

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <cstdint>
 
 #include "cdprep/format/octree.h"

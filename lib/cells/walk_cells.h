@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cassert>
-#include <cmath>
 
 #include "cdprep/cells/overlap_through.h"
 #include "cells/cell_storage.h"

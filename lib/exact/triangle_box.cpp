@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "exact/triangle_box.h"
 
-#include <algorithm>
-
 #include "exact/predicates.h"
 #include "exact/triangle_box_filter.h"
 

@@ -2,7 +2,6 @@
 #include "cdprep/advanced/convex_distance.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "cdprep/format/float_environment.h"
 #include "hull/exact_nearest.h"

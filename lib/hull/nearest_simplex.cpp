@@ -2,7 +2,6 @@
 #include "hull/nearest_simplex.h"
 
 #include <cassert>
-#include <cmath>
 #include <limits>
 
 #include "exact/double_double.h"

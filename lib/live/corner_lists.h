@@ -2,10 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "cdprep/format/geometry.h"
 #include "core/carver.h"

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cassert>
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <type_traits>

@@ -2,8 +2,6 @@
 #include "cdprep/window.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <numeric>
 #include <optional>
 #include <string>

@@ -2,8 +2,6 @@
 #include "cdprep/time_of_impact.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 
 #include "cdprep/format/float_environment.h"

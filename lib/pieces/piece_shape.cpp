@@ -2,7 +2,6 @@
 #include "pieces/piece_shape.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/numbers.h"
 #include "hull/hull_edges.h"

@@ -2,7 +2,6 @@
 #include "pieces/ways_out.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/numbers.h"
 #include "exact/box3.h"

@@ -2,7 +2,6 @@
 #include "query/nearest_to_shape.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/triangle_facts.h"
 #include "exact/triangle_distance.h"

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include "cdprep/model.h"
 #include "core/prefetch.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "support/c_models.h"
 #include "support/every_structure.h"

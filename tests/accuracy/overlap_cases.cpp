@@ -3,7 +3,6 @@
 // bounds, of every structure, on several threads, of hulls, and through the C face. The truth
 // is known by hand or by the definition in exact numbers.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "accuracy/asked_models.h"

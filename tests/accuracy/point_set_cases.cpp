@@ -2,7 +2,6 @@
 // C: hulls of points, judged by exact numbers: every point inside or on each facet, edges
 // convex, corners real ones, and where they are known, as many as by hand.
 #include <algorithm>
-#include <thread>
 
 #include "accuracy/epeck.h"
 #include "accuracy/exact_change.h"

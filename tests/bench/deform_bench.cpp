@@ -11,14 +11,11 @@
 // triangle pairs of the last frame. "refit 1 %" moves the hundredth of the vertices that lies
 // lowest along x, "tear 1 %" removes a hundredth of the triangles and appends them again.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <memory>
 #include <numeric>
-#include <string>
 #include <vector>
 
 #include "bench_input.h"

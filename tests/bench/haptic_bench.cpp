@@ -17,9 +17,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <numeric>
-#include <string>
 #include <vector>
 
 #include "bench_input.h"

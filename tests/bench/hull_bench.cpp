@@ -11,7 +11,6 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>

@@ -9,15 +9,10 @@
 // Prints a CSV table; `times` is CGAL's median by ours, the spreads are those of the middle
 // half of the rounds. Ends with 1 when the pairs are not the same. Of a mesh that CGAL
 // cannot hold, more than two triangles at an edge or two against each other, ours alone.
-#include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "bench_input.h"

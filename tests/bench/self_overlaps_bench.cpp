@@ -12,14 +12,12 @@
 // common vertices. Neighbours are dropped from FCL's pairs untimed, and from Bullet's before it
 // tests the triangles. Ends with 1 if CGAL's pairs differ: it alone is exact.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 

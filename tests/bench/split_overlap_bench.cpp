@@ -12,14 +12,12 @@
 // middle half, and the least, each with the serial one by it: where others load the machine, the
 // least tells more.
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <thread>

@@ -19,7 +19,6 @@
 // against BVH leaves.
 #include <chrono>
 #include <cstring>
-#include <memory>
 #include <optional>
 
 #include "bench_input.h"

@@ -4,11 +4,9 @@
 // no option rounds.
 //
 // Usage: answers BALL RING
-#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <utility>
 #include <vector>
 
 #include "cdprep/advanced/build_bvh.h"

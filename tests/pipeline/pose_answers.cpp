@@ -10,8 +10,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "support/float_modes.h"

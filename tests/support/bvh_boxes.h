@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <vector>
 
 #include "support/aligned_bytes.h"
 #include "support/exact_rational.h"

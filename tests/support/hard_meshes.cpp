@@ -2,7 +2,6 @@
 #include "support/hard_meshes.h"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "support/defect_zoo.h"

@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <functional>
-#include <limits>
 
 #include "page/page_parts.h"
 #include "page/svg_parts.h"

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cell_searches/spatial_builds.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
-#include <utility>
 
 #include "cdprep/advanced/build_bvh.h"
 #include "cdprep/cells/build_adaptive_octree.h"

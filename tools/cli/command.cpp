@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/command.h"
 
-#include <cmath>
 #include <iostream>
 
 #include "cli/signals.h"

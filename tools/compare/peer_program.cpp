@@ -14,7 +14,6 @@
 #include <deque>
 #include <system_error>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "cli/signals.h"

@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <limits>
 #include <mutex>
 #include <numeric>
-#include <span>
 #include <vector>
 
 #include "cdprep/advanced/parallel_for.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "import/named_runs.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <unordered_map>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "query/query_structure.h"
 
-#include <algorithm>
 #include <optional>
 
 #include "cdprep/cells/overlap_through.h"

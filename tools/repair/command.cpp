@@ -3,7 +3,6 @@
 #include "repair/repair.h"
 
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <limits>

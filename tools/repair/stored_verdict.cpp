@@ -2,7 +2,6 @@
 #include "repair/stored_verdict.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace cdprep::mesh {

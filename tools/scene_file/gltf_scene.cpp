@@ -8,7 +8,6 @@
 #include <cstring>
 #include <map>
 #include <set>
-#include <span>
 #include <string_view>
 #include <utility>
 

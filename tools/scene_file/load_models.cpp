@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <system_error>
 #include <utility>
 
 #include "cdprep/format/file_header.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene_file/read_body.h"
 
-#include <string_view>
-
 #include "cdprep/contacts.h"
 
 namespace cdprep::scenes {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 
 #include "scene_file/compile_scene.h"
 #include "simulate/run/effect_counts.h"

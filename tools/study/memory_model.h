@@ -4,10 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <new>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "cdprep/advanced/build_bvh.h"
 #include "cdprep/advanced/parallel_for.h"

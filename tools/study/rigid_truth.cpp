@@ -2,7 +2,6 @@
 #include "study/rigid_truth.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "cdprep/pairs.h"

@@ -2,7 +2,6 @@
 #include "validate/rule_settings.h"
 
 #include <algorithm>
-#include <optional>
 #include <string_view>
 
 #include "text/nearest_word.h"

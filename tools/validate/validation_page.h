@@ -3,7 +3,6 @@
 
 #include <deque>
 #include <filesystem>
-#include <vector>
 
 #include "cli/report_output.h"
 #include "validate/validation.h"

@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "cdprep/format/geometry.h"
 #include "cdprep/result.h"

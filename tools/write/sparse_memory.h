@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 #include <span>
-#include <vector>
 
 namespace cdprep::write {
 

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "cdprep/format/checksum.h"
 #include "cdprep/format/content_hash.h"

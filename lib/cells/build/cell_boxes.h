@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "cdprep/cells/build_adaptive_octree.h"
 #include "cdprep/cells/build_octree.h"

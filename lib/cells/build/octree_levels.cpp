@@ -3,7 +3,6 @@
 
 #include <bit>
 #include <cassert>
-#include <cstring>
 #include <memory>
 
 #include "build/chunks.h"

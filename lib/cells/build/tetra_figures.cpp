@@ -2,7 +2,6 @@
 #include "cdprep/cells/tetra_figures.h"
 
 #include <algorithm>
-#include <bit>
 #include <vector>
 
 #include "cdprep/format/float_environment.h"

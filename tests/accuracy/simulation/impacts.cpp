@@ -7,7 +7,6 @@
 #include <limits>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "accuracy/simulation/table.h"
 #include "accuracy/simulation/worlds.h"

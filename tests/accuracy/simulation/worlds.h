@@ -3,8 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "cdprep/pose.h"
 #include "simulate/dynamics/rigid_bodies.h"

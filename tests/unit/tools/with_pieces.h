@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
 #include "decompose/surface/contact_arrays.h"
 #include "decompose/surface/piece_tree.h"
 #include "decompose/surface/surface_pieces.h"

@@ -7,9 +7,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "decompose/enclose/flush_bound.h"

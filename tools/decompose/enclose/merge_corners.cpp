@@ -2,7 +2,6 @@
 #include "decompose/enclose/merge_corners.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "decompose/enclose/piece_points.h"

@@ -2,7 +2,6 @@
 #include "decompose/surface/piece_tree.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>

@@ -3,7 +3,6 @@
 #include "cdprep/advanced/parallel_for.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "cdprep/advanced/build_bvh.h"

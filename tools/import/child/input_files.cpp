@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "input_files.h"
 
-#include <algorithm>
 #include <string_view>
 #include <system_error>
 

@@ -7,11 +7,9 @@
 #include <fstream>
 #include <map>
 #include <pugixml.hpp>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "import/mesh_endings.h"
 #include "import/parse_number.h"

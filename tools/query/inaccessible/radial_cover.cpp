@@ -5,8 +5,6 @@
 #include <gmpxx.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "cdprep/exact/predicates.h"

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 
 #include "cdprep/result.h"
 #include "simulate/dynamics/rigid_bodies.h"

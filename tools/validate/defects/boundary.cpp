@@ -2,7 +2,6 @@
 #include "validate/defects/boundary.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "mesh/close_groups.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validate/defects/verdicts.h"
 
-#include <algorithm>
-
 namespace cdprep::mesh {
 namespace {
 

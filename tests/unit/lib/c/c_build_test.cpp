@@ -2,7 +2,6 @@
 // Models that are built from arrays through the C API, beside bakes of the same arrays.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>

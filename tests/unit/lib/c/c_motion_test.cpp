@@ -2,7 +2,6 @@
 // Times of impact through the C API: their answers, and what a caller can get wrong.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>

@@ -2,7 +2,6 @@
 // Self, continuous and haptic in scenes of the C API, beside those of C++.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <random>

@@ -8,7 +8,6 @@
 #include <memory>
 #include <random>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include "c_api.h"

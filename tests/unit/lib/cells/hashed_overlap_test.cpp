@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-
 #include "cells/octree_cells.h"
 #include "support/brute_force.h"
 #include "support/every_structure.h"

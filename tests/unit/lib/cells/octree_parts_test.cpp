@@ -3,10 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
 #include <set>
-#include <vector>
 
 #include "cdprep/cells/overlap_through.h"
 #include "cells/octree_codes.h"

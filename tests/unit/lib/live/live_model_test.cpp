@@ -8,7 +8,6 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <random>
 
 #include "cdprep/advanced/refit_bvh.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <random>
-#include <vector>
 
 #include "cdprep/points.h"
 #include "support/brute_force.h"

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "cdprep/advanced/query_counts.h"
 #include "support/brute_force.h"

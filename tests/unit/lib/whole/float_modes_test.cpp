@@ -6,9 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <memory>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "cdprep/advanced/closest_features.h"

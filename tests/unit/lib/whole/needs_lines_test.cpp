@@ -10,7 +10,6 @@
 #include <set>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "support/c_questions.h"
 #include "support/cpp_questions.h"

@@ -3,7 +3,6 @@
 // that has everything, or the refusal. There is no third outcome.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 #include <string>
 #include <utility>

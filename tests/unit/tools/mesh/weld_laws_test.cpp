@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <random>
 
 #include "mesh/weld.h"
 #include "unit/tools/soup_of.h"

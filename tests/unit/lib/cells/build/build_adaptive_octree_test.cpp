@@ -4,11 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <thread>
 
 #include "cdprep/cells/build_octree.h"
 #include "support/aligned_bytes.h"

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <random>
 
 #include "cells/octree_codes.h"
 #include "support/aligned_bytes.h"

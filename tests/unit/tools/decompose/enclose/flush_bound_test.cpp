@@ -6,7 +6,6 @@
 #include <cmath>
 #include <random>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace cdprep::convex {

@@ -8,7 +8,6 @@
 #include <memory>
 #include <numbers>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "study/memory_model.h"

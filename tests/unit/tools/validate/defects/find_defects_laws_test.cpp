@@ -5,12 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <random>
 #include <set>
-#include <tuple>
 
 #include "mesh/close_groups.h"
 #include "support/exact_rational.h"
