@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cells/cone_reach.h"
 
+#include <algorithm>
+
 // A point of the triangle is the sum of its corners with weights w >= 0. It is in the cone when
 // sum(w_i f_k(i)) >= 0 for the three faces k. Weights need not add up to 1: those of a cone are as
 // good times any factor. v, the sum of coordinates, is divided by the sum of the weights.

@@ -2,6 +2,7 @@
 #include "study/memory_model.h"
 
 #include <chrono>
+#include <new>
 #include <utility>
 
 #include "bake/section_list.h"
