@@ -11,7 +11,7 @@ set(lib_rooms
     "exact:"
     "kernels:"
     "core: exact"
-    "build: core exact"
+    "build: core exact kernels"
     "live: build core exact walk"
     "walk: core exact kernels"
     "hull: core exact kernels"

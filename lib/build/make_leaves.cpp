@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <type_traits>
 
 #include "build/chunks.h"
 #include "build/frame_map.h"
@@ -52,7 +53,8 @@ Bound bound_of(const CornerRow& row) {
 /// Writes leaves, whose corners are in model coordinates or in frame coordinates.
 class LeafMaker {
 public:
-    LeafMaker(const Frame& frame, bool exact) : map_(frame), exact_(exact) {}
+    LeafMaker(const Frame& frame, bool exact)
+        : map_(frame), kernel_map_(leaf_map(frame)), exact_(exact) {}
 
     /// Writes one leaf and its box.
     void make(LeafCorners& corners, std::uint32_t count, BvhLeaf& leaf, BvhNode& node,
@@ -80,6 +82,25 @@ public:
         }
     }
 
+    /// Writes a leaf of eight triangles of floats, and its box, to the same bits. Returns, as a bit
+    /// set, those with a proven area. Requires leaves in model coordinates.
+    unsigned make(std::span<const Float3> positions, const Triangle* triangles, BvhLeaf& leaf,
+                  BvhNode& node, std::size_t box) const {
+        static_assert(sizeof(BvhLeaf) == (kernels::kLeafHalf + 3) * sizeof(float) + 8);
+        assert(exact_);
+        std::array<float, kernels::kPaddedBox> around;
+        const unsigned with_area =
+            fill_leaf_(kernel_map_, &positions[0].x, triangles->vertex.data(),
+                       &leaf.corner[0][0][0], around.data());
+        leaf.count = kBvhWidth;
+        leaf.reserved = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            node.lower[axis][box] = around[axis];
+            node.upper[axis][box] = around[kernels::kPaddedUpper + axis];
+        }
+        return with_area;
+    }
+
 private:
     void fill_axis(BvhLeaf& leaf, const CornerRow& row, std::size_t axis) const {
         const double taken_off = exact_ ? 0.0 : double{leaf.origin[axis]};
@@ -92,7 +113,9 @@ private:
     }
 
     FrameMap map_;
+    kernels::LeafMap kernel_map_;
     bool exact_;
+    decltype(kernels::Table::fill_leaf) fill_leaf_ = kernels::active().fill_leaf;
 };
 
 /// Triangles anywhere in memory, with an order of their own.
@@ -110,6 +133,10 @@ public:
     }
     [[nodiscard]] const Double3& position(std::uint32_t vertex) const {
         return positions_[vertex];
+    }
+
+    [[nodiscard]] std::span<const Float3> floats() const {
+        return {};
     }
 
     /// Prefetches the data of leaves ahead: the tree order is not the order in memory.
@@ -154,6 +181,12 @@ public:
     }
     void ask_ahead_of(std::size_t /*leaf*/) const {}
 
+    /// Returns the positions if they are floats, which a kernel takes.
+    [[nodiscard]] std::span<const Float3> floats() const {
+        if constexpr (std::is_same_v<Position, Float3>) return positions_;
+        return {};
+    }
+
 private:
     std::span<const Position> positions_;
     std::span<const Triangle> triangles_;
@@ -189,63 +222,109 @@ unsigned lanes_with_area(const LeafCorners& corners, std::size_t axis) {
     return lanes;
 }
 
-/// Sets the bits of a leaf's places, of which `lanes` have a triangle.
-void mark_degenerate_places(const LeafCorners& corners, std::size_t leaf, unsigned lanes,
-                            unsigned places, std::span<std::uint64_t> words) {
-    unsigned marks = places & ~lanes;
-    unsigned open = lanes;
-    for (std::size_t axis = 0; axis < 3 && open != 0; ++axis) {
-        open &= ~lanes_with_area(corners, axis);
-    }
+/// Returns the lanes whose corners are collinear, of those that are not proven to have an area.
+/// corner(lane, k) is corner k of a lane.
+template <class Corner>
+unsigned degenerate_lanes(unsigned open, const Corner& corner) {
+    unsigned found = 0;
     for (; open != 0; open &= open - 1) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(open));
-        const auto at = [&](std::size_t corner) {
-            const std::size_t i = corner * kBvhWidth + lane;
-            return Double3{corners[0][i], corners[1][i], corners[2][i]};
-        };
-        if (is_degenerate({at(0), at(1), at(2)})) marks |= 1U << lane;
+        const bool is_flat = is_degenerate({corner(lane, 0), corner(lane, 1), corner(lane, 2)});
+        found |= static_cast<unsigned>(is_flat) << lane;
     }
+    return found;
+}
+
+/// Sets the bits of a leaf's places.
+void mark_places(unsigned marks, std::size_t leaf, std::span<std::uint64_t> words) {
     const std::size_t shift = leaf % kBvhWidth * kBvhWidth;
     std::uint64_t& word = words[leaf / kBvhWidth];
     word = (word & ~(std::uint64_t{0xff} << shift)) | std::uint64_t{marks} << shift;
 }
 
+/// Makes leaves one at a time.
+template <class Source>
+class LeafRange {
+public:
+    LeafRange(const LeafRoom& room, const Source& source)
+        : room_(room),
+          source_(source),
+          maker_(room.frame, room.exact),
+          lowest_(
+              &room.nodes[format::bvh_shape(static_cast<std::uint32_t>(source.size())).first[0]]) {}
+
+    void make(std::size_t leaf) {
+        source_.ask_ahead_of(leaf);
+        const std::size_t places =
+            std::min<std::size_t>(kBvhWidth, source_.size() - leaf * kBvhWidth);
+        const unsigned all = (1U << places) - 1;
+        const unsigned lanes = room_.lanes == nullptr ? all : room_.lanes[leaf];
+        unsigned degenerate = all & ~lanes;
+        if (lanes == 0) {
+            set_unused_box(node(leaf), leaf % kBvhWidth);
+        } else if (lanes == kFull && room_.exact && !source_.floats().empty()) {
+            degenerate = make_full(leaf);
+        } else {
+            degenerate |= make_some(leaf, lanes);
+        }
+        if (!room_.degenerate_bits.empty()) mark_places(degenerate, leaf, room_.degenerate_bits);
+    }
+
+private:
+    static constexpr unsigned kFull = (1U << kBvhWidth) - 1;
+
+    [[nodiscard]] BvhNode& node(std::size_t leaf) const {
+        return lowest_[leaf / kBvhWidth];
+    }
+
+    /// Makes a leaf of eight triangles of floats. Returns those that are degenerate.
+    unsigned make_full(std::size_t leaf) const {
+        BvhLeaf& to = room_.leaves[leaf];
+        const unsigned with_area =
+            maker_.make(source_.floats(), &source_.triangle(leaf * kBvhWidth), to, node(leaf),
+                        leaf % kBvhWidth);
+        return degenerate_lanes(kFull & ~with_area, [&](std::size_t lane, std::size_t k) {
+            const auto& x = to.corner[k];
+            return Double3{double{x[0][lane]}, double{x[1][lane]}, double{x[2][lane]}};
+        });
+    }
+
+    /// Makes a leaf with triangles at some places. Returns those that are degenerate.
+    unsigned make_some(std::size_t leaf, unsigned lanes) {
+        for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
+            const Triangle& t = source_.triangle(leaf * kBvhWidth + lane_for(lane, lanes));
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Double3& p = source_.position(t.vertex[k]);
+                const std::size_t at = k * kBvhWidth + lane;
+                corners_[0][at] = p.x;
+                corners_[1][at] = p.y;
+                corners_[2][at] = p.z;
+            }
+        }
+        unsigned open = room_.degenerate_bits.empty() ? 0 : lanes;
+        for (std::size_t axis = 0; axis < 3 && open != 0; ++axis) {
+            open &= ~lanes_with_area(corners_, axis);
+        }
+        const unsigned degenerate = degenerate_lanes(open, [&](std::size_t lane, std::size_t k) {
+            const std::size_t i = k * kBvhWidth + lane;
+            return Double3{corners_[0][i], corners_[1][i], corners_[2][i]};
+        });
+        maker_.make(corners_, static_cast<std::uint32_t>(std::popcount(lanes)), room_.leaves[leaf],
+                    node(leaf), leaf % kBvhWidth);
+        return degenerate;
+    }
+
+    const LeafRoom& room_;
+    const Source& source_;
+    LeafMaker maker_;
+    BvhNode* lowest_;  ///< the nodes around leaves
+    LeafCorners corners_{};
+};
+
 template <class Source>
 void make_range(const LeafRoom& room, const Source& source, std::size_t first, std::size_t last) {
-    const LeafMaker maker(room.frame, room.exact);
-    const std::size_t count = source.size();
-    const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(count));
-    BvhNode* const lowest = &room.nodes[shape.first[0]];
-    LeafCorners corners{};
-    for (std::size_t leaf = first; leaf < last; ++leaf) {
-        source.ask_ahead_of(leaf);
-        const std::size_t begin = leaf * kBvhWidth;
-        const std::size_t places = std::min<std::size_t>(kBvhWidth, count - begin);
-        const unsigned all = (1U << places) - 1;
-        const unsigned lanes = room.lanes == nullptr ? all : room.lanes[leaf];
-        if (lanes == 0) {
-            set_unused_box(lowest[leaf / kBvhWidth], leaf % kBvhWidth);
-            if (!room.degenerate_bits.empty()) {
-                mark_degenerate_places(corners, leaf, lanes, all, room.degenerate_bits);
-            }
-            continue;
-        }
-        for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
-            const Triangle& t = source.triangle(begin + lane_for(lane, lanes));
-            for (std::size_t corner = 0; corner < 3; ++corner) {
-                const Double3& p = source.position(t.vertex[corner]);
-                const std::size_t at = corner * kBvhWidth + lane;
-                corners[0][at] = p.x;
-                corners[1][at] = p.y;
-                corners[2][at] = p.z;
-            }
-        }
-        if (!room.degenerate_bits.empty()) {
-            mark_degenerate_places(corners, leaf, lanes, all, room.degenerate_bits);
-        }
-        maker.make(corners, static_cast<std::uint32_t>(std::popcount(lanes)), room.leaves[leaf],
-                   lowest[leaf / kBvhWidth], leaf % kBvhWidth);
-    }
+    LeafRange<Source> range(room, source);
+    for (std::size_t leaf = first; leaf < last; ++leaf) range.make(leaf);
 }
 
 template <class Source>
@@ -259,6 +338,13 @@ void make_leaves_of(const LeafRoom& room, const Source& source, ParallelFor para
 }
 
 }  // namespace
+
+kernels::LeafMap leaf_map(const Frame& frame) {
+    const auto [x, y, z] = frame.origin;
+    const Scale scale(frame.exponent), back(-frame.exponent);
+    return {
+        {x, y, z, 0, x, y, z, 0}, {scale.first(), scale.second()}, {back.first(), back.second()}};
+}
 
 void make_leaves(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
                  ParallelFor parallel_for) {

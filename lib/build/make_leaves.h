@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cdprep/advanced/build_bvh.h"
+#include "kernels/kernels.h"
 
 namespace cdprep::build {
 
@@ -18,6 +19,9 @@ struct LeafRoom {
     /// place without a triangle. Empty: not wanted.
     std::span<std::uint64_t> degenerate_bits = {};
 };
+
+/// Returns the map of a frame as kernels take it.
+[[nodiscard]] kernels::LeafMap leaf_map(const Frame& frame);
 
 /// Fills leaves and the boxes around them, which are level 0 of the nodes. Requires triangles in
 /// tree order.

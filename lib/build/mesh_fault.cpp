@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "build/bad_argument.h"
 #include "build/frame_map.h"
 #include "cdprep/format/limits.h"
+#include "cdprep/format/portable.h"
 
 namespace cdprep::build {
 namespace {
@@ -21,11 +23,27 @@ bool is_coordinate(double x) {
     return std::fabs(x) <= format::kMaxCoordinate;
 }
 
-template <class Position>
-bool is_good(const Position& position) {
-    const Double3 p = as_double(position);
-    // Without branches: nearly all are good.
+// Without branches: nearly all are good.
+bool is_good(const Double3& p) {
     return (int{is_coordinate(p.x)} & int{is_coordinate(p.y)} & int{is_coordinate(p.z)}) != 0;
+}
+
+bool are_good(std::span<const Double3> positions) {
+    bool all = true;
+    for (const Double3& p : positions) all &= is_good(p);
+    return all;
+}
+// Finite floats are in range. As integers, several are compared at a time.
+bool are_good(std::span<const Float3> positions) {
+    static_assert(sizeof(Float3) == 3 * sizeof(float));
+    constexpr std::uint32_t kExponent = 0x7f800000;
+    const float* const x = &positions.data()->x;
+    std::uint32_t bad = 0;
+    for (std::size_t i = 0; i < 3 * positions.size(); ++i) {
+        const bool is_bad = (format::bit_cast<std::uint32_t>(x[i]) & kExponent) == kExponent;
+        bad |= is_bad ? kExponent : 0;
+    }
+    return bad == 0;
 }
 
 const char* fault_of(double x) {
@@ -51,10 +69,9 @@ std::optional<Error> find_bad(std::span<const Position> positions,
         return bad_argument(std::to_string(positions.size()) + " vertices are more than the " +
                             std::to_string(format::kMaxVertices) + " that a model may have.");
     }
-    bool all_good = true;
-    for (const Position& p : positions) all_good &= is_good(p);
-    if (all_good) return std::nullopt;
-    const auto at = std::ranges::find_if_not(positions, is_good<Position>);
+    if (are_good(positions)) return std::nullopt;
+    const auto at = std::ranges::find_if_not(
+        positions, [](const Position& p) { return is_good(as_double(p)); });
     const auto index = static_cast<std::size_t>(at - positions.begin());
     return bad_argument(sentence(vertices.empty() ? index : vertices[index], as_double(*at)));
 }

@@ -25,6 +25,14 @@ public:
         return x * first_ * second_;
     }
 
+    /// The two factors, in the order of their use.
+    [[nodiscard]] double first() const noexcept {
+        return first_;
+    }
+    [[nodiscard]] double second() const noexcept {
+        return second_;
+    }
+
 private:
     double first_;
     double second_;

@@ -5,6 +5,7 @@
 
 #include <cassert>
 
+#include "avx_rows.h"
 #include "set_bits.h"
 
 namespace cdprep::kernels {
@@ -235,6 +236,27 @@ inline D8::Mask greater(const D8& a, const D8& b) noexcept {
 }
 inline D8 select(const D8::Mask& where, const D8& a, const D8& b) noexcept {
     return {_mm256_blendv_pd(b.x, a.x, where.x), _mm256_blendv_pd(b.y, a.y, where.y)};
+}
+
+inline D8 doubles_of(F8 a) noexcept {
+    return {_mm256_cvtps_pd(_mm256_castps256_ps128(a.x)),
+            _mm256_cvtps_pd(_mm256_extractf128_ps(a.x, 1))};
+}
+/// Rounds to nearest, as those of other tables.
+inline F8 floats_of(const D8& a) noexcept {
+    return _mm256_set_m128(_mm256_cvtpd_ps(a.y), _mm256_cvtpd_ps(a.x));
+}
+
+inline void load_points(const float* positions, const std::uint32_t* vertices,
+                        F8 (&row)[3]) noexcept {
+    __m128 lower[3], upper[3];
+    load_four_points(positions, vertices, lower);
+    load_four_points(positions, vertices + 12, upper);
+    for (std::size_t i = 0; i < 3; ++i) row[i] = _mm256_set_m128(upper[i], lower[i]);
+}
+inline F8 least_of_rows(const F8 (&row)[8]) noexcept {
+    return least_of_eight(
+        {row[0].x, row[1].x, row[2].x, row[3].x, row[4].x, row[5].x, row[6].x, row[7].x});
 }
 
 }  // namespace

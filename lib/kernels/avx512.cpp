@@ -5,6 +5,8 @@
 
 #include <cassert>
 
+#include "avx_rows.h"
+
 namespace cdprep::kernels {
 namespace {
 
@@ -302,6 +304,25 @@ inline D8::Mask greater(D8 a, D8 b) noexcept {
 }
 inline D8 select(D8::Mask where, D8 a, D8 b) noexcept {
     return _mm512_mask_blend_pd(where.x, b.x, a.x);
+}
+
+inline D8 doubles_of(F8 a) noexcept {
+    return _mm512_cvtps_pd(a.x);
+}
+inline F8 floats_of(D8 a) noexcept {
+    return _mm512_cvtpd_ps(a.x);
+}
+
+inline void load_points(const float* positions, const std::uint32_t* vertices,
+                        F8 (&row)[3]) noexcept {
+    __m128 lower[3], upper[3];
+    load_four_points(positions, vertices, lower);
+    load_four_points(positions, vertices + 12, upper);
+    for (std::size_t i = 0; i < 3; ++i) row[i] = _mm256_set_m128(upper[i], lower[i]);
+}
+inline F8 least_of_rows(const F8 (&row)[8]) noexcept {
+    return least_of_eight(
+        {row[0].x, row[1].x, row[2].x, row[3].x, row[4].x, row[5].x, row[6].x, row[7].x});
 }
 
 }  // namespace

@@ -277,6 +277,13 @@ inline constexpr float kFarthest = static_cast<float>(format::kInfinity);
 inline constexpr float kAbsentBox[kPaddedBox] = {kFarthest,  kFarthest,  kFarthest,  0,
                                                  -kFarthest, -kFarthest, -kFarthest, 0};
 
+/// The map from model coordinates to those of a tree's frame: (x - origin) scale[0] scale[1].
+struct LeafMap {
+    double origin[kPaddedBox];  ///< x, y, z, 0, and the same again
+    double scale[2];
+    double back[2];  ///< their inverses, whose product inverts the map of a difference
+};
+
 /// Boxes as a caller gives them, and what is kept of them. Arrays by the number of the box.
 struct BoxStore {
     const float* given;     ///< lower x, y, z, upper x, y, z; none is NaN
@@ -396,6 +403,13 @@ struct Table {
     /// has room for one more than all boxes.
     std::size_t (*store_boxes)(const BoxStore& store, const std::uint32_t* numbers,
                                std::size_t count, std::uint32_t* escaped) noexcept;
+
+    /// Fills a leaf with eight triangles in model coordinates: 78 floats. `vertices` has three
+    /// numbers a triangle; vertex v is at positions + 3 v. Stores the box around them in the frame,
+    /// padded. All that is stored is the same for every table. Returns, as a bit set, the triangles
+    /// whose corners are proven not to be collinear.
+    unsigned (*fill_leaf)(const LeafMap& map, const float* positions, const std::uint32_t* vertices,
+                          float* leaf, float* box) noexcept;
 };
 
 extern const Table kScalar;  ///< the reference, for any processor; WebAssembly leaves it out

@@ -267,6 +267,19 @@ inline D8 select(const D8::Mask& where, const D8& a, const D8& b) noexcept {
     return each_double([&](unsigned i) { return vbslq_f64(where.x[i], a.x[i], b.x[i]); });
 }
 
+inline D8 doubles_of(F8 a) noexcept {
+    D8 result;
+    result.x[0] = vcvt_f64_f32(vget_low_f32(a.x));
+    result.x[1] = vcvt_high_f64_f32(a.x);
+    result.x[2] = vcvt_f64_f32(vget_low_f32(a.y));
+    result.x[3] = vcvt_high_f64_f32(a.y);
+    return result;
+}
+inline F8 floats_of(const D8& a) noexcept {
+    return {vcvt_high_f32_f64(vcvt_f32_f64(a.x[0]), a.x[1]),
+            vcvt_high_f32_f64(vcvt_f32_f64(a.x[2]), a.x[3])};
+}
+
 }  // namespace
 }  // namespace cdprep::kernels
 

@@ -275,6 +275,13 @@ inline D8 select(Mask8 where, const D8& a, const D8& b) noexcept {
     return each_double([&](unsigned i) { return ((where.x >> i) & 1) != 0 ? a.x[i] : b.x[i]; });
 }
 
+inline D8 doubles_of(const F8& a) noexcept {
+    return each_double([&](unsigned i) { return double{a.x[i]}; });
+}
+inline F8 floats_of(const D8& a) noexcept {
+    return each([&](unsigned i) { return static_cast<float>(a.x[i]); });
+}
+
 }  // namespace
 }  // namespace cdprep::kernels
 

@@ -265,6 +265,23 @@ inline D8 select(const D8::Mask& where, const D8& a, const D8& b) noexcept {
     return each_double([&](unsigned i) { return wasm_v128_bitselect(a.x[i], b.x[i], where.x[i]); });
 }
 
+inline D8 doubles_of(F8 a) noexcept {
+    const auto upper_two = [](v128_t four) { return wasm_i32x4_shuffle(four, four, 2, 3, 2, 3); };
+    D8 result;
+    result.x[0] = wasm_f64x2_promote_low_f32x4(a.x);
+    result.x[1] = wasm_f64x2_promote_low_f32x4(upper_two(a.x));
+    result.x[2] = wasm_f64x2_promote_low_f32x4(a.y);
+    result.x[3] = wasm_f64x2_promote_low_f32x4(upper_two(a.y));
+    return result;
+}
+inline F8 floats_of(const D8& a) noexcept {
+    const auto four = [](v128_t lower, v128_t upper) {
+        return wasm_i32x4_shuffle(wasm_f32x4_demote_f64x2_zero(lower),
+                                  wasm_f32x4_demote_f64x2_zero(upper), 0, 1, 4, 5);
+    };
+    return {four(a.x[0], a.x[1]), four(a.x[2], a.x[3])};
+}
+
 }  // namespace
 }  // namespace cdprep::kernels
 

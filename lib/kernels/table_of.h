@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cells_met.h"
+#include "exact_leaf.h"
 #include "farthest.h"
 #include "kernels.h"
 #include "swept_spheres.h"
@@ -32,7 +33,8 @@ constexpr Table table_of(const char* name) noexcept {
             met_boxes_of<F8>,
             meeting_boxes_of<F8>,
             meeting_pairs_of<F8>,
-            store_boxes_of<F8>};
+            store_boxes_of<F8>,
+            fill_leaf_of<F8, D8>};
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ constexpr std::array kBoth = {
     Expected{"depths of swept 2", 0xe849244d32d8f38dU},
     Expected{"farthest", 0x802e0045e4253e96U},
     Expected{"farthest_moved", 0x1e1bcc20562d0649U},
+    Expected{"fill_leaf", 0x53cdba50352e543cU},
     Expected{"find_contacts", 0x3e4eaa4f18f41480U},
     Expected{"find_own_contacts", 0xde65e66d1f0a1d3dU},
     Expected{"meeting_boxes", 0x2cde19e1a4c507e4U},

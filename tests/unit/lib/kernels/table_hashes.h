@@ -340,12 +340,29 @@ inline void ask_world(const Table& table, Draws& draws, Hashes& hashes) {
     add_numbers(2 * count, hashes["meeting_pairs"]);
 }
 
+inline void ask_leaf(const Table& table, Draws& draws, Hashes& hashes) {
+    std::array<float, 3 * 24> positions;
+    for (float& x : positions) x = draws.single();
+    std::array<std::uint32_t, 3 * kLanes> vertices;
+    for (std::uint32_t& vertex : vertices) vertex = draws.random()() % 24;
+    LeafMap map{{}, {0.5, 0.5}, {2, 2}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        map.origin[i] = map.origin[kPaddedUpper + i] = draws.fraction() / 8;
+    }
+    std::array<float, kLeafHalf + 3> leaf;
+    std::array<float, kPaddedBox> box;
+    hashes["fill_leaf"].add(
+        table.fill_leaf(map, positions.data(), vertices.data(), leaf.data(), box.data()));
+    hashes["fill_leaf"].add_all(leaf);
+    hashes["fill_leaf"].add_all(box);
+}
+
 /// The name of a table and the marks of its three kinds of swept spheres are no kernels.
 inline constexpr std::size_t kKernels = sizeof(Table) / sizeof(void*) - 1 - 3;
 
 /// Asks every kernel of a table a thousand times.
 inline Hashes hashes_of(const Table& table) {
-    Draws draws(8);
+    Draws draws(8), leaf_draws(9);
     Hashes hashes;
     const auto scratch = std::make_unique<LeafScratch>();
     for (int round = 0; round < 1000; ++round) {
@@ -355,6 +372,7 @@ inline Hashes hashes_of(const Table& table) {
         ask_points(table, draws, hashes);
         ask_planes(table, draws, hashes);
         ask_world(table, draws, hashes);
+        ask_leaf(table, leaf_draws, hashes);
     }
     return hashes;
 }
