@@ -21,7 +21,7 @@ constexpr SetBits set_bits() noexcept {
     }
     return set;
 }
-constexpr SetBits kSetBits = set_bits();
+inline constexpr SetBits kSetBits = set_bits();
 
 }  // namespace
 }  // namespace cdprep::kernels
