@@ -11,4 +11,5 @@ function(cdprep_embed_text room name input script)
             -D SCRIPT=${script} -P ${step}
         DEPENDS ${input} ${step} VERBATIM)
     target_sources(${room} PRIVATE ${output})
+    set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
