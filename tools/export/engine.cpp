@@ -109,6 +109,7 @@ const EngineForm* find_engine(std::string_view name) noexcept {
 
 std::vector<std::string> engine_names() {
     std::vector<std::string> names;
+    names.reserve(kForms.size());
     for (const EngineForm& form : kForms) names.emplace_back(form.name);
     return names;
 }

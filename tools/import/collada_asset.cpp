@@ -28,10 +28,10 @@ double metres_of(std::string_view unit) {
     return 1;
 }
 
-constexpr std::size_t kLookedAt = 65536;  ///< the asset is the first element
+constexpr std::size_t kAssetBytes = 65536;  ///< the asset is the first element
 
 bool is_collada(std::string_view bytes) {
-    return bytes.substr(0, kLookedAt).find("<COLLADA") != std::string_view::npos;
+    return bytes.substr(0, kAssetBytes).find("<COLLADA") != std::string_view::npos;
 }
 
 format::UpAxis axis_named(std::string_view name) {
@@ -43,7 +43,7 @@ format::UpAxis axis_named(std::string_view name) {
 
 void add_collada_asset(std::string_view bytes, mesh::TriangleSoup& soup) {
     if (!is_collada(bytes)) return;
-    const std::string_view start = bytes.substr(0, kLookedAt);
+    const std::string_view start = bytes.substr(0, kAssetBytes);
     const std::string_view asset = start.substr(0, start.find("</asset>"));
     soup.metres_per_unit = metres_of(between(asset, "<unit", '>'));
     soup.up_axis = axis_named(between(asset, "<up_axis>", '<'));

@@ -264,6 +264,7 @@ private:
         std::sort(numbers.begin(), numbers.end());
         numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
         std::vector<HullPlane> around;
+        around.reserve(numbers.size());
         for (const std::uint32_t number : numbers) around.push_back(place.planes[number]);
         std::optional<Merge> best;
         const Double3 &a = place.hull.points[point], &b = place.hull.points[other];

@@ -18,14 +18,14 @@ namespace {
 
 using Cells = std::vector<std::uint32_t>;
 
-constexpr std::size_t kSeeds = 4;        ///< growths tried for each piece
-constexpr std::size_t kInVain = 8;       ///< consecutive unwanted cells tried before growth ends
-constexpr std::size_t kWorkOfTry = 100;  ///< one cell tried, without tests of kept-out points
-constexpr std::size_t kLooksOfWork = 4;  ///< planes and points tested per unit of work
-constexpr std::size_t kRegrowths = 2;    ///< attempts to regrow a piece that sticks out too far
-constexpr std::size_t kGivenUp = 4;      ///< most pieces given up in one attempt
-constexpr std::size_t kIdle = 3;         ///< rounds without success after which attempts end
-constexpr std::size_t kAtOnce = 8;       ///< attempts in parallel per round
+constexpr std::size_t kSeeds = 4;           ///< growths tried for each piece
+constexpr std::size_t kInVain = 8;          ///< consecutive unwanted cells tried before growth ends
+constexpr std::size_t kWorkOfTry = 100;     ///< one cell tried, without tests of kept-out points
+constexpr std::size_t kLooksOfWork = 4;     ///< planes and points tested per unit of work
+constexpr std::size_t kRegrowths = 2;       ///< attempts to regrow a piece that sticks out too far
+constexpr std::size_t kGivenUp = 4;         ///< most pieces given up in one attempt
+constexpr std::size_t kIdle = 3;            ///< rounds without success after which attempts end
+constexpr std::size_t kAttemptsAtOnce = 8;  ///< attempts in parallel per round
 constexpr std::size_t kTrial = 8;  ///< 1 / share of the work after which is_hopeless() may stop
 constexpr double kHopeless = 2;    ///< predicted work, in limits, at which the search stops
 
@@ -417,11 +417,11 @@ private:
             if (pieces.size() <= std::max<std::size_t>(options_.few_enough, 1)) return;
             if (work_ > options_.most_work) return;
             const std::vector<std::uint32_t> uses = count_uses(pieces);
-            std::vector<Progress> tried(kAtOnce);
+            std::vector<Progress> tried(kAttemptsAtOnce);
             const auto attempt = [&](std::size_t i) {
-                tried[i] = try_fewer(pieces, uses, round * kAtOnce + i);
+                tried[i] = try_fewer(pieces, uses, round * kAttemptsAtOnce + i);
             };
-            options_.parallel_for(kAtOnce, attempt);
+            options_.parallel_for(kAttemptsAtOnce, attempt);
             for (const Progress& one : tried) {
                 work_ += one.work;
                 for (const Estimate& error : one.found) far_.add({&error.at, 1});
