@@ -82,8 +82,9 @@ public:
         }
     }
 
-    /// Writes a leaf of eight triangles of floats, and its box, to the same bits. Returns, as a bit
-    /// set, those with a proven area. Requires leaves in model coordinates.
+    /// Writes a leaf of eight triangles of floats, and its box, with the bits that make() above
+    /// gives. Returns, as a bit set, those with a proven area. Requires leaves in model
+    /// coordinates.
     unsigned make(std::span<const Float3> positions, const Triangle* triangles, BvhLeaf& leaf,
                   BvhNode& node, std::size_t box) const {
         static_assert(sizeof(BvhLeaf) == (kernels::kLeafHalf + 3) * sizeof(float) + 8);
@@ -121,6 +122,8 @@ private:
 /// Triangles anywhere in memory, with an order of their own.
 class OrderedTriangles {
 public:
+    static constexpr bool kIsOfKernel = false;
+
     OrderedTriangles(std::span<const std::uint32_t> order, std::span<const Double3> positions,
                      std::span<const Triangle> triangles)
         : order_(order), positions_(positions), triangles_(triangles) {}
@@ -133,10 +136,6 @@ public:
     }
     [[nodiscard]] const Double3& position(std::uint32_t vertex) const {
         return positions_[vertex];
-    }
-
-    [[nodiscard]] std::span<const Float3> floats() const {
-        return {};
     }
 
     /// Prefetches the data of leaves ahead: the tree order is not the order in memory.
@@ -167,6 +166,9 @@ private:
 template <class Position>
 class SortedTriangles {
 public:
+    /// Whether a kernel takes eight of them at a time.
+    static constexpr bool kIsOfKernel = std::is_same_v<Position, Float3>;
+
     SortedTriangles(std::span<const Position> positions, std::span<const Triangle> triangles)
         : positions_(positions), triangles_(triangles) {}
 
@@ -181,10 +183,8 @@ public:
     }
     void ask_ahead_of(std::size_t /*leaf*/) const {}
 
-    /// Returns the positions if they are floats, which a kernel takes.
-    [[nodiscard]] std::span<const Float3> floats() const {
-        if constexpr (std::is_same_v<Position, Float3>) return positions_;
-        return {};
+    [[nodiscard]] std::span<const Position> positions() const {
+        return positions_;
     }
 
 private:
@@ -235,18 +235,18 @@ unsigned degenerate_lanes(unsigned open, const Corner& corner) {
     return found;
 }
 
-/// Sets the bits of a leaf's places.
+/// Stores the bits of a leaf's places: those that are degenerate.
 void mark_places(unsigned marks, std::size_t leaf, std::span<std::uint64_t> words) {
     const std::size_t shift = leaf % kBvhWidth * kBvhWidth;
     std::uint64_t& word = words[leaf / kBvhWidth];
     word = (word & ~(std::uint64_t{0xff} << shift)) | std::uint64_t{marks} << shift;
 }
 
-/// Makes leaves one at a time.
+/// Makes the leaves of a tree, one at a time.
 template <class Source>
-class LeafRange {
+class LeafFiller {
 public:
-    LeafRange(const LeafRoom& room, const Source& source)
+    LeafFiller(const LeafRoom& room, const Source& source)
         : room_(room),
           source_(source),
           maker_(room.frame, room.exact),
@@ -259,14 +259,7 @@ public:
             std::min<std::size_t>(kBvhWidth, source_.size() - leaf * kBvhWidth);
         const unsigned all = (1U << places) - 1;
         const unsigned lanes = room_.lanes == nullptr ? all : room_.lanes[leaf];
-        unsigned degenerate = all & ~lanes;
-        if (lanes == 0) {
-            set_unused_box(node(leaf), leaf % kBvhWidth);
-        } else if (lanes == kFull && room_.exact && !source_.floats().empty()) {
-            degenerate = make_full(leaf);
-        } else {
-            degenerate |= make_some(leaf, lanes);
-        }
+        const unsigned degenerate = (all & ~lanes) | make_at(leaf, lanes);
         if (!room_.degenerate_bits.empty()) mark_places(degenerate, leaf, room_.degenerate_bits);
     }
 
@@ -277,19 +270,33 @@ private:
         return lowest_[leaf / kBvhWidth];
     }
 
-    /// Makes a leaf of eight triangles of floats. Returns those that are degenerate.
+    /// Makes a leaf with triangles at some places. Returns those that are degenerate, if they are
+    /// wanted.
+    unsigned make_at(std::size_t leaf, unsigned lanes) {
+        if (lanes == 0) {
+            set_unused_box(node(leaf), leaf % kBvhWidth);
+            return 0;
+        }
+        if constexpr (Source::kIsOfKernel) {
+            if (lanes == kFull && room_.exact) return make_full(leaf);
+        }
+        return make_some(leaf, lanes);
+    }
+
+    /// As above, for eight triangles of floats.
     unsigned make_full(std::size_t leaf) const {
         BvhLeaf& to = room_.leaves[leaf];
         const unsigned with_area =
-            maker_.make(source_.floats(), &source_.triangle(leaf * kBvhWidth), to, node(leaf),
+            maker_.make(source_.positions(), &source_.triangle(leaf * kBvhWidth), to, node(leaf),
                         leaf % kBvhWidth);
+        if (room_.degenerate_bits.empty()) return 0;
         return degenerate_lanes(kFull & ~with_area, [&](std::size_t lane, std::size_t k) {
             const auto& x = to.corner[k];
             return Double3{double{x[0][lane]}, double{x[1][lane]}, double{x[2][lane]}};
         });
     }
 
-    /// Makes a leaf with triangles at some places. Returns those that are degenerate.
+    /// As above, for triangles of any kind.
     unsigned make_some(std::size_t leaf, unsigned lanes) {
         for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
             const Triangle& t = source_.triangle(leaf * kBvhWidth + lane_for(lane, lanes));
@@ -323,8 +330,8 @@ private:
 
 template <class Source>
 void make_range(const LeafRoom& room, const Source& source, std::size_t first, std::size_t last) {
-    LeafRange<Source> range(room, source);
-    for (std::size_t leaf = first; leaf < last; ++leaf) range.make(leaf);
+    LeafFiller<Source> filler(room, source);
+    for (std::size_t leaf = first; leaf < last; ++leaf) filler.make(leaf);
 }
 
 template <class Source>

@@ -36,12 +36,13 @@ bool are_good(std::span<const Double3> positions) {
 // Finite floats are in range. As integers, several are compared at a time.
 bool are_good(std::span<const Float3> positions) {
     static_assert(sizeof(Float3) == 3 * sizeof(float));
+    if (positions.empty()) return true;
     constexpr std::uint32_t kExponent = 0x7f800000;
-    const float* const x = &positions.data()->x;
+    const float* const x = &positions.front().x;
     std::uint32_t bad = 0;
     for (std::size_t i = 0; i < 3 * positions.size(); ++i) {
         const bool is_bad = (format::bit_cast<std::uint32_t>(x[i]) & kExponent) == kExponent;
-        bad |= is_bad ? kExponent : 0;
+        bad |= static_cast<std::uint32_t>(is_bad);
     }
     return bad == 0;
 }

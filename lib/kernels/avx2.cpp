@@ -242,17 +242,15 @@ inline D8 doubles_of(F8 a) noexcept {
     return {_mm256_cvtps_pd(_mm256_castps256_ps128(a.x)),
             _mm256_cvtps_pd(_mm256_extractf128_ps(a.x, 1))};
 }
-/// Rounds to nearest, as those of other tables.
 inline F8 floats_of(const D8& a) noexcept {
     return _mm256_set_m128(_mm256_cvtpd_ps(a.y), _mm256_cvtpd_ps(a.x));
 }
 
 inline void load_points(const float* positions, const std::uint32_t* vertices,
                         F8 (&row)[3]) noexcept {
-    __m128 lower[3], upper[3];
-    load_four_points(positions, vertices, lower);
-    load_four_points(positions, vertices + 12, upper);
-    for (std::size_t i = 0; i < 3; ++i) row[i] = _mm256_set_m128(upper[i], lower[i]);
+    __m256 loaded[3];
+    load_eight_points(positions, vertices, loaded);
+    for (std::size_t i = 0; i < 3; ++i) row[i] = loaded[i];
 }
 inline F8 least_of_rows(const F8 (&row)[8]) noexcept {
     return least_of_eight(

@@ -315,10 +315,9 @@ inline F8 floats_of(D8 a) noexcept {
 
 inline void load_points(const float* positions, const std::uint32_t* vertices,
                         F8 (&row)[3]) noexcept {
-    __m128 lower[3], upper[3];
-    load_four_points(positions, vertices, lower);
-    load_four_points(positions, vertices + 12, upper);
-    for (std::size_t i = 0; i < 3; ++i) row[i] = _mm256_set_m128(upper[i], lower[i]);
+    __m256 loaded[3];
+    load_eight_points(positions, vertices, loaded);
+    for (std::size_t i = 0; i < 3; ++i) row[i] = loaded[i];
 }
 inline F8 least_of_rows(const F8 (&row)[8]) noexcept {
     return least_of_eight(

@@ -3,6 +3,7 @@
 // sources alone, below <immintrin.h>.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace cdprep::kernels {
@@ -12,12 +13,12 @@ namespace {
 inline void load_four_points(const float* positions, const std::uint32_t* vertices,
                              __m128 (&row)[3]) noexcept {
     const auto point = [&](std::size_t i) { return positions + std::size_t{3} * vertices[3 * i]; };
-    const auto xy = [](const float* one, const float* two) {
-        const auto as_double = [](const float* p) { return reinterpret_cast<const double*>(p); };
-        return _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(as_double(one)), as_double(two)));
+    const auto two_floats = [](const float* p) {
+        return _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
     };
     const float *a = point(0), *b = point(1), *c = point(2), *d = point(3);
-    const __m128 ab = xy(a, b), cd = xy(c, d);
+    const __m128 ab = _mm_movelh_ps(two_floats(a), two_floats(b));
+    const __m128 cd = _mm_movelh_ps(two_floats(c), two_floats(d));
     row[0] = _mm_shuffle_ps(ab, cd, 0x88);
     row[1] = _mm_shuffle_ps(ab, cd, 0xdd);
     __m128 z = _mm_insert_ps(_mm_load_ss(a + 2), _mm_load_ss(b + 2), 0x10);
@@ -25,8 +26,17 @@ inline void load_four_points(const float* positions, const std::uint32_t* vertic
     row[2] = _mm_insert_ps(z, _mm_load_ss(d + 2), 0x30);
 }
 
-/// Reduces eight rows to the least lane of each. Of zeros with both signs, chooses as
-/// build::least(): a lane against the one four after it, then two after it, then one after it.
+/// Loads the points of eight numbers, three numbers apart: a row for each coordinate.
+inline void load_eight_points(const float* positions, const std::uint32_t* vertices,
+                              __m256 (&row)[3]) noexcept {
+    __m128 lower[3], upper[3];
+    load_four_points(positions, vertices, lower);
+    load_four_points(positions, vertices + 12, upper);
+    for (std::size_t i = 0; i < 3; ++i) row[i] = _mm256_set_m128(upper[i], lower[i]);
+}
+
+/// Reduces eight rows to the least lane of each. Compares a lane with the one four after it, then
+/// two, then one. So it chooses among zeros with both signs as build::least() does.
 inline __m256 least_of_eight(const __m256 (&row)[8]) noexcept {
     const auto fours = [&](std::size_t i) {
         const __m256 first = _mm256_permute2f128_ps(row[i], row[i + 4], 0x20);

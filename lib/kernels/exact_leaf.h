@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A leaf of triangles whose coordinates are floats. Included by kernel sources alone. Each number
-// is rounded as where leaves are made without a kernel (build/make_leaves.cpp), so that what is
-// stored is the same for every table.
+// is rounded as where leaves are made without a kernel (build/make_leaves.cpp). So what is stored
+// is the same for every table.
 #pragma once
 
 #include "kernels.h"
@@ -47,13 +47,12 @@ unsigned lanes_with_area(const F (&corner)[3][3], std::size_t axis) noexcept {
     const F first = (corner[1][x] - corner[0][x]) * (corner[2][y] - corner[0][y]);
     const F second = (corner[1][y] - corner[0][y]) * (corner[2][x] - corner[0][x]);
     const F error = fma(abs(first) + abs(second), rounding, least);
-    return bits(greater(abs(first - second), error)) & 0xff;
+    return bits(greater(abs(first - second), error));
 }
 
 /// Returns the least floats that are at least x, as build::float_above(). Let r be the nearest
-/// float, and r < x. The next float is r + e, where e is from |r| 2^-24 to |r| 2^-23 or, for
-/// subnormal numbers, 2^-149. A little more than half of that is added to r, and the sum is
-/// rounded.
+/// float, r < x, and r + e the next one. More than e / 2 and less than 3 e / 2 is added to r, so
+/// the sum rounds to r + e. For e is from |r| 2^-24 to |r| 2^-23 or, of subnormal numbers, 2^-149.
 template <class D>
 auto floats_above(const D& x) noexcept {
     const D nearest = doubles_of(floats_of(x));
@@ -106,7 +105,7 @@ unsigned fill_leaf_of(const LeafMap& map, const float* positions, const std::uin
     const D lower = doubles_of(around), upper = doubles_of(halves_exchanged(around));
     (bounds_in_frame(map, lower, doubles_of(sign)) * sign).store(box);
 
-    // Below, the first four lanes have a meaning.
+    // Below, the first three lanes have a meaning.
     const F middle = floats_of(lower * D(0.5) + upper * D(0.5));
     const D origin = doubles_of(middle);
     // The difference of two doubles is off by at most half an ulp.

@@ -15,9 +15,10 @@
 /// and the answers of the queries are the same for every table.
 ///
 /// A kernel source includes this header, the vendor's intrinsics, <cassert> and portable.h. It also
-/// includes the bodies that all share (box_overlap.h, cells_met.h, leaf_contacts.h, ...). The
-/// bodies are in an unnamed namespace. A compiler could emit an inline function with external
-/// linkage with AVX2 inside, and the linker could keep that copy for all callers.
+/// includes the bodies that all share (box_overlap.h, cells_met.h, leaf_contacts.h, ...), and what
+/// some share (avx_rows.h, set_bits.h). The bodies are in an unnamed namespace. A compiler could
+/// emit an inline function with external linkage with AVX2 inside, and the linker could keep that
+/// copy for all callers.
 namespace cdprep::kernels {
 
 /// The relative placement of the boxes of two hierarchies. A box centre c of B lies at
@@ -407,7 +408,8 @@ struct Table {
     /// Fills a leaf with eight triangles in model coordinates: 78 floats. `vertices` has three
     /// numbers a triangle; vertex v is at positions + 3 v. Stores the box around them in the frame,
     /// padded. All that is stored is the same for every table. Returns, as a bit set, the triangles
-    /// whose corners are proven not to be collinear.
+    /// whose corners are proven not to be collinear. Requires rounding to nearest, without
+    /// flushing.
     unsigned (*fill_leaf)(const LeafMap& map, const float* positions, const std::uint32_t* vertices,
                           float* leaf, float* box) noexcept;
 };

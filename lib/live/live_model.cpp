@@ -43,6 +43,7 @@ Result<std::size_t> bytes_of(const LiveBase& base, const LiveLimits& limits,
 }
 
 Result<std::size_t> bytes_of(const LiveBase& base, const LiveLimits& limits) {
+    const format::FloatEnvironment environment;
     if (const auto fault = find_limit_fault(base, limits)) return *fault;
     return bytes_of(base, limits, LiveStart(base, limits).sections());
 }
@@ -56,6 +57,7 @@ LiveModel::~LiveModel() = default;
 
 Result<LiveModel> LiveModel::State::make(std::span<std::byte> memory, const LiveBase& base,
                                          const LiveLimits& limits) {
+    const format::FloatEnvironment environment;
     if (const auto fault = find_limit_fault(base, limits)) return *fault;
     const LiveStart start(base, limits);
     const Result<std::size_t> size = bytes_of(base, limits, start.sections());

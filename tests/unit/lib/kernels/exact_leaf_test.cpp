@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A leaf from the kernel has the bits of one that is made in double precision.
+// A leaf from the kernel has the bits of one that is made in double precision. So have the leaves
+// of a tree that are made of floats.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -48,7 +49,14 @@ struct Made {
     }
 };
 
-Made made_by(const Table& table, const Mesh& mesh, const Frame& frame) {
+/// What a random test has seen.
+struct Seen {
+    int rounds = 0;
+    int proven = 0;  ///< triangles with an area that the kernel proves
+    int flat = 0;    ///< degenerate ones
+};
+
+Made made_by(const Table& table, const Mesh& mesh, const Frame& frame, Seen& seen) {
     Made made{};
     std::array<float, kPaddedBox> box;
     const unsigned with_area =
@@ -64,6 +72,8 @@ Made made_by(const Table& table, const Mesh& mesh, const Frame& frame) {
         const bool is_proven = (with_area >> lane & 1) != 0;
         EXPECT_FALSE(is_flat && is_proven) << "lane " << lane;
         made.degenerate |= static_cast<unsigned>(is_flat) << lane;
+        seen.flat += is_flat ? 1 : 0;
+        seen.proven += is_proven ? 1 : 0;
     }
     return made;
 }
@@ -107,54 +117,111 @@ Mesh mesh_of(std::vector<Float3> positions, std::mt19937& random) {
     return mesh;
 }
 
-void check_random(std::mt19937& random, float (*draw)(std::mt19937&)) {
-    for (int round = 0; round < 2000; ++round) {
-        std::vector<Float3> positions(3 + random() % 22);
-        for (Float3& p : positions) p = {draw(random), draw(random), draw(random)};
-        const Mesh mesh = mesh_of(std::move(positions), random);
-        const Frame frame = frame_of(mesh, random);
-        if (!build::has_exact_leaves(true, frame)) continue;
-        const auto expected = made_in_double(mesh, frame).bits();
-        for_each_table([&](const Table& table) {
-            ASSERT_EQ(made_by(table, mesh, frame).bits(), expected) << "round " << round;
-        });
-        if (::testing::Test::HasFatalFailure()) return;
-    }
+/// Compares leaves of numbers that are drawn. Each table must prove `least_proven` of its triangles
+/// to have an area.
+void check_random(std::uint32_t seed, double least_proven, float (*draw)(std::mt19937&)) {
+    constexpr int kRounds = 2000;
+    for_each_table([&](const Table& table) {
+        std::mt19937 random(seed);
+        Seen seen;
+        for (int round = 0; round < kRounds; ++round) {
+            std::vector<Float3> positions(3 + random() % 22);
+            for (Float3& p : positions) p = {draw(random), draw(random), draw(random)};
+            const Mesh mesh = mesh_of(std::move(positions), random);
+            const Frame frame = frame_of(mesh, random);
+            if (!build::has_exact_leaves(true, frame)) continue;
+            ASSERT_EQ(made_by(table, mesh, frame, seen).bits(), made_in_double(mesh, frame).bits())
+                << "round " << round;
+            ++seen.rounds;
+        }
+        EXPECT_GT(seen.rounds, kRounds / 2);
+        EXPECT_GT(seen.flat, seen.rounds / 4);
+        EXPECT_GT(seen.proven, least_proven * static_cast<int>(kLanes) * seen.rounds);
+    });
 }
 
 TEST(ExactLeaf, HasTheBitsOfOneMadeInDouble) {
-    std::mt19937 random(31);
-    check_random(random,
+    check_random(31, 0.6,
                  [](std::mt19937& r) { return std::uniform_real_distribution<float>(-3, 5)(r); });
 }
 
 TEST(ExactLeaf, OfNumbersFarFromZero) {
-    std::mt19937 random(32);
-    check_random(random, [](std::mt19937& r) {
+    check_random(32, 0.6, [](std::mt19937& r) {
         return 1e6F + std::uniform_real_distribution<float>(0, 1)(r);
     });
 }
 
 TEST(ExactLeaf, OfZerosWithBothSignsAndOfFewNumbers) {
-    std::mt19937 random(33);
-    check_random(random, [](std::mt19937& r) {
+    check_random(33, 0.1, [](std::mt19937& r) {
         return std::array{0.0F, -0.0F, 1.0F, -1.0F, 0x1p-126F, -0x1p-149F}[r() % 6];
     });
 }
 
 TEST(ExactLeaf, OfNumbersOfAllSizes) {
-    std::mt19937 random(34);
-    check_random(random, [](std::mt19937& r) {
+    check_random(34, 0.05, [](std::mt19937& r) {
         const auto x = std::bit_cast<float>(static_cast<std::uint32_t>(r()));
         return std::isfinite(x) ? std::ldexp(x, -28) : 0.0F;
     });
 }
 
 TEST(ExactLeaf, OfThinTriangles) {
-    std::mt19937 random(35);
-    check_random(random, [](std::mt19937& r) {
+    check_random(35, 0.3, [](std::mt19937& r) {
         return static_cast<float>(r() % 4) + std::ldexp(static_cast<float>(r() % 3), -22);
     });
+}
+
+/// All that make_leaves() writes.
+struct Leaves {
+    std::vector<BvhNode> nodes;
+    std::vector<BvhLeaf> leaves;
+    std::vector<std::uint64_t> degenerate;
+
+    template <class Position>
+    Leaves(const std::vector<Position>& positions, const std::vector<Triangle>& triangles,
+           const Frame& frame, const std::uint8_t* lanes, bool marks)
+        : nodes(format::bvh_shape(static_cast<std::uint32_t>(triangles.size())).node_count),
+          leaves((triangles.size() + kLanes - 1) / kLanes),
+          degenerate(marks ? (triangles.size() + 63) / 64 : 0) {
+        const build::LeafRoom room{frame, true, nodes, leaves, lanes, degenerate};
+        build::make_leaves(room, std::span<const Position>(positions), triangles, serial_for);
+    }
+    [[nodiscard]] bool has_bits_of(const Leaves& other) const {
+        return std::memcmp(nodes.data(), other.nodes.data(), nodes.size() * sizeof(BvhNode)) == 0 &&
+               std::memcmp(leaves.data(), other.leaves.data(), leaves.size() * sizeof(BvhLeaf)) ==
+                   0 &&
+               degenerate == other.degenerate;
+    }
+};
+
+// Some leaves are full, some have places without a triangle, and some have none. The last one has
+// fewer places.
+TEST(ExactLeaf, TreesOfFloatsAreThoseOfDoubles) {
+    std::mt19937 random(36);
+    std::uniform_int_distribution<int> coordinate(-5, 5);
+    const auto draw = [&] { return static_cast<float>(coordinate(random)) / 3; };
+    for (int round = 0; round < 300; ++round) {
+        std::vector<Float3> positions(40);
+        for (Float3& p : positions) p = {draw(), draw(), draw()};
+        std::vector<Triangle> triangles(1 + random() % 200);
+        for (Triangle& t : triangles) {
+            for (std::uint32_t& v : t.vertex) v = static_cast<std::uint32_t>(random() % 40);
+        }
+        std::vector<Double3> doubles;
+        for (const Float3& p : positions) doubles.push_back(build::as_double(p));
+        std::vector<std::uint8_t> lanes((triangles.size() + kLanes - 1) / kLanes, 0xff);
+        for (std::uint8_t& some : lanes) {
+            if (random() % 3 == 0) some = static_cast<std::uint8_t>(random() % 4 * random());
+        }
+        lanes.back() &=
+            static_cast<std::uint8_t>((1U << ((triangles.size() - 1) % kLanes + 1)) - 1);
+        const Frame frame =
+            build::frame_of(build::extent_of(std::span<const Float3>(positions), serial_for));
+        const std::uint8_t* const some = round % 2 == 0 ? lanes.data() : nullptr;
+        const bool marks = round % 3 != 0;
+        const Leaves of_floats(positions, triangles, frame, some, marks);
+        const Leaves of_doubles(doubles, triangles, frame, some, marks);
+        ASSERT_TRUE(of_floats.has_bits_of(of_doubles)) << "round " << round;
+    }
 }
 
 }  // namespace

@@ -24,10 +24,12 @@
 #include "cdprep/contacts.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/hulls.h"
+#include "cdprep/live_model.h"
 #include "cdprep/pairs.h"
 #include "cdprep/parallel.h"
 #include "cdprep/points.h"
 #include "cdprep/self.h"
+#include "support/aligned_bytes.h"
 #include "support/answer_bytes.h"
 #include "support/every_structure.h"
 #include "support/float_modes.h"
@@ -455,6 +457,45 @@ TEST(FloatModes, ChangeNothingThatIsBuilt) {
             const TestMesh scaled = moved_by(mesh, scale, {});
             expect_same_in_every_mode("build at 2^" + std::to_string(std::ilogb(scale)),
                                       [&](Asked& out) { build_all(scaled, out); });
+        }
+    }
+}
+
+using Floats = std::vector<format::Float3>;
+
+/// Makes a live model, and moves its vertices.
+void build_live(const Floats& positions, const Floats& moved,
+                const std::vector<format::Triangle>& triangles, const LiveLimits& limits,
+                Asked& out) {
+    const auto arrays =
+        build::build_model(positions, triangles, {.bounds = build::BvhBounds::aligned}).value();
+    AlignedBytes memory(LiveModel::bytes(arrays, limits).value());
+    LiveModel live = LiveModel::in(memory.span(), arrays, limits).value();
+    const auto add_tree = [&] {
+        const auto bvh = live.model().bvh();
+        out.bytes.add_stored(std::vector(bvh.nodes.begin(), bvh.nodes.end()));
+        out.bytes.add_stored(std::vector(bvh.leaves.begin(), bvh.leaves.end()));
+    };
+    add_tree();
+    out.bytes.add(live.refit(moved).ok());
+    add_tree();
+}
+
+TEST(FloatModes, ChangeNoLiveModel) {
+    for (const double scale : {1.0, 0x1p-90, 0x1p90}) {
+        const TestMesh mesh = moved_by(random_soup(5, 500, 0.1), scale, {});
+        Floats positions, moved;
+        for (const Double3& p : mesh.positions) {
+            positions.push_back(
+                {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+            moved.push_back(positions.back());
+            moved.back().x += moved.back().z / 3;
+        }
+        for (const std::uint32_t room : {0U, 600U}) {
+            expect_same_in_every_mode(
+                "live model with room for " + std::to_string(room), [&](Asked& out) {
+                    build_live(positions, moved, mesh.triangles, {.triangles = room}, out);
+                });
         }
     }
 }
