@@ -46,7 +46,8 @@ struct Model::State {
     RecordView record;
     std::uint32_t number_bound = 0;  ///< of a model that can tear; otherwise 0
     bool is_torn = false;
-    bool is_part = false;  ///< of a surface: a window
+    /// The end of the sentence of a refusal that no bake would help; null: a bake helps.
+    const char* serves_only = nullptr;
 
     void find_sections(SectionSet wanted);
 
@@ -208,11 +209,8 @@ std::optional<Refusal> Model::refusal(Ask asks) const {
     if (state_ == nullptr) {
         return Refusal{Reason::not_opened, "The model was moved from: it answers no query."};
     }
-    if (state_->is_part) {
-        return Refusal{Reason::not_baked,
-                       state_->name +
-                           ": a window holds a part of a surface, and serves only collide, "
-                           "overlap, distance, within, ray, closest and touch."};
+    if (state_->serves_only != nullptr) {
+        return Refusal{Reason::not_baked, state_->name + ": " + state_->serves_only};
     }
     const bool exact_leaves = state_->is_exact();
     const Ask refused = without(asks, served_);
@@ -312,8 +310,15 @@ void Model::set_torn(std::uint32_t triangle_number_bound) noexcept {
     state_->number_bound = triangle_number_bound;
 }
 void Model::set_part(Ask asks) noexcept {
-    state_->is_part = true;
+    state_->serves_only =
+        "a window holds a part of a surface, and serves only collide, overlap, distance, within, "
+        "ray, closest and touch.";
     served_ = served_ & asks;
+}
+void Model::set_live() noexcept {
+    state_->serves_only =
+        "a live model serves only collide, overlap, distance, within, continuous, self, haptic, "
+        "inside, ray, closest and touch.";
 }
 void Model::set_leaves(std::uint32_t count, std::span<const format::Double3> positions,
                        std::span<const format::Triangle> triangles,

@@ -121,6 +121,7 @@ LiveModel::State::State(std::span<std::byte> bytes, Model opened, const LiveTabl
       components(elements_of<format::Component>(bytes, SectionId::components)),
       tables(empty),
       frame_{model.header().frame_origin, model.header().frame_exponent} {
+    model.set_live();
     std::ranges::fill(tables.vertex_of, kUnusedVertex);
     for (std::uint32_t i = 0; i < base.source_vertex.size(); ++i) {
         const std::uint32_t number = base.source_vertex[i];
@@ -325,7 +326,7 @@ bool LiveModel::State::has_exact_leaves() const {
 }
 
 /// The content hash must distinguish these positions from any others, because caches compare it.
-/// All else that moves follows from the positions, so their hash is enough.
+/// All else that moves follows from the positions and from the rebuilds, so these are enough.
 void LiveModel::State::update_header() {
     format::FileHeader facts = format::read_header(image);
     facts.flags &= ~format::model_exact_leaves;
@@ -335,6 +336,7 @@ void LiveModel::State::update_header() {
     ImageTable table(image);
     for (SectionEntry& entry : table.entries()) {
         if (is_positions(entry.id)) entry.checksum = sums_.hash;
+        if (rebuilds_ > 0 && entry.id == SectionId::bvh_leaves) entry.checksum = rebuilds_;
         if (tables.tear && entry.id == SectionId::triangles) entry.checksum = tables.tear->hash;
     }
     // Without triangles, no query looks at the places.

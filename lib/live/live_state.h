@@ -218,6 +218,7 @@ private:
     build::Frame frame_;
     Sums sums_;
     bool is_rebuilding_ = false;
+    std::uint64_t rebuilds_ = 0;  ///< each gives triangles other places, as caches must know
 };
 
 }  // namespace cdprep

@@ -202,6 +202,8 @@ private:
     void set_torn(std::uint32_t triangle_number_bound) noexcept;
     /// Makes this a part of a surface, which serves `asks` alone.
     void set_part(Ask asks) noexcept;
+    /// Makes this a live model: no bake adds what it lacks.
+    void set_live() noexcept;
     /// Sets the leaves of a part, and its positions, triangles and oriented boxes, or none of them.
     void set_leaves(std::uint32_t count, std::span<const format::Double3> positions,
                     std::span<const format::Triangle> triangles,

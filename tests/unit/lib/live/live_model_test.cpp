@@ -498,6 +498,20 @@ TEST(LiveModel, AnswersAfterManySmallMovesAreThoseOfBruteForce) {
     EXPECT_GT(found, 1000U);
 }
 
+TEST(LiveModel, ARefusalAsksForNoBake) {
+    const TestMesh ball = icosphere(2);
+    const Running moving = run(build_model(floats_of(ball), ball.triangles).value());
+    for (const Ask ask : {Ask::contacts, Ask::pieces, Ask::response}) {
+        const auto refusal = moving.object.model().refusal(ask);
+        ASSERT_TRUE(refusal);
+        EXPECT_NE(refusal->message.find("a live model serves only collide, "), std::string::npos);
+        EXPECT_EQ(refusal->message.find("Bake"), std::string::npos) << refusal->message;
+    }
+    EXPECT_FALSE(moving.object.model().refusal(
+        Ask::collide | Ask::overlap | Ask::distance | Ask::within | Ask::continuous | Ask::self |
+        Ask::haptic | Ask::inside | Ask::ray | Ask::closest | Ask::touch));
+}
+
 // A rebuild changes no answer and makes the tree better, a part at a time; then it rests.
 TEST(LiveModel, ARebuildMakesBoxesSmallerAndChangesNoAnswer) {
     const TestMesh cloud = random_soup(5, 9000, 0.02);
