@@ -63,6 +63,12 @@ int ask_sweep(const cdprep_sweep* sweep, const cdprep_model* other, const cdprep
         Motion read;
         if (const int code = read_motion(call, kMotionAlone, *motion, read)) return code;
         if (const int code = check_serves(call, {"other"}, *other, Ask::within)) return code;
+        if (!sweep->sweep.is_current()) {
+            return call.refuse(
+                CDPREP_WHY_STALE, {"sweep"},
+                "is of a model that has changed since cdprep_sweep_finish_step(), or "
+                "its step is not finished.");
+        }
         return ask(call, read);
     });
 }

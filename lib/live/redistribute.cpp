@@ -86,6 +86,10 @@ std::uint32_t LiveModel::State::rebuild(std::uint32_t most) {
         tables.growth[worst] = 1;
         done += size;
     }
+    if (done > 0) {
+        ++rebuilds_;
+        update_header();
+    }
     return done;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 
 #include "build/frame_map.h"
@@ -44,6 +45,8 @@ struct Sweep::Storage {
     std::span<BvhNode> nodes;  ///< the model's hierarchy, with boxes around the ways
     Frame frame;               ///< of these boxes
     bool is_empty = true;      ///< the model has no triangles
+    bool has_ended = false;    ///< begin() was not called since the last end()
+    std::uint64_t shape = 0;   ///< the content hash of the model at the last end()
 };
 
 namespace {
@@ -306,6 +309,10 @@ template <class Found>
 bool for_each_pair(const Sweep& sweep, const Model& b, const Motion& motion, Workspace& workspace,
                    Found&& found) noexcept {
     require(b, Ask::within);
+    if (!sweep.is_current()) {
+        stop_with(
+            "The model of a Sweep has changed since Sweep::end(), or the step has not ended.");
+    }
     if (sweep.storage().is_empty || b.triangle_count() == 0) return true;
     return SweepSearch(sweep, b, motion, workspace).run(found);
 }
@@ -336,6 +343,7 @@ std::optional<Sweep> Sweep::in(std::span<std::byte> memory, const Model& model) 
 }
 
 void Sweep::begin() noexcept {
+    storage_->has_ended = false;
     const MovedModel now(*model_, nullptr);
     for (std::uint32_t i = 0; i < storage_->start.size(); ++i) {
         storage_->start[i] = now.position(i);
@@ -345,6 +353,12 @@ void Sweep::begin() noexcept {
 void Sweep::end() noexcept {
     const format::FloatEnvironment environment;
     SweptBoxes(*model_, *storage_).make();
+    storage_->shape = model_->header().content_hash;
+    storage_->has_ended = true;
+}
+
+bool Sweep::is_current() const noexcept {
+    return storage_->has_ended && storage_->shape == model_->header().content_hash;
 }
 
 bool may_touch(const Sweep& sweep, const Model& b, const Motion& motion,

@@ -155,13 +155,15 @@ private:
     }
 
     void change() {
-        switch (draw_.below(5)) {
+        switch (draw_.below(6)) {
             case 0:
                 return append();
             case 1:
                 return remove();
             case 2:
                 return read();
+            case 3:
+                return rebuild();
             default:
                 return move();
         }
@@ -178,6 +180,13 @@ private:
         given.value.count = draw_.below(7);
         given.spoil(draw_);
         (void)is_answered(cdprep_live_refit(live_, &given.value, lanes_.get(), &error_), error_);
+    }
+    void rebuild() {
+        std::uint32_t taken = 9;
+        MUST(cdprep_live_rebuild(live_, 10 * draw_.below(99), &taken, &error_) == CDPREP_OK);
+        cdprep_live_info info{};
+        MUST(cdprep_live_describe(live_, &info, &error_) == CDPREP_OK);
+        MUST(taken <= info.triangles);
     }
     /// What the live model lists and stores of itself.
     void read() {

@@ -40,11 +40,11 @@ struct LiveTriangle {
 /// Each refit() updates positions, boxes, leaves and marks of degenerate triangles. The model has
 /// no oriented boxes, because a refit with them would take three times as long. It has no swept
 /// spheres, hulls, pieces, octrees, bounds or mass. It serves the queries that need none of these:
-/// collide, overlap, distance, within, ray, closest, inside and touch.
+/// collide, overlap, distance, within, continuous, self, haptic, ray, closest, inside and touch.
 ///
 /// A model made with LiveLimits can tear: append() and remove() change its triangles. After the
-/// first such call, model().is_torn() is true. The model then counts as open, so only boxes and
-/// surfaces decide about solids. Some places of its tree order have no triangle.
+/// first such call, model().is_torn() is true. The model then counts as open, without winding and
+/// components, so only boxes and surfaces decide about solids. Some places of its tree order have no triangle.
 /// model().triangle_count() counts places, but is 0 without triangles. The mesh() and source()
 /// views have an element for each place.
 ///
@@ -184,9 +184,10 @@ public:
     /// surface cost has grown most since it was built comes first. Begins when one cost has grown
     /// by 40 %, and continues in later calls until none has grown by 20 %.
     ///
-    /// Answers stay the same. Does not help if far triangles have come near each other: then
-    /// surface_cost() stays high, and a new model helps. Takes O(nodes) time, and about 100 ns for
-    /// each triangle rebuilt. Never allocates.
+    /// Answers stay the same, but caches start anew, and the step of a Sweep must end after it.
+    /// Does not help if far triangles have come near each other: then surface_cost() stays high,
+    /// and a new model helps. Takes O(nodes) time, and about 100 ns for each triangle rebuilt.
+    /// Never allocates.
     CDPREP_API std::uint32_t rebuild(std::uint32_t most_triangles) noexcept;
 
     /// Returns build::surface_cost() of the BVH. When it has grown by half in spite of rebuild(),

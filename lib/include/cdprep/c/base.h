@@ -85,7 +85,7 @@ enum {
     CDPREP_WHY_NOT_BAKED = 8,       /* the model lacks what the query needs */
     CDPREP_WHY_NOT_OPENED = 9,      /* the file has it, but it was not opened */
     CDPREP_WHY_TOO_SMALL = 10,      /* memory, or an array of cdprep_marks */
-    CDPREP_WHY_STALE = 11,          /* an object of a scene that no longer exists, or never did */
+    CDPREP_WHY_STALE = 11,          /* what no longer exists, or never did, or has changed since */
     CDPREP_WHY_BUSY = 12            /* a workspace, scene or broad phase in use by another call */
 };
 

@@ -130,8 +130,8 @@ CDPREP_API int cdprep_live_remove(cdprep_live* live, const uint32_t* numbers, si
 
 /* Rebuilds subtrees of the BVH whose boxes have grown, so that queries stay fast. Rebuilds up to
  * `most_triangles` triangles, in groups of about 4,096. *taken is the number rebuilt. Answers stay
- * the same. See LiveModel::rebuild(). Takes O(nodes) time, and about 100 ns for each triangle
- * rebuilt.
+ * the same, but caches start anew, and the step of a sweep must be finished after it. See
+ * LiveModel::rebuild(). Takes O(nodes) time, and about 100 ns for each triangle rebuilt.
  * Errors: CDPREP_WHY_BUSY: another call changes the live model. */
 CDPREP_API int cdprep_live_rebuild(cdprep_live* live, uint32_t most_triangles, uint32_t* taken,
                                    cdprep_error* error);

@@ -117,8 +117,9 @@ CDPREP_API void cdprep_sweep_end(cdprep_sweep* sweep);
 CDPREP_API int cdprep_sweep_start_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Completes the step: the positions of the model are those at time 1. A triangle that was appended
- * within the step starts at its vertices' positions at time 0. Vertices that had none start at the
- * origin. Takes O(n) time. */
+ * within the step starts at its vertices' positions at time 0. Vertices that had none start where
+ * the first vertex of the base was, or at the origin if it had none. A triangle that was removed
+ * within the step is nowhere. Takes O(n) time. */
 CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Both functions find the pairs of triangles that may touch during the step. Triangle `a` is of the
@@ -128,12 +129,15 @@ CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error
  *
  * CDPREP_NO is proven: no triangles touch at any time of the step. CDPREP_YES means that the convex
  * hull of a triangle's path comes near a triangle of the other model. The path is relative to that
- * model. It is not known whether they touch, or when. Containment is not tested. A step with less
- * motion gives fewer false alarms. If the other model turns by more than a quarter of a radian, the
- * step is tested in parts, at most 64.
+ * model. It is not known whether they touch, or when. Containment is not tested. Nor is a model
+ * against itself, two models that both deform, or triangles that were removed within the step. A
+ * step with less motion gives fewer false alarms. If the other model turns by more than a quarter
+ * of a radian, the step is tested in parts, at most 64.
  *
  * Takes as long as cdprep_within() with a tolerance of half of the motion. Each pair of triangles
  * near each other takes about 1 us more for each part. Never allocates.
+ * Errors: CDPREP_WHY_STALE: the step is not finished, or the model has changed since: it was moved,
+ * torn or rebuilt.
  * Needs of the other model: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_sweep_may_touch(const cdprep_sweep* sweep, const cdprep_model* other,
                                       const cdprep_motion* motion, cdprep_workspace* workspace,

@@ -153,8 +153,13 @@ protected:
     CSweep(const CSweep&) = delete;
     CSweep& operator=(const CSweep&) = delete;
 
-    /// Moves the cube along x.
+    /// Moves the cube along x in a step.
     void move(double x) {
+        EXPECT_EQ(cdprep_sweep_start_step(sweep_, &error_), CDPREP_OK);
+        refit(x);
+        EXPECT_EQ(cdprep_sweep_finish_step(sweep_, &error_), CDPREP_OK);
+    }
+    void refit(double x) {
         std::vector<float> positions;
         for (const Double3& p : unit_cube().positions) {
             positions.insert(positions.end(), {static_cast<float>(p.x + x), static_cast<float>(p.y),
@@ -164,10 +169,8 @@ protected:
         cdprep_live_move_init(&moved, sizeof moved);
         moved.positions_f32 = positions.data();
         moved.count = positions.size() / 3;
-        EXPECT_EQ(cdprep_sweep_start_step(sweep_, &error_), CDPREP_OK);
         EXPECT_EQ(cdprep_live_refit(live_, &moved, workspace_.get(), &error_), CDPREP_OK)
             << error_.message;
-        EXPECT_EQ(cdprep_sweep_finish_step(sweep_, &error_), CDPREP_OK);
     }
     /// Asks about a cube at x.
     std::uint32_t may_touch(double x) {
@@ -228,6 +231,26 @@ TEST_F(CSweep, RefusesEveryMistake) {
     EXPECT_EQ(cdprep_sweep_start_step(nullptr, nullptr), CDPREP_BAD_ARGUMENT);
     EXPECT_EQ(cdprep_sweep_finish_step(nullptr, nullptr), CDPREP_BAD_ARGUMENT);
     cdprep_sweep_end(nullptr);
+}
+
+TEST_F(CSweep, RefusesAModelThatHasChanged) {
+    const cdprep_motion motion = pair().motion_a;
+    const auto expect_stale = [&] {
+        std::uint32_t answer = 77;
+        EXPECT_EQ(cdprep_sweep_may_touch(sweep_, model_.get(), &motion, workspace_.get(), &answer,
+                                         &error_),
+                  CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error_.why, CDPREP_WHY_STALE);
+        EXPECT_STREQ(error_.argument, "sweep");
+        EXPECT_EQ(answer, static_cast<std::uint32_t>(CDPREP_UNKNOWN));
+    };
+    EXPECT_EQ(cdprep_sweep_start_step(sweep_, &error_), CDPREP_OK);
+    expect_stale();
+    EXPECT_EQ(cdprep_sweep_finish_step(sweep_, &error_), CDPREP_OK);
+    refit(3);
+    expect_stale();
+    EXPECT_EQ(cdprep_sweep_finish_step(sweep_, &error_), CDPREP_OK);
+    EXPECT_EQ(may_touch(5), static_cast<std::uint32_t>(CDPREP_NO));
 }
 
 TEST_F(CSweep, TakesMemoryOfTheCaller) {

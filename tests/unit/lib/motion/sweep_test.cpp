@@ -41,6 +41,9 @@ public:
     [[nodiscard]] const Sweep& sweep() const {
         return sweep_;
     }
+    [[nodiscard]] Sweep& sweep() {
+        return sweep_;
+    }
     [[nodiscard]] LiveModel& live() {
         return live_;
     }
@@ -146,6 +149,34 @@ TEST(Sweep, OfNothingTouchesNothing) {
     ASSERT_TRUE(sheet.live().remove(std::vector<std::uint32_t>{0, 1}).ok());
     sheet.move_to(sheet.mesh().positions);
     EXPECT_FALSE(may_touch(sheet.sweep(), wire_at(0).model, Motion(), workspace));
+}
+
+// Its boxes are of the leaves that the model had at the end of the step.
+TEST(Sweep, IsOfTheModelAtTheEndOfTheStep) {
+    Deforming sheet(grid_sheet(20, 20), {.triangles = 900, .vertices = 500});
+    const auto& positions = sheet.mesh().positions;
+    EXPECT_TRUE(sheet.sweep().is_current());
+    sheet.sweep().begin();
+    EXPECT_FALSE(sheet.sweep().is_current());
+    sheet.sweep().end();
+    EXPECT_TRUE(sheet.sweep().is_current());
+    ASSERT_TRUE(sheet.live().refit(shifted_by(positions, {1, 0, 0})).ok());
+    EXPECT_FALSE(sheet.sweep().is_current());
+    sheet.move_to(positions);
+    EXPECT_TRUE(sheet.sweep().is_current());
+    ASSERT_TRUE(sheet.live().remove(std::vector<std::uint32_t>{3}).ok());
+    EXPECT_FALSE(sheet.sweep().is_current());
+    std::vector<Double3> mixed = positions;
+    std::shuffle(mixed.begin(), mixed.end(), std::mt19937(5));
+    sheet.move_to(mixed);
+    EXPECT_TRUE(sheet.sweep().is_current());
+    ASSERT_GT(sheet.live().rebuild(1'000'000), 0U);
+    EXPECT_FALSE(sheet.sweep().is_current());
+    Workspace workspace;
+    const OpenModel wire = wire_at(0);
+    EXPECT_DEATH((void)may_touch(sheet.sweep(), wire.model, Motion(), workspace), "has changed");
+    sheet.sweep().end();
+    EXPECT_TRUE(may_touch(sheet.sweep(), wire.model, Motion(), workspace));
 }
 
 TEST(Sweep, NeedsEnoughAlignedMemory) {
