@@ -46,19 +46,18 @@ bool Scene::State::has_new_shape(std::uint32_t slot) const noexcept {
 /// Brings the box and the filter of a slot up to date.
 void Scene::State::place(std::uint32_t slot) noexcept {
     const ObjectSlot& object = objects[slot];
-    if (object.model == nullptr) {
+    const bool is_there = object.model != nullptr;
+    filters[slot] = is_there ? plan->filter_of(object.layer) : BoxFilter{0, 0};
+    if (filters[slot].accepts == 0) {  // no other object is asked about it
         boxes[slot] = {{1, 1, 1}, {-1, -1, -1}};
-        filters[slot] = {0, 0};
-    } else {
-        const double reach = plan->reach_of(object.layer);
-        roots[slot] = placed_box(*object.model, object.pose, reach);
-        if (has_way(slot)) {
-            roots[slot] =
-                swept_box(placed_box(*object.model, last_poses[slot], reach), roots[slot]);
-        }
-        boxes[slot] = box_around(roots[slot], plan->origin());
-        filters[slot] = plan->filter_of(object.layer);
+        return;
     }
+    const double reach = plan->reach_of(object.layer);
+    roots[slot] = placed_box(*object.model, object.pose, reach);
+    if (has_way(slot)) {
+        roots[slot] = swept_box(placed_box(*object.model, last_poses[slot], reach), roots[slot]);
+    }
+    boxes[slot] = box_around(roots[slot], plan->origin());
 }
 
 void Scene::State::place_changed() noexcept {

@@ -20,6 +20,7 @@ using kernels::kPaddedBox;
 using kernels::kPaddedUpper;
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr float kLargest = std::numeric_limits<float>::max();
 
 // A key holds the place on the curve, a bit for large boxes above it, and the number of the box.
 constexpr int kCurveBits = 10;  ///< of each axis
@@ -41,7 +42,7 @@ std::size_t node_count(std::size_t boxes) noexcept {
     return all + 1;  // level 1 is there for one leaf too
 }
 
-/// The box around the middles of all boxes that are there and finite.
+/// The box around the middles of all boxes that are there, along axes where they are finite.
 struct Middles {
     std::array<float, 3> lower = {kInfinite, kInfinite, kInfinite};
     std::array<float, 3> upper = {-kInfinite, -kInfinite, -kInfinite};
@@ -51,8 +52,9 @@ struct Middles {
     }
     void add(const float* box) noexcept {
         for (std::size_t axis = 0; axis < 3; ++axis) {
+            // The middle of a box that is infinite on one side would leave all others in one cell.
+            if (!(box[axis] > -kLargest && box[kPaddedUpper + axis] < kLargest)) continue;
             const float m = middle(box, axis);
-            if (!std::isfinite(m)) continue;
             lower[axis] = std::min(lower[axis], m);
             upper[axis] = std::max(upper[axis], m);
         }
@@ -62,7 +64,7 @@ struct Middles {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             most = std::max(most, upper[axis] - lower[axis]);
         }
-        return std::min(most, std::numeric_limits<float>::max());
+        return std::min(most, kLargest);
     }
 };
 

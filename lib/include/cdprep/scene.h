@@ -176,9 +176,8 @@ struct SceneStep {
 /// one of the two has moved.
 ///
 /// Results are sorted by the slots of a and b. They do not depend on threads. Without
-/// LayerPair::max_error, they equal those of
-/// single queries with Placement::world. They stay valid until the next step that is complete.
-/// After construction nothing is allocated.
+/// LayerPair::max_error, they equal those of single queries with Placement::world. They stay valid
+/// until the next step that is complete. After construction nothing is allocated.
 ///
 ///     cdprep::Scene scene(plan);
 ///     const auto crate = scene.add({.model = &model, .layer = 1, .world_from_model = pose});

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <random>
 #include <span>
@@ -215,23 +216,58 @@ TEST(BroadPhase, BothWaysGiveTheSame) {
 
 TEST(BroadPhase, ThreadsGiveTheSame) {
     for (const test::BoxScene scene : test::kBoxScenes) {
-        SCOPED_TRACE(test::name_of(scene));
-        constexpr std::size_t kCount = 3000;
-        test::MovingBoxes boxes(scene, kCount, 41);
-        std::vector<BroadPhase> phases;
-        for (const std::uint32_t threads : {1U, 2U, 8U}) {
-            phases.push_back(
-                BroadPhase({.boxes = kCount, .pairs = 20 * kCount, .threads = threads}));
-        }
-        for (int step = 0; step < 30; ++step) {
-            const Pairs expected = pairs_of(phases[0].update(boxes.boxes()));
-            for (std::size_t i = 1; i < phases.size(); ++i) {
-                ASSERT_EQ(pairs_of(phases[i].update(boxes.boxes(), {}, test::run_threads)),
-                          expected);
+        for (const std::uint32_t count : {64U, 65U, 1000U, 3000U}) {
+            SCOPED_TRACE(std::string(test::name_of(scene)) + " " + std::to_string(count));
+            test::MovingBoxes boxes(scene, count, 41);
+            std::vector<BroadPhase> all, some;
+            for (const std::uint32_t threads : {1U, 2U, 8U}) {
+                const BroadPhaseLimits limits{
+                    .boxes = count, .pairs = 20 * count, .threads = threads};
+                all.emplace_back(limits);
+                some.emplace_back(limits);
+                ASSERT_TRUE(some.back().update(boxes.boxes()).complete);
             }
-            boxes.step();
+            for (int step = 0; step < 30; ++step) {
+                const Pairs expected = pairs_of(all[0].update(boxes.boxes()));
+                for (BroadPhase& phase : all) {
+                    ASSERT_EQ(pairs_of(phase.update(boxes.boxes(), {}, test::run_threads)),
+                              expected);
+                }
+                for (BroadPhase& phase : some) {
+                    ASSERT_EQ(pairs_of(phase.update_moved(boxes.boxes(), {}, boxes.moved(),
+                                                          test::run_threads)),
+                              expected);
+                }
+                boxes.step();
+            }
         }
     }
+}
+
+// With this many kept pairs, threads share them too.
+TEST(BroadPhase, ThreadsShareManyKeptPairs) {
+    constexpr std::uint32_t kCount = 2000, kPairs = 32'768;
+    std::vector<WorldBox> boxes(kCount);
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        boxes[i] = cube(0.03F * static_cast<float>(i), 0, 0, 1);
+    }
+    std::vector<BroadPhase> phases;
+    for (const std::uint32_t threads : {1U, 2U, 8U}) {
+        phases.emplace_back(
+            BroadPhaseLimits{.boxes = kCount, .pairs = 100 * kCount, .threads = threads});
+    }
+    int kept = 0;
+    for (int step = 0; step < 20; ++step) {
+        for (std::uint32_t i = 0; i < kCount; i += 50) boxes[i].upper[0] += 0.002F;
+        const BroadPhaseUpdate update = phases[0].update(boxes);
+        kept += update.kept && update.pairs.size() >= kPairs ? 1 : 0;
+        const Pairs expected = pairs_of(update);
+        ASSERT_EQ(expected, test::brute_force_pairs(boxes));
+        for (std::size_t i = 1; i < phases.size(); ++i) {
+            ASSERT_EQ(pairs_of(phases[i].update(boxes, {}, test::run_threads)), expected);
+        }
+    }
+    EXPECT_GT(kept, 5);
 }
 
 TEST(BroadPhase, TouchingBoxesMeet) {
@@ -244,23 +280,36 @@ TEST(BroadPhase, TouchingBoxesMeet) {
 }
 
 TEST(BroadPhase, TakesFlatInfiniteEqualAndAbsentBoxes) {
-    std::vector<WorldBox> boxes = grid_boxes(100, 13);
-    boxes[3] = kEverything;
-    boxes[4] = {{-kInfinity, 2, 2}, {kInfinity, 2, 2}};
-    boxes[5] = {{-3e38F, -3e38F, -3e38F}, {3e38F, 3e38F, 3e38F}};
-    boxes[6] = {{5, 5, 5}, {5, 5, 5}};
-    for (std::size_t i = 20; i < 60; ++i) boxes[i] = cube(4, 4, 4, 1);
-    for (std::size_t i = 70; i < 80; ++i) boxes[i] = kAbsent;
-    boxes[80] = {{kInfinity, kInfinity, kInfinity}, {kInfinity, kInfinity, kInfinity}};
-    boxes[81] = {{0, 0, 0}, {-1, -1, kInfinity}};
-    BroadPhase broad_phase = made_for(boxes.size(), 10'000);
-    ASSERT_EQ(pairs_of(broad_phase.update(boxes)), test::brute_force_pairs(boxes));
-    for (std::size_t i = 0; i < boxes.size(); i += 7) std::swap(boxes[i], boxes[99 - i]);
-    ASSERT_EQ(pairs_of(broad_phase.update(boxes)), test::brute_force_pairs(boxes));
-    std::fill(boxes.begin(), boxes.end(), kAbsent);
-    EXPECT_TRUE(pairs_of(broad_phase.update(boxes)).empty());
-    std::fill(boxes.begin(), boxes.end(), kEverything);
-    EXPECT_EQ(broad_phase.update(boxes).pairs.size(), 100U * 99 / 2);
+    for (const std::uint32_t threads : {1U, 8U}) {
+        std::vector<WorldBox> boxes = grid_boxes(100, 13);
+        boxes[3] = kEverything;
+        boxes[4] = {{-kInfinity, 2, 2}, {kInfinity, 2, 2}};
+        boxes[5] = {{-3e38F, -3e38F, -3e38F}, {3e38F, 3e38F, 3e38F}};
+        boxes[6] = {{5, 5, 5}, {5, 5, 5}};
+        boxes[7] = {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, 1}};  // a ground
+        for (std::size_t i = 20; i < 60; ++i) boxes[i] = cube(4, 4, 4, 1);
+        for (std::size_t i = 70; i < 80; ++i) boxes[i] = kAbsent;
+        boxes[80] = {{kInfinity, kInfinity, kInfinity}, {kInfinity, kInfinity, kInfinity}};
+        boxes[81] = {{0, 0, 0}, {-1, -1, kInfinity}};
+        BroadPhase all({.boxes = 100, .pairs = 10'000, .threads = threads});
+        BroadPhase some({.boxes = 100, .pairs = 10'000, .threads = threads});
+        std::vector<std::uint32_t> numbers(boxes.size());
+        std::iota(numbers.begin(), numbers.end(), 0U);
+        const auto expect_all = [&] {
+            const Pairs expected = test::brute_force_pairs(boxes);
+            ASSERT_EQ(pairs_of(all.update(boxes, {}, test::run_threads)), expected);
+            ASSERT_EQ(pairs_of(some.update_moved(boxes, {}, numbers, test::run_threads)), expected);
+        };
+        ASSERT_TRUE(some.update(boxes).complete);
+        expect_all();
+        for (std::size_t i = 0; i < boxes.size(); i += 7) std::swap(boxes[i], boxes[99 - i]);
+        expect_all();
+        std::fill(boxes.begin(), boxes.end(), kAbsent);
+        expect_all();
+        std::fill(boxes.begin(), boxes.end(), kEverything);
+        expect_all();
+        EXPECT_EQ(all.update(boxes).pairs.size(), 100U * 99 / 2);
+    }
 }
 
 TEST(BroadPhase, BoxesComeAndGo) {
