@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Distances at the rate of a haptic loop: a probe glides over a large model (gliding_probe.h). The
 // ways: the whole model, windows, budgets of work, and a model of which a fiftieth deforms each
-// step. FCL answers the first 600 steps. Processor time, one thread; page faults after a warm-up.
+// step. FCL answers the first 600 steps. Processor time, one thread; page faults after 50 steps.
 //
-// Usage: haptic_bench MODEL PROBE [STEPS [RADIUS]]
+// Usage: haptic_bench MODEL PROBE [STEPS [RADIUS]], 60,000 steps if left out
 // MODEL was baked with --normalize --effects overlap,distance,closest. PROBE is a ball of radius
 // 0.02 about 0, baked with --effects distance. A window is filled every 10 steps and used from 2
 // steps later on. It has everything in RADIUS (default 0.05).
 //
 // Prints CSV tables: microseconds of a step; then late answers by budget.
-#include <sys/resource.h>
-#include <time.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,6 +21,7 @@
 #include "cdprep/live_model.h"
 #include "cdprep/window.h"
 #include "gliding_probe.h"
+#include "probe_steps.h"
 
 #ifdef CDPREP_HAVE_FCL
 #include "fcl_models.h"
@@ -35,46 +33,6 @@ namespace {
 constexpr std::size_t kFillEvery = 10;
 constexpr std::size_t kFillLag = 2;
 constexpr std::size_t kFclSteps = 600;
-
-double microseconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
-long faults() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_majflt + usage.ru_minflt;
-}
-
-double share_of(std::vector<double>& sorted, double share) {
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
-
-void print_row(const char* way, std::vector<double> times, long with_faults, double note) {
-    std::sort(times.begin(), times.end());
-    std::printf("%s,%zu,%.2f,%.2f,%.2f,%.2f,%ld,%.4f\n", way, times.size(), share_of(times, 0.5),
-                share_of(times, 0.99), share_of(times, 0.999), share_of(times, 1), with_faults,
-                note);
-}
-
-/// Times `step(i)` for each step, after a warm-up by the first ones. `step` returns a number whose
-/// mean is printed.
-template <class Step>
-void time_steps(const char* way, std::size_t steps, Step&& step) {
-    for (std::size_t i = 0; i < std::min<std::size_t>(steps, 20); ++i) step(i);
-    std::vector<double> times(steps);
-    double sum = 0;
-    const long before = faults();
-    for (std::size_t i = 0; i < steps; ++i) {
-        const double begun = microseconds();
-        const double noted = step(i);
-        times[i] = microseconds() - begun;
-        sum += noted;
-    }
-    print_row(way, std::move(times), faults() - before, sum / static_cast<double>(steps));
-}
 
 struct alignas(format::kSectionAlignment) Block {
     std::array<std::byte, format::kSectionAlignment> bytes;
@@ -100,26 +58,27 @@ public:
         const std::size_t number = step < kFillLag ? 0 : (step - kFillLag) / kFillEvery;
         return windows_[number % 2];
     }
-    /// Fills a window for the steps to come, where one is due. Returns the time it took.
-    double fill(const Model& model, const Model& probe, const std::vector<Double3>& way,
-                std::size_t step) {
-        if (step % kFillEvery != 0) return 0;
-        const double begun = microseconds();
-        const WindowFill held =
-            windows_[step / kFillEvery % 2].fill({model, probe, placed_at(way[step])}, radius_);
+    /// Fills a window for the steps to come, where one is due.
+    void fill(const Model& model, const Model& probe, const std::vector<Double3>& way,
+              std::size_t step) {
+        if (step % kFillEvery != 0) return;
+        const WindowFill held = fills_.time([&] {
+            return windows_[step / kFillEvery % 2].fill({model, probe, placed_at(way[step])},
+                                                        radius_);
+        });
         leaves_ += held.leaves;
-        ++fills_;
-        return microseconds() - begun;
+        ++count_;
     }
-    [[nodiscard]] double mean_leaves() const {
-        return static_cast<double>(leaves_) / static_cast<double>(fills_);
+    void print_fills() const {
+        fills_.print("window_fill", static_cast<double>(leaves_) / static_cast<double>(count_));
     }
 
 private:
     double radius_;
     std::array<std::vector<Block>, 2> rooms_;
     std::vector<Window> windows_;
-    std::size_t leaves_ = 0, fills_ = 0;
+    Steps fills_;
+    std::size_t leaves_ = 0, count_ = 0;
 };
 
 void time_windows(const Model& model, const Model& probe, const std::vector<Double3>& way,
@@ -127,24 +86,19 @@ void time_windows(const Model& model, const Model& probe, const std::vector<Doub
     Windows windows(1U << 15, radius);
     Workspace workspace;
     PairCache cache;
-    std::vector<double> steps(way.size()), fills;
+    Steps steps;
     double complete = 0;
-    windows.fill(model, probe, way, 0);
-    long met = 0;
     for (std::size_t i = 0; i < way.size(); ++i) {
-        const double filled = windows.fill(model, probe, way, i);
-        if (filled > 0) fills.push_back(filled);
-        const long before = faults();
-        const double begun = microseconds();
+        windows.fill(model, probe, way, i);
         Window& window = windows.of(i);
-        const BoundedDistance found =
-            window.distance({window.model(), probe, placed_at(way[i]), {}, &cache}, workspace);
-        steps[i] = microseconds() - begun;
-        if (i > 4 * kFillEvery) met += faults() - before;
+        const BoundedDistance found = steps.time([&] {
+            return window.distance({window.model(), probe, placed_at(way[i]), {}, &cache},
+                                   workspace);
+        });
         complete += found.is_complete ? 1 : 0;
     }
-    print_row("window", std::move(steps), met, complete / static_cast<double>(way.size()));
-    print_row("window_fill", std::move(fills), 0, windows.mean_leaves());
+    steps.print("window", complete / static_cast<double>(way.size()));
+    windows.print_fills();
 }
 
 #ifdef CDPREP_HAVE_FCL
@@ -185,7 +139,7 @@ void time_deforming(const Model& model, const Model& probe, const std::vector<Do
         std::ranges::nth_element(nearest, nearest.begin() + static_cast<std::ptrdiff_t>(count), {},
                                  far);
     };
-    std::vector<double> steps, refits;
+    Steps steps, refits;
     for (std::size_t i = 0; i < way.size(); ++i) {
         if (i % 50 == 0) choose(i);
         const auto by = static_cast<float>(1e-4 * std::sin(0.3 * static_cast<double>(i)));
@@ -194,16 +148,15 @@ void time_deforming(const Model& model, const Model& probe, const std::vector<Do
             moved[k] = number[nearest[k]];
             to[k] = {p.x + by, p.y - by, p.z + by};
         }
-        const double begun = microseconds();
-        const auto done = live.refit(moved, to);
-        const double fitted = microseconds();
-        if (!done) stop(done.error().message);
-        (void)distance({live.model(), probe, placed_at(way[i]), {}, &cache}, workspace);
-        steps.push_back(microseconds() - begun);
-        refits.push_back(fitted - begun);
+        const bool is_done = steps.time([&] {
+            const bool is_fitted = refits.time([&] { return live.refit(moved, to).ok(); });
+            (void)distance({live.model(), probe, placed_at(way[i]), {}, &cache}, workspace);
+            return is_fitted;
+        });
+        if (!is_done) stop("A refit was refused.");
     }
-    print_row("deforming_2_percent", std::move(steps), 0, 0);
-    print_row("its_refit", std::move(refits), 0, 0);
+    steps.print("deforming_2_percent", 0);
+    refits.print("its_refit", 0);
 }
 
 /// The widths of late answers, by budget, with a cache that had a whole answer every 50 steps.
@@ -216,11 +169,11 @@ void print_budgets(const Model& model, const Model& probe, const std::vector<Dou
         double complete = 0, all_work = 0, all_time = 0;
         for (std::size_t i = 0; i < way.size(); ++i) {
             const bool is_whole = i % 50 == 0;
-            const double begun = microseconds();
+            const double begun = thread_us();
             const BoundedDistance found =
                 bounded_distance({model, probe, placed_at(way[i]), {}, &cache}, workspace, {},
                                  {.work = is_whole ? 0 : work});
-            const double took = microseconds() - begun;
+            const double took = thread_us() - begun;
             if (is_whole) continue;
             times.push_back(took);
             all_work += static_cast<double>(found.work);
@@ -228,13 +181,10 @@ void print_budgets(const Model& model, const Model& probe, const std::vector<Dou
             complete += found.is_complete ? 1 : 0;
             if (!found.is_complete && found.nearest) widths.push_back(found.upper - found.lower);
         }
-        std::sort(times.begin(), times.end());
-        std::sort(widths.begin(), widths.end());
-        std::printf("%llu,%.4f,%.2f,%.2f,%.2f,%.4f,%.5f,%.5f\n",
-                    static_cast<unsigned long long>(work),
-                    complete / static_cast<double>(times.size()), share_of(times, 0.5),
-                    share_of(times, 0.999), share_of(times, 1), all_time / all_work,
-                    share_of(widths, 0.5), share_of(widths, 1));
+        std::printf(
+            "%llu,%.4f,%.2f,%.2f,%.2f,%.4f,%.5f,%.5f\n", static_cast<unsigned long long>(work),
+            complete / static_cast<double>(times.size()), median(times, 0.5), median(times, 0.999),
+            median(times, 1), all_time / all_work, median(widths, 0.5), median(widths, 1));
     }
 }
 
@@ -242,7 +192,7 @@ void run(const Model& model, const Model& probe, std::size_t steps, double radiu
     const std::vector<Double3> way = glide(model, steps);
     std::printf("triangles: %u and %u; touched ahead: %zu bytes\n", model.triangle_count(),
                 probe.triangle_count(), model.touch() + probe.touch());
-    std::printf("way,steps,median_us,p99_us,p999_us,max_us,faults,note\n");
+    Steps::print_header();
     Workspace workspace;
     PairCache cache, of_bounded;
     time_steps("distance", steps, [&](std::size_t i) {
@@ -271,7 +221,7 @@ void run(const Model& model, const Model& probe, std::size_t steps, double radiu
 
 int main(int count, char** arguments) {
     if (count < 3) cdprep::stop("Usage: haptic_bench MODEL PROBE [STEPS [RADIUS]]");
-    const std::size_t steps = count > 3 ? std::strtoull(arguments[3], nullptr, 10) : 5000;
+    const std::size_t steps = count > 3 ? std::strtoull(arguments[3], nullptr, 10) : 60'000;
     const double radius = count > 4 ? std::strtod(arguments[4], nullptr) : 0.05;
     cdprep::run(cdprep::open_or_stop(arguments[1]), cdprep::open_or_stop(arguments[2]), steps,
                 radius);
