@@ -5,7 +5,7 @@
 set(CDPREP_COMMON_HEADERS <algorithm> <array> <atomic> <bit> <cassert> <charconv> <cmath> <cstddef>
     <cstdint> <cstdio> <cstring> <filesystem> <functional> <limits> <map> <memory>
     <numeric> <optional> <span> <string> <string_view> <tuple> <utility> <vector>)
-if(CMAKE_SYSTEM_PROCESSOR STREQUAL "wasm32")  # which has no files
+if(CDPREP_PROCESSOR STREQUAL "wasm32")  # which has no files
     list(REMOVE_ITEM CDPREP_COMMON_HEADERS <filesystem>)
 endif()
 

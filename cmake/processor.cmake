@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-# CDPREP_PROCESSOR: x86_64, aarch64 or other, which chooses the kernels. The compiler says it:
-# CMAKE_SYSTEM_PROCESSOR is that of this machine if CMAKE_OSX_ARCHITECTURES, the option -A of Visual
-# Studio or the compiler itself chooses another.
+# CDPREP_PROCESSOR: x86_64, aarch64, wasm32 or other, which chooses the kernels. The compiler says
+# it: CMAKE_SYSTEM_PROCESSOR is that of this machine if CMAKE_OSX_ARCHITECTURES, the option -A of
+# Visual Studio or the compiler itself chooses another. Emscripten's own file for CMake says x86.
 include(CheckCXXSourceCompiles)
 
 list(LENGTH CMAKE_OSX_ARCHITECTURES architectures)
@@ -30,3 +30,4 @@ set(CDPREP_PROCESSOR other)
 # ARM64EC has the macros of x64, but not its instructions.
 cdprep_set_processor(x86_64 "defined(__x86_64__) || (defined(_M_X64) && !defined(_M_ARM64EC))")
 cdprep_set_processor(aarch64 "defined(__aarch64__) || defined(_M_ARM64)")
+cdprep_set_processor(wasm32 "defined(__wasm__)")

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 // A sheet that is cut along a plane: triangles across the plane are replaced by their parts, the
-// halves move apart, and a probe then passes between them. At last the halves become two models.
+// halves move apart, and a probe then passes between them. At last the halves become two models,
+// and their distance is asked for.
 //
 //     sample_tearing
 #include <array>
 #include <iostream>
 #include <map>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "cdprep/live_model.h"
+#include "cdprep/pairs.h"
 #include "cdprep/points.h"
 
 namespace {
@@ -36,10 +41,20 @@ Mesh sheet(std::uint32_t n) {
     return mesh;
 }
 
-/// The parts of triangles that cross the plane x = at, with vertices of their own on either side.
+/// A plane through a point. What lies along its normal is on the right.
+struct Plane {
+    Double3 point, normal;
+
+    [[nodiscard]] double height(const Double3& p) const {
+        return normal.x * (p.x - point.x) + normal.y * (p.y - point.y) + normal.z * (p.z - point.z);
+    }
+};
+
+/// The parts of triangles that cross a plane, with vertices of their own on either side.
 class Cut {
 public:
-    Cut(std::vector<Double3>& positions, double at) : positions_(positions), at_(at) {}
+    Cut(std::vector<Double3>& positions, const Plane& plane)
+        : positions_(positions), plane_(plane) {}
 
     /// Adds the parts of a triangle. Returns false if it lies on one side.
     bool add(const Triangle& t) {
@@ -58,7 +73,7 @@ public:
     }
     [[nodiscard]] bool is_right(std::uint32_t vertex) const {
         const auto side = new_on_right_.find(vertex);
-        return side != new_on_right_.end() ? side->second : positions_[vertex].x >= at_;
+        return side != new_on_right_.end() ? side->second : plane_.height(positions_[vertex]) >= 0;
     }
 
     std::vector<Triangle> parts;
@@ -71,8 +86,8 @@ private:
             cuts_.try_emplace(std::minmax(a, b), std::array{first, first + 1});
         if (is_new) {
             const Double3 p = positions_[a], q = positions_[b];
-            const double t = (at_ - p.x) / (q.x - p.x);
-            const Double3 m = {at_, p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)};
+            const double above = plane_.height(p), t = above / (above - plane_.height(q));
+            const Double3 m = {p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)};
             positions_.insert(positions_.end(), 2, m);
             new_on_right_[first] = false;
             new_on_right_[first + 1] = true;
@@ -81,7 +96,7 @@ private:
     }
 
     std::vector<Double3>& positions_;
-    double at_;
+    Plane plane_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::array<std::uint32_t, 2>> cuts_;
     std::map<std::uint32_t, bool> new_on_right_;
 };
@@ -91,20 +106,37 @@ struct alignas(cdprep::format::kSectionAlignment) Line {
     std::byte bytes[cdprep::format::kSectionAlignment];
 };
 
+/// A live model in memory of its own.
+struct Object {
+    std::vector<Line> room;
+    cdprep::LiveModel live;
+};
+
+std::optional<Object> make_object(const std::vector<Double3>& positions,
+                                  const std::vector<Triangle>& triangles,
+                                  const cdprep::LiveLimits& limits) {
+    const auto arrays = cdprep::build::build_model(positions, triangles);
+    if (!arrays) return std::nullopt;
+    const auto bytes = cdprep::LiveModel::bytes(arrays.value(), limits);
+    if (!bytes) return std::nullopt;
+    std::vector<Line> room(bytes.value() / sizeof(Line) + 1);
+    auto live =
+        cdprep::LiveModel::in(std::as_writable_bytes(std::span(room)), arrays.value(), limits);
+    if (!live) return std::nullopt;
+    return Object{std::move(room), std::move(live).value()};
+}
+
 }  // namespace
 
 int main() {
     Mesh mesh = sheet(40);
-    const auto arrays = cdprep::build::build_model(mesh.positions, mesh.triangles);
     const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
-    const cdprep::LiveLimits limits = {.triangles = 2 * count, .vertices = 2 * count};
-    const auto bytes = cdprep::LiveModel::bytes(arrays.value(), limits);
-    std::vector<Line> room(bytes.value() / sizeof(Line) + 1);
-    auto live =
-        cdprep::LiveModel::in(std::as_writable_bytes(std::span(room)), arrays.value(), limits);
-    if (!live) return 1;
+    auto sheet_object = make_object(mesh.positions, mesh.triangles,
+                                    {.triangles = 2 * count, .vertices = 2 * count});
+    if (!sheet_object) return 1;
+    cdprep::LiveModel& live = sheet_object->live;
 
-    Cut cut(mesh.positions, 0.51);
+    Cut cut(mesh.positions, {{0.51, 0, 0}, {1, 0, 0}});
     std::vector<std::uint32_t> crossing;
     for (std::uint32_t i = 0; i < count; ++i) {
         if (cut.add(mesh.triangles[i])) crossing.push_back(i);
@@ -117,28 +149,31 @@ int main() {
         positions.push_back(mesh.positions[v]);
         positions.back().x += cut.is_right(v) ? 0.2 : 0;
     }
-    const bool is_cut = live.value().remove(crossing).ok() &&
-                        live.value().refit(vertices, positions).ok() &&
-                        live.value().append(cut.parts).ok();
+    const bool is_cut = live.remove(crossing).ok() && live.refit(vertices, positions).ok() &&
+                        live.append(cut.parts).ok();
     if (!is_cut) return 1;
     std::cout << crossing.size() << " triangles were cut into " << cut.parts.size() << "\n";
 
     cdprep::Workspace workspace;
-    const cdprep::Model& model = live.value().model();
     const cdprep::Sphere probe = {{0.61, 0.5, 0}, 0.05};
     std::cout << "the probe between the halves "
-              << (cdprep::touches(model, probe, workspace) ? "touches" : "touches nothing") << "\n";
+              << (cdprep::touches(live.model(), probe, workspace) ? "touches" : "touches nothing")
+              << "\n";
 
-    // Two models: the triangles of each half, whose numbers start again.
-    std::vector<cdprep::LiveTriangle> all(live.value().triangle_count());
-    live.value().triangles(all);
+    // Two models, each of the triangles of one half. Their numbers start again.
+    std::vector<cdprep::LiveTriangle> all(live.triangle_count());
+    live.triangles(all);
+    std::array<std::optional<Object>, 2> halves;
     for (const bool right : {false, true}) {
         std::vector<Triangle> half;
         for (const cdprep::LiveTriangle& t : all) {
             if (cut.is_right(t.vertex[0]) == right) half.push_back({t.vertex});
         }
-        const auto made = cdprep::build::build_model(positions, half);
-        if (!made) return 1;
+        halves[right ? 1 : 0] = make_object(positions, half, {});
+        if (!halves[right ? 1 : 0]) return 1;
         std::cout << (right ? "right" : "left") << " half: " << half.size() << " triangles\n";
     }
+    const cdprep::Pair pair = {halves[0]->live.model(), halves[1]->live.model(),
+                               cdprep::Placement::b_moves({})};
+    std::cout << "they are " << cdprep::distance(pair, workspace)->upper << " apart\n";
 }
