@@ -551,6 +551,9 @@ def main():
     must(len(scenes) >= 3, f"only {len(scenes)} sample scenes")
     for scene in scenes:
         check_schema(SCENE_SCHEMA, json.loads(scene.read_text()), scene)
+        plan_of(program, scene)
+        _, summary = simulate(program, scene, "--frames", 2)
+        must(summary["frames"] == 2, f"{scene}: {summary}")
     the_plans(program)
     for check in (the_crates, the_assembly, the_lists, the_clusters, the_thousand):
         with tempfile.TemporaryDirectory() as scratch:

@@ -189,7 +189,7 @@ TEST(Window, CompleteAnswersAreThoseAboutTheWholeModel) {
     const OwnedLive torn = torn_torus();
     const std::array<const Model*, 3> models = {&floats.model, &doubles.model,
                                                 &torn.object.model()};
-    const int kSteps = rounds(1'000'000, 10) / 9;
+    const int kSteps = (rounds(1'000'000, 10) + 8) / 9;
     Met met;
     for (const Model* all : models) {
         for (const unsigned kind : {0U, 1U, 2U}) {
