@@ -455,6 +455,10 @@ def mistakes(program, folder):
                                      '"objects": [{"name": "x", "model": "none.obj", '
                                      '"layer": "b"}],\n"colour": 3}\n')
     (folder / "no.json").write_text('{"cdprep_scene": 1,\n"layers" ["a"]}\n')
+    robots = {"arm.urdf": ("URDF", '<?xml version="1.0"?>\n<robot name="arm"/>\n'),
+              "arm.sdf": ("SDF", '<sdf version="1.9"/>\n'), "arm.xml": ("MJCF", "<mujoco/>\n")}
+    for name, (_, text) in robots.items():
+        (folder / name).write_text(text)
     (folder / "broken.obj").write_text("v 1 2 3\nf 1 2 3\n")
     pairs = [{"layers": ["a", "a"], "effects": ["collide"]}]
     (folder / "short.obj").write_text("v 1 2\n")
@@ -481,6 +485,8 @@ def mistakes(program, folder):
         ([], 2, ["scene is required"]),
         ([folder / "missing.json"], 3, ["missing.json"]),
         ([folder / "no.json"], 3, ["no.json: line 2: this is not JSON"]),
+        *(([folder / name], 3, [f"{name}: this is {form}, which joins bodies"])
+          for name, (form, _) in robots.items()),
         ([folder / "bad.json"], 3, ["bad.json: line 4: /colour: 'colour' is not a key here",
                                     "line 3: /objects/0/model: there is no file",
                                     "line 3: /objects/0/layer: 'b' is not a layer"]),

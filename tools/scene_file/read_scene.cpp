@@ -462,6 +462,17 @@ private:
     std::set<std::string> names_;
 };
 
+/// Returns the name of a format for robots, by its root element; or null.
+const char* robot_format(std::string_view bytes) {
+    constexpr std::size_t kLookedAt = 4096;
+    const std::string_view start = bytes.substr(0, kLookedAt);
+    if (!start.starts_with('<')) return nullptr;
+    const auto has = [&](const char* element) {
+        return start.find(element) != std::string_view::npos;
+    };
+    return has("<robot") ? "URDF" : has("<sdf") ? "SDF" : has("<mujoco") ? "MJCF" : nullptr;
+}
+
 }  // namespace
 
 SceneReading parse_scene(const std::string& name, const std::string& text, const fs::path& folder) {
@@ -475,6 +486,11 @@ SceneReading parse_scene(const std::string& name, const std::string& text, const
 SceneReading read_scene(const fs::path& path) {
     const Result<import::SourceFile> file = import::SourceFile::open(path, kMostBytes);
     if (!file) return {std::nullopt, {file.error().message}};
+    if (const char* format = robot_format(file->bytes())) {
+        return {std::nullopt,
+                {path.string() + ": this is " + format +
+                 ", which joins bodies; a scene has no joints. Give a scene file or glTF."}};
+    }
     return parse_scene(path.string(), std::string(file->bytes()), path.parent_path());
 }
 
