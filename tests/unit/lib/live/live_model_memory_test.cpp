@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "cdprep/live_model.h"
@@ -62,7 +63,7 @@ TEST(LiveModel, AHundredFramesAllocateNothingAndAnswerAsBruteForce) {
 }
 
 // A sheet loses a hundredth of its triangles each frame and gets it back. Other triangles come and
-// go in turn, so that all subtrees are distributed anew.
+// go in turn, so that all subtrees are distributed anew. The sheet waves, and is rebuilt.
 TEST(LiveTear, AThousandFramesAllocateNothing) {
     const TestMesh sheet = grid_sheet(40, 40);
     const auto count = static_cast<std::uint32_t>(sheet.triangles.size());
@@ -76,9 +77,18 @@ TEST(LiveTear, AThousandFramesAllocateNothing) {
     LiveModel& object = made.value();
     std::vector<std::uint32_t> numbers(count);
     std::iota(numbers.begin(), numbers.end(), 0U);
+    std::vector<Double3> positions = sheet.positions;
+    std::size_t rebuilt = 0;
     const std::size_t before = most = used;
     bool is_done = true;
     for (std::uint32_t frame = 0; frame < 1000; ++frame) {
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const Double3& p = sheet.positions[i];
+            positions[i].z = 3 * std::sin(0.3 * frame + 5 * p.x);
+            positions[i].x = p.x * (1 + std::sin(0.1 * frame + 9 * p.y));
+        }
+        is_done = is_done && object.refit(positions).ok();
+        rebuilt += object.rebuild(1'000'000);
         const std::size_t size = count / 100, first = frame * 7 * size % (count - size);
         const auto gone = std::span(numbers).subspan(first, size);
         is_done = is_done && object.remove(gone).ok();
@@ -88,6 +98,7 @@ TEST(LiveTear, AThousandFramesAllocateNothing) {
     }
     EXPECT_EQ(most, before);
     EXPECT_TRUE(is_done);
+    EXPECT_GT(rebuilt, 10U * count);
 }
 
 }  // namespace
