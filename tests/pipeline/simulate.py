@@ -537,7 +537,7 @@ def the_effects(program, folder):
 def the_help(program):
     """It states the defaults of bodies."""
     told = " ".join(run(program, "simulate", "--help").stdout.split())
-    must("4 substeps, with 50 iterations" in told and "`dynamics`" in told, told)
+    must("4 substeps, and the solver takes 50 iterations" in told and "`dynamics`" in told, told)
 
 
 def an_interrupt(program):
