@@ -44,9 +44,9 @@ struct LiveTriangle {
 ///
 /// A model made with LiveLimits can tear: append() and remove() change its triangles. After the
 /// first such call, model().is_torn() is true. The model then counts as open, without winding and
-/// components, so only boxes and surfaces decide about solids. Some places of its tree order have no triangle.
-/// model().triangle_count() counts places, but is 0 without triangles. The mesh() and source()
-/// views have an element for each place.
+/// components, so only boxes and surfaces decide about solids. Some places of its tree order have
+/// no triangle. model().triangle_count() counts places, but is 0 without triangles. The mesh() and
+/// source() views have an element for each place.
 ///
 /// A scene finds changes itself if the layers ask for Ask::deform or Ask::tear. Otherwise call
 /// set_pose() for each object of the model after a change. Caches stay valid: after a change,
