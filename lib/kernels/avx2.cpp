@@ -5,7 +5,6 @@
 
 #include <cassert>
 
-#include "avx_rows.h"
 #include "set_bits.h"
 
 namespace cdprep::kernels {
@@ -246,20 +245,10 @@ inline F8 floats_of(const D8& a) noexcept {
     return _mm256_set_m128(_mm256_cvtpd_ps(a.y), _mm256_cvtpd_ps(a.x));
 }
 
-inline void load_points(const float* positions, const std::uint32_t* vertices,
-                        F8 (&row)[3]) noexcept {
-    __m256 loaded[3];
-    load_eight_points(positions, vertices, loaded);
-    for (std::size_t i = 0; i < 3; ++i) row[i] = loaded[i];
-}
-inline F8 least_of_rows(const F8 (&row)[8]) noexcept {
-    return least_of_eight(
-        {row[0].x, row[1].x, row[2].x, row[3].x, row[4].x, row[5].x, row[6].x, row[7].x});
-}
-
 }  // namespace
 }  // namespace cdprep::kernels
 
+#include "avx_rows.h"
 #include "table_of.h"
 
 namespace cdprep::kernels {

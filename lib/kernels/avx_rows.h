@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows of eight floats that AVX2 and AVX-512 make alike; see exact_leaf.h. Included by their
-// sources alone, below <immintrin.h>.
+// sources alone, below their lanes.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ inline void load_four_points(const float* positions, const std::uint32_t* vertic
 }
 
 /// Loads the points of eight numbers, three numbers apart: a row for each coordinate.
-inline void load_eight_points(const float* positions, const std::uint32_t* vertices,
-                              __m256 (&row)[3]) noexcept {
+inline void load_points(const float* positions, const std::uint32_t* vertices,
+                        F8 (&row)[3]) noexcept {
     __m128 lower[3], upper[3];
     load_four_points(positions, vertices, lower);
     load_four_points(positions, vertices + 12, upper);
@@ -37,10 +37,10 @@ inline void load_eight_points(const float* positions, const std::uint32_t* verti
 
 /// Reduces eight rows to the least lane of each. Compares a lane with the one four after it, then
 /// two, then one. So it chooses among zeros with both signs as build::least() does.
-inline __m256 least_of_eight(const __m256 (&row)[8]) noexcept {
+inline F8 least_of_rows(const F8 (&row)[8]) noexcept {
     const auto fours = [&](std::size_t i) {
-        const __m256 first = _mm256_permute2f128_ps(row[i], row[i + 4], 0x20);
-        return _mm256_min_ps(_mm256_permute2f128_ps(row[i], row[i + 4], 0x31), first);
+        const __m256 first = _mm256_permute2f128_ps(row[i].x, row[i + 4].x, 0x20);
+        return _mm256_min_ps(_mm256_permute2f128_ps(row[i].x, row[i + 4].x, 0x31), first);
     };
     const auto twos = [&](std::size_t i) {
         const __m256 a = fours(i), b = fours(i + 1);

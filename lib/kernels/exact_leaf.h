@@ -51,7 +51,7 @@ unsigned lanes_with_area(const F (&corner)[3][3], std::size_t axis) noexcept {
 }
 
 /// Returns the least floats that are at least x, as build::float_above(). Let r be the nearest
-/// float, r < x, and r + e the next one. More than e / 2 and less than 3 e / 2 is added to r, so
+/// float, r < x, and r + e the next one. More than e / 2 and less than 3 e / 2 is added to r. So
 /// the sum rounds to r + e. For e is from |r| 2^-24 to |r| 2^-23 or, of subnormal numbers, 2^-149.
 template <class D>
 auto floats_above(const D& x) noexcept {
