@@ -49,8 +49,8 @@ struct DistanceBudget {
     /// to 64 pairs of triangles may exceed it. These are in the last pair of leaves of a search for
     /// contact, or are about equally near. The latter are measured again at the end.
     ///
-    /// For a limit of time, measure the rate once: the time of many answers, divided by the sum of
-    /// their BoundedDistance::work. The limit divided by the rate is the work.
+    /// For a limit of time, measure the rate once. It is the time of many answers, divided by the
+    /// sum of their BoundedDistance::work. The limit divided by the rate is the work.
     std::uint64_t work = 0;
     /// Receives each complete answer, and counts late ones; or null.
     LastDistance* last = nullptr;

@@ -43,8 +43,8 @@ public:
 
     /// Ends the step: the positions of the model are those at time 1. A triangle that was appended
     /// within the step starts at its vertices' positions at time 0. Vertices that had none start
-    /// where the first vertex of the base was, or at the origin if it had none. A triangle that was
-    /// removed within the step is nowhere. Takes O(n) time.
+    /// where the first vertex of the base was. If the base was empty, they start at the origin. A
+    /// triangle that was removed within the step is nowhere. Takes O(n) time.
     CDPREP_API void end() noexcept;
 
     /// Returns whether queries may use the sweep. The step must have ended, and the model must be
@@ -73,10 +73,10 @@ private:
 /// `false` is proven: no triangle of one touches a triangle of the other at any time of the step.
 /// `true` means that the convex hull of a triangle's path, relative to B, comes near a triangle of
 /// B. It does not say whether they touch, nor when. may_touch() does not test containment:
-/// collide() with Body::solid does. Nor does it test a model against itself, two models that both
-/// deform, or triangles that were removed within the step. A hull ignores that its triangle is in
-/// one place at a time. So a step with less motion gives fewer false alarms. If B turns by more
-/// than a quarter of a radian, the step is tested in parts, at most 64.
+/// collide() with Body::solid does. It does not test a model against itself, or two models that
+/// both deform. Triangles that were removed within the step are left out. A hull ignores that its
+/// triangle is in one place at a time. So a step with less motion gives fewer false alarms. If B
+/// turns by more than a quarter of a radian, the step is tested in parts, at most 64.
 ///
 /// Requires sweep.is_current(). Needs Ask::within of B. Takes as long as within() with a tolerance
 /// of half of B's motion. Each pair of triangles near each other takes about 1 us more for each

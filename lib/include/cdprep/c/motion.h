@@ -118,8 +118,8 @@ CDPREP_API int cdprep_sweep_start_step(cdprep_sweep* sweep, cdprep_error* error)
 
 /* Completes the step: the positions of the model are those at time 1. A triangle that was appended
  * within the step starts at its vertices' positions at time 0. Vertices that had none start where
- * the first vertex of the base was, or at the origin if it had none. A triangle that was removed
- * within the step is nowhere. Takes O(n) time. */
+ * the first vertex of the base was. If the base was empty, they start at the origin. A triangle
+ * that was removed within the step is nowhere. Takes O(n) time. */
 CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Both functions find the pairs of triangles that may touch during the step. Triangle `a` is of the
