@@ -452,15 +452,31 @@ const char* structure_text(PairQuestion question) {
     }
 }
 
-constexpr const char* kSceneNotes =
-    "A scene file pairs layers. The command queries the parts of paired layers, with the pair's "
-    "tolerance, max_distance, body and overlap. Options replace these. If the file has no pairs, "
-    "every part is queried against every other. In a glTF file, each node with triangles is a "
-    "part, named by its path. Later nodes of the same path get #2, #3 and so on. Nodes that use "
-    "one mesh share its model. A transform that is not rigid is applied to the vertices. One that "
-    "deviates from a rigid one by at most 1e-5 is rounded to it; the summary states the largest "
-    "deviation as 'rounding'. The answers are exact for the resulting parts. Touching parts clash. "
-    "The lines do not depend on the number of threads.";
+/// Returns what a query of a scene reads of the file's pairs of layers.
+std::string read_of_pairs(PairQuestion question) {
+    switch (question) {
+        case PairQuestion::within:
+            return "each with its pair's tolerance. --tolerance replaces it. ";
+        case PairQuestion::distance:
+            return "each with its pair's max_distance and body. --max-distance and --as replace "
+                   "them. ";
+        default:
+            return "each with its pair's overlap and body. --contact and --as replace them. ";
+    }
+}
+
+std::string scene_notes(PairQuestion question) {
+    return "A scene file pairs layers. The command queries the parts of paired layers, " +
+           read_of_pairs(question) +
+           "If the file has no pairs, every part is queried against every other. In a glTF file, "
+           "each node with triangles is a part, named by its path. Later nodes of the same path "
+           "get #2, #3 and so on. Nodes that use one mesh share its model. A transform that is not "
+           "rigid is applied to the vertices. One that deviates from a rigid one by at most 1e-5 "
+           "is "
+           "rounded to it; the summary states the largest deviation as 'rounding'. The answers are "
+           "exact for the resulting parts. Touching parts clash. The lines do not depend on the "
+           "number of threads.";
+}
 
 void add_pair_format(const Command& command, std::string& word, bool serves_scenes) {
     if (!serves_scenes) {
@@ -485,7 +501,7 @@ void set_pair_notes(const Command& command, PairQuestion question) {
     if (question == PairQuestion::collide) return command.set_notes("", examples);
     examples.push_back(call + " --scene samples/scenes/assembly.json" + tolerance);
     examples.push_back(call + " --scene robot.glb" + tolerance);
-    command.set_notes(kSceneNotes, examples);
+    command.set_notes(scene_notes(question), examples);
 }
 
 void add_question(const Command& query, PairQuestion question, const char* name,

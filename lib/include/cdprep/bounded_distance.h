@@ -69,7 +69,7 @@ struct DistanceBudget {
 /// nothing of the gap is left, a search for contact comes first, with about half of the work.
 ///
 /// Reads no pair options: it is about surfaces, through the BVHs. `options` are read as in
-/// distance(). With max_distance NaN or negative, nothing is found. Needs Ask::distance of both
+/// distance(). If max_distance is NaN or negative, no pair is found. Needs Ask::distance of both
 /// models. Takes as long as distance(), and less without contact. A late answer takes time in
 /// proportion to budget.work: the caller measures how much (tests/bench/haptic_bench). A late
 /// answer depends on the instruction set, because the counted work does. Never allocates, locks or

@@ -69,11 +69,11 @@ struct BroadPhaseUpdate {
 
 /// Finds the pairs of boxes that meet, as boxes move. Touching counts.
 ///
-/// Each box gets a larger box around it, and pairs of larger boxes are kept from update to update.
-/// Only boxes that leave their larger box are searched for again, in a tree of eight boxes a node.
-/// If many leave, all pairs are searched for anew without larger boxes. The tree follows the
-/// Z-order curve (Morton 1966). The answer does not depend on which search was used, or on the
-/// threads.
+/// Each box gets a larger box around it, and pairs of larger boxes that meet are kept from update
+/// to update. Only boxes that leave their larger box are searched for again, in a tree of eight
+/// boxes a node. If many leave, all pairs are searched for anew without larger boxes. The tree
+/// follows the Z-order curve (Morton 1966). The answer does not depend on which search was used, or
+/// on the threads.
 ///
 /// An update takes O(n + pairs) time if few boxes leave. Otherwise, it takes O(n log n + pairs) for
 /// boxes of similar size that are spread out. If all boxes meet, every pair is tested.

@@ -144,14 +144,14 @@ struct ContactsVerdict {
 /// has these features, it names those of the nearest triangles and has their distance. The distance
 /// interval is no wider than that of convex_distance(). A piece is contained if its hull lies
 /// within the solid. Two pieces overlap if their hulls overlap and either their triangles touch or
-/// both pieces are contained. Then `normal` is the direction of the shortest separating translation
-/// that does not snag. The candidates are the face normals of both hulls and the directions
-/// perpendicular to an edge of each. If the hulls overlap but the pieces do not, the contact has
-/// the distance of the triangles. If several pairs of points are equally near, as between parallel
-/// faces, the contact has one of them. If the pieces do not overlap, the normal is the direction of
-/// the shortest line between them. If it snags at a feature, it is turned until it no longer tilts
-/// across the feature's edges. If either feature is a face, the normal is turned only if it tilts
-/// across a flat edge.
+/// both pieces are contained. Then `normal` is the direction of the shortest separating
+/// translation, unless that one snags (see below). The candidates are the face normals of both
+/// hulls and the directions perpendicular to an edge of each. If the hulls overlap but the pieces
+/// do not, the contact has the distance of the triangles. If several pairs of points are equally
+/// near, as between parallel faces, the contact has one of them. If the pieces do not overlap, the
+/// normal is the direction of the shortest line between them. If it snags at a feature, it is
+/// turned until it no longer tilts across the feature's edges. If either feature is a face, the
+/// normal is turned only if it tilts across a flat edge.
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
 /// vertex, the tilt counts only if a triangle there reaches farther along the translation than the
@@ -159,7 +159,8 @@ struct ContactsVerdict {
 /// If the shortest translation snags, the shortest one that does not is used, and
 /// contact_internal_edge is set. A translation less than half as long as that one is preferred,
 /// even if it tilts across a reflex edge. It must not tilt across a flat edge or lead deeper into a
-/// solid. `upper` is still minus the length of the shortest separating translation. If that one
+/// solid. If all translations snag, the shortest one that leads out of the solid is turned until it
+/// does not. `upper` is still minus the length of the shortest separating translation. If that one
 /// does not snag, `lower` and `upper` are equal up to rounding. Bodies may overlap by more than the
 /// size of a piece. Then a contact separates its two pieces only, not the bodies: push by the
 /// deepest, and query again. Inside a solid, the inner side of a wall may be near
@@ -177,18 +178,18 @@ struct ContactsVerdict {
 ///
 /// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
 /// are the corners of one face, clipped by the other. Each distance is that between the two faces
-/// there, along the normal. A face may lean by 0.03 radians against the normal. Faces that are
-/// nearly parallel do, where their edges cross. The deepest point is first, then those that span
-/// the largest area.
+/// there, along the normal. The clipping face may be up to 0.03 radians from perpendicular to the
+/// normal. Nearly parallel faces are, where their edges cross. The deepest point is first, then
+/// those that span the largest area.
 ///
 /// The answer is the same on every processor. With Body::surface, a piece inside another's hull
 /// makes a contact only within the tolerance of the other's triangles.
 ///
 /// Reads the options body, degenerate and through of the pair. The only structure beside the BVH is
 /// Structure::pieces, which is slower (1.7 times for near poses, 1.1 times for others). Needs
-/// Ask::contacts of both models; Body::solid also Ask::solid, and options.through its ask_of(). A
-/// deep contact reads hulls if the models serve Ask::hulls. Takes the time of pairs_within(), plus
-/// 5 to 10 microseconds per contact and 1 more with a manifold (tests/bench/results, contacts.csv).
+/// Ask::contacts of both models, Ask::solid with Body::solid, and ask_of(options.through). A deep
+/// contact reads hulls if the models serve Ask::hulls. Takes the time of pairs_within(), plus 5 to
+/// 10 microseconds per contact and 1 more with a manifold (tests/bench/results, contacts.csv).
 /// Body::solid adds the time of containment(). Never allocates.
 [[nodiscard]] CDPREP_API ContactsVerdict contacts(const Pair& pair, Workspace& workspace,
                                                   std::span<Contact> room,
@@ -198,8 +199,8 @@ using ContactVisitor = Visitor<Contact>;
 
 /// Calls `visit` once with every contact that contacts() finds without options.most and
 /// options.cluster_angle. The order is the same: by pieces, then those of enclosed components.
-/// Returns false if `visit` or options.work ended the search. Needs Ask::contacts of
-/// both models; Body::solid also Ask::solid, and options.through its ask_of().
+/// Returns false if `visit` or options.work ended the search. Needs Ask::contacts of both models,
+/// Ask::solid with Body::solid, and ask_of(options.through).
 CDPREP_API bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                                const ContactOptions& options = {}) noexcept;
 

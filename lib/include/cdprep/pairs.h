@@ -93,9 +93,9 @@ struct Collision {
 /// if a nonzero winding number proves that one is inside the other. See containment() for open
 /// models. As exact as overlaps().
 ///
-/// Reads all options. Needs Ask::collide of both models; Body::solid also Ask::solid, and
-/// options.through its ask_of(). Takes O(log n) time for most poses. With a cache, takes O(1) time
-/// if the last hit recurs, or the models moved less than a proven gap. Never allocates.
+/// Reads all options. Needs Ask::collide of both models, Ask::solid with Body::solid, and
+/// ask_of(options.through). Takes O(log n) time for most poses. With a cache, takes O(1) time if
+/// the last hit recurs, or the models moved less than a proven gap. Never allocates.
 [[nodiscard]] CDPREP_API Collision collide(const Pair& pair, Workspace& workspace) noexcept;
 
 /// Returns whether some component of one model lies inside the other. The surfaces of the two
@@ -228,9 +228,9 @@ struct Distance {
 /// permitted errors, the width is at most the larger of this bound and the permitted error.
 ///
 /// Reads pair.options.body and through; the only structure beside the BVH is Structure::pieces.
-/// Needs Ask::distance of both models; Body::solid also Ask::solid, and options.through its
-/// ask_of(). Takes O(log n) time for typical meshes. Visits every triangle in the worst case,
-/// such as concentric spheres. Never allocates.
+/// Needs Ask::distance of both models, Ask::solid with Body::solid, and ask_of(options.through).
+/// Takes O(log n) time for typical meshes. Visits every triangle in the worst case, such as
+/// concentric spheres. Never allocates.
 [[nodiscard]] CDPREP_API std::optional<Distance> distance(
     const Pair& pair, Workspace& workspace, const DistanceOptions& options = {}) noexcept;
 

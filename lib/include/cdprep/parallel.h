@@ -32,8 +32,8 @@ namespace cdprep {
 /// There must be at least one workspace. The batch uses one thread per workspace. Calls
 /// `parallel_for` at most once. Processes min(pairs.size(), answers.size()) pairs. Never allocates.
 /// Starting a batch takes a few microseconds, so it pays off from about ten pairs. These rules also
-/// hold for the batches below. Needs Ask::collide of both models of a pair; Body::solid also
-/// Ask::solid.
+/// hold for the batches below. Needs Ask::collide of both models of a pair, and Ask::solid with
+/// Body::solid.
 ///
 ///     std::vector<cdprep::Workspace> workspaces(4);
 ///     std::vector<cdprep::Collision> answers(pairs.size());

@@ -72,9 +72,9 @@ struct LayerPair {
 ///
 /// Flags: a `no` is right. A `yes` may be wrong if the exact distance is above the threshold by at
 /// most PairRung::error, plus rounding. The threshold is 0 for `collide`, max_distance for
-/// `distance`, and the tolerance for `within`. `within` is exact unless distances of surfaces are
-/// asked too, and `collide` unless parts tell the distance. While `distance` is paused, both are
-/// exact. So are all other effects: they are as cheap.
+/// `distance`, and the tolerance for `within`. `within` is exact unless the pair also has
+/// `distance` of surfaces. `collide` is exact unless parts decide it. While `distance` is paused,
+/// both are exact. So are all other effects: they are as cheap.
 ///
 /// Levels of a tetra-tree are no rung: a scene does not need cdprep::cells, a library of its own.
 enum class Rung : std::uint8_t {
@@ -82,10 +82,9 @@ enum class Rung : std::uint8_t {
     walk,
     /// Of solids: through their enclosing parts (EnclosingParts). Witnesses lie on parts, as far
     /// from the solids as the parts' errors say, and have no triangles: kNoTriangleNumber. If parts
-    /// touch, solids collide, unless Overlap::proper is asked, which is exact. `collide` then tells
-    /// no
-    /// containment. Two objects whose own parts do
-    /// not certify PairRung::error take the walk.
+    /// touch, solids count as colliding, and `collide` reports no containment. With
+    /// Overlap::proper, `collide` is exact and reports it. Two objects whose own parts do not
+    /// certify PairRung::error take the walk.
     parts,
 };
 

@@ -69,8 +69,8 @@ struct Impact {
 /// a time without contact. Where the surfaces are close, each pair of triangles has a bound of its
 /// own, along the direction between them. C2A does the same for boxes (Tang, Kim and Manocha 2009).
 ///
-/// Needs Ask::distance of both models; Body::solid also Ask::solid. Takes a distance query for each
-/// step, most of them with a PairCache, and one for the nearest points. Near a contact it also
+/// Needs Ask::distance of both models, and Ask::solid with Body::solid. Takes a distance query for
+/// each step, most of them with a PairCache, and one for the nearest points. Near a contact it also
 /// takes some collide() queries. A pair that passes without coming near takes 2 or 3 steps, an
 /// impact 10 or so. Never allocates.
 [[nodiscard]] CDPREP_API Impact time_of_impact(const MovingPair& pair, Workspace& workspace,

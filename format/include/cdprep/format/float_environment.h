@@ -76,8 +76,9 @@ public:
     template <class Call>
     decltype(auto) outside(Call&& call) {
 #if defined(__GNUC__)
-        // The values that the call reads are computed before it, in the default environment. With
-        // Visual C++, only set_float_control() keeps the order, because it is never inlined.
+        // This barrier makes the compiler compute the values that the call reads before the
+        // environment changes. With Visual C++, only set_float_control() keeps the order, because
+        // it is never inlined.
         asm volatile("" : : "r"(&call) : "memory");
 #endif
         const Outside left(*this);

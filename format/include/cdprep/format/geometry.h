@@ -33,8 +33,8 @@ struct Triangle {
 /// Box j of node i of level 0 contains the eight triangles from 8 (8i + j) on, in tree order. Box j
 /// of node i of level l > 0 contains node 8i + j of level l - 1. So there are no child links. The
 /// triangle count alone fixes the shape (bvh_shape.h), and no file can contain a cycle. Nodes are
-/// stored level by level, root first. A box is unused if the level below has no such node or leaf.
-/// Unused boxes have lower = 1, upper = -1.
+/// stored level by level, root first. Box j is unused if the level below has no node 8i + j. Below
+/// level 0, that is a leaf of eight triangles. Unused boxes have lower = 1, upper = -1.
 ///
 /// Coordinates are frame coordinates, (x - frame_origin) * 2^frame_exponent (FileHeader), rounded
 /// outwards. Every vertex of every triangle below lies in the box in exact arithmetic. So a reader
@@ -50,8 +50,8 @@ struct BvhNode {
 /// A box is centre + sum of t_k axis_k with |t_k| <= half_k. The third axis is axis[0] x axis[1].
 /// Axis 0 is the one along which the box is thinnest. Axes are orthonormal up to float rounding.
 /// The half extents are enlarged so that the box contains every vertex below. This holds for the
-/// stored axes, however a reader rounds the third axis. Centres and half extents are in frame
-/// coordinates. Unused boxes have centre 0, axes x and y, half -1.
+/// stored axes and any rounding of the third. Centres and half extents are in frame coordinates.
+/// Unused boxes have centre 0, axes x and y, half -1.
 struct OrientedNode {
     std::array<std::array<std::array<float, kBvhWidth>, 3>, 2> axis;  ///< [axis][component][box]
     std::array<std::array<float, kBvhWidth>, 3> centre;               ///< [component][box]

@@ -60,9 +60,9 @@ struct FeatureCache {
 /// Returns the features of two hulls that are nearest to each other. Returns nothing if the hulls
 /// have a common point, as convex_collide() decides exactly, or if one has no points.
 ///
-/// The bounds are as tight as those of convex_distance() without permitted errors. If several pairs
-/// of features are nearest, the result is one of them and may depend on the cache. If a nearest
-/// point lies on the border of two features, up to rounding, the result may be either feature.
+/// The bounds are as tight as those of convex_distance() with default options. If several pairs of
+/// features are nearest, the result is one of them and may depend on the cache. If a nearest point
+/// lies on the border of two features, up to rounding, the result may be either feature.
 ///
 /// With a cache, uses the method of Lin and Canny (1991). It walks to a neighbouring feature as
 /// long as that is nearer. This takes O(1) time if the hulls have moved little. The farthest points

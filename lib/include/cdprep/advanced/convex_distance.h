@@ -27,8 +27,9 @@ namespace cdprep {
 
 /// The simplex with which the last GJK query about two hulls ended, as point numbers. The caller
 /// owns it. The next query about the same two hulls begins there: the less they have moved, the
-/// less time it takes. Any content is allowed and gives the same yes or no. Bounds may differ in
-/// their last digits. Use one cache for each pair of hulls and thread. All zero is a new cache.
+/// less time it takes. Any content is allowed: it never changes whether hulls collide or are within
+/// a tolerance. Bounds may differ in their last digits, or by the errors that options permit. Use
+/// one cache for each pair of hulls and thread. All zero is a new cache.
 struct ConvexCache {
     std::uint32_t count = 0;           ///< used elements of `a` and `b`, at most 4
     std::array<std::uint32_t, 4> a{};  ///< points of A

@@ -39,9 +39,9 @@ enum { CDPREP_LAYERS = 32 }; /* the number of layers of a scene; an object is in
  *
  * An effect that does not hold is proven not to. One may hold if the exact distance is above its
  * limit by at most that error. The limits are 0 for collide, max_distance for distance and
- * tolerance for within. Within is exact unless distance of CDPREP_SURFACE is asked too. Collide is
- * exact unless parts tell the distance; it then tells no containment. While distance is paused,
- * both are exact. All other effects are exact. */
+ * tolerance for within. CDPREP_ASK_WITHIN is exact unless the pair also has CDPREP_ASK_DISTANCE and
+ * CDPREP_SURFACE. CDPREP_ASK_COLLIDE is exact unless parts decide it; then no containment is
+ * reported. While distance is paused, both are exact. All other effects are exact. */
 typedef struct cdprep_layer_pair {
     cdprep_head head;
     uint32_t a, b; /* 0: below CDPREP_LAYERS */
@@ -345,7 +345,7 @@ enum {
 /* The reason of an event. */
 enum {
     /* An object moved, changed or was added, or cdprep_scene_step_with() got other pairs. With
-     * CDPREP_ASK_CONTINUOUS, also in the step after the last motion. */
+     * CDPREP_ASK_CONTINUOUS, an object also counts as moved in the step after its last motion. */
     CDPREP_REASON_MOVED = 0,
     CDPREP_REASON_REMOVED = 1,   /* an object was removed */
     CDPREP_REASON_RELAYERED = 2, /* an object is in another layer than in the last step */
@@ -366,9 +366,9 @@ typedef struct cdprep_event {
 } cdprep_event;
 
 /* Each function stores the address of an array, and the number of its elements. The array belongs
- * to the scene. It is that of the last complete step, and stays until the next one or the end of
- * the scene. Before the first step it is empty. Each kind of result has a function of its own. A
- * result struct never changes, so later kinds come as new functions. */
+ * to the scene. It is that of the last complete step, and valid until the next complete step or the
+ * end of the scene. Before the first step it is empty. Each kind of result has a function of its
+ * own. A result struct never changes, so later kinds come as new functions. */
 CDPREP_API int cdprep_scene_hits(const cdprep_scene* scene, const cdprep_scene_hit** hits,
                                  size_t* count, cdprep_error* error);
 CDPREP_API int cdprep_scene_overlaps(const cdprep_scene* scene,
@@ -402,8 +402,8 @@ CDPREP_API int cdprep_scene_hash(const cdprep_scene* scene, uint64_t* hash, cdpr
  * that was complete. */
 enum {
     CDPREP_SCENE_OBJECTS = 0, /* objects in the scene now */
-    /* Objects that moved, changed, were added, removed or relayered. With CDPREP_ASK_CONTINUOUS,
-     * also in the step after their last motion. */
+    /* Objects that moved, changed, were added, removed or relayered. With CDPREP_ASK_CONTINUOUS, an
+     * object also counts as moved in the step after its last motion. */
     CDPREP_SCENE_MOVED = 1,
     CDPREP_SCENE_CANDIDATES = 2, /* pairs of objects whose boxes meet, and objects of self */
     CDPREP_SCENE_KEPT = 3,       /* of the candidates: neither object moved, so none is asked */
@@ -547,13 +547,13 @@ CDPREP_API int cdprep_plan_layer(const cdprep_plan* plan, uint32_t layer, cdprep
 
 /* Stores the axis-aligned box around a model as `world_from_model` moves it, enlarged by `reach` on
  * all sides, in model units. It contains every vertex as the pose moves it. It is absent if the
- * model has no triangles. The box is relative to `origin`, 3 numbers; null is 0. All boxes of a
- * broad phase must have the same origin. Numbers beyond the largest float are rounded outwards, so
- * that an upper limit is infinite. Far from the origin, rounding to float widens the box: at 10^7
- * by about a unit on each side. If two models are at most d apart, their boxes with a reach of
- * d / 2 each meet. Takes some 100 ns. On failure the box is absent.
- * Errors: CDPREP_WHY_NOT_RIGID; CDPREP_WHY_NOT_FINITE and CDPREP_WHY_OUT_OF_RANGE for numbers.
- * CDPREP_WHY_NOT_BAKED or _NOT_OPENED for a model without a BVH (section bvh_nodes). */
+ * model has no triangles. The box is relative to the point `origin`, 3 numbers. A null `origin`
+ * means the point 0 0 0. All boxes of a broad phase must have the same origin. Numbers beyond the
+ * largest float are rounded outwards, so that an upper limit is infinite. Far from the origin,
+ * rounding to float widens the box: at 10^7 by about a unit on each side. If two models are at most
+ * d apart, their boxes with a reach of d / 2 each meet. Takes some 100 ns. On failure the box is
+ * absent. Errors: CDPREP_WHY_NOT_RIGID; CDPREP_WHY_NOT_FINITE and CDPREP_WHY_OUT_OF_RANGE for
+ * numbers. CDPREP_WHY_NOT_BAKED or _NOT_OPENED for a model without a BVH (section bvh_nodes). */
 CDPREP_API int cdprep_model_box(const cdprep_model* model, const cdprep_pose* world_from_model,
                                 double reach, const double* origin, cdprep_world_box* around,
                                 cdprep_error* error);
@@ -561,9 +561,8 @@ CDPREP_API int cdprep_model_box(const cdprep_model* model, const cdprep_pose* wo
 /* Stores the address of an array of boxes and the number of its elements, which is max_objects. Box
  * i is that of slot i in the next step, relative to the plan's origin. It contains the object as it
  * is now, and its part of the tolerances. With CDPREP_ASK_CONTINUOUS, it contains the whole way.
- * Free slots have absent boxes. The array belongs to the
- * scene, and stays until the scene changes. Takes O(changed objects) time. Errors:
- * CDPREP_WHY_BUSY. */
+ * Free slots have absent boxes. The array belongs to the scene, and stays until the scene changes.
+ * Takes O(changed objects) time. Errors: CDPREP_WHY_BUSY. */
 CDPREP_API int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** boxes,
                                   size_t* count, cdprep_error* error);
 

@@ -26,7 +26,7 @@ struct Octree {
     std::vector<std::uint32_t> top;            ///< first leaf of each cell of grid.top_level
     std::vector<std::uint32_t> modulus_table;  ///< published form: chained, slot by last key bits
     std::vector<std::uint32_t> mixed_table;    ///< the same, slot by a mixed key
-    std::vector<format::CellBox> boxes;        ///< around the contents of the nodes
+    std::vector<format::CellBox> boxes;        ///< one per node, around its contents
 };
 
 struct OctreeOptions {

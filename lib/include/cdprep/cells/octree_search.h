@@ -45,7 +45,7 @@ struct OctreeIndex {
 [[nodiscard]] CDPREP_API std::uint64_t code_of_point(const format::OctreeGrid& grid,
                                                      const Double3& p) noexcept;
 
-/// Returns the key of the cell of `level` that contains the finest cell `code`.
+/// Returns the key of the cell of `level` that contains the finest cell with Z-order code `code`.
 inline std::uint64_t key_at(std::uint64_t code, std::uint32_t level) noexcept {
     assert(level <= format::kOctreeBits && code >> (3 * format::kOctreeBits) == 0);
     return (std::uint64_t{1} << (3 * level)) | (code >> (3 * (format::kOctreeBits - level)));
