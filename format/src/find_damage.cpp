@@ -322,8 +322,9 @@ Found find_bad_verdict(const Content& content) {
     std::uint64_t triangles = 0;
     for (std::uint64_t i = 0; i < content.entry.count; ++i) {
         const auto verdict = content.element<Verdict>(i);
-        if (verdict.first_triangle >= std::max<std::uint64_t>(limit, 1)) {
-            return content.damage(DamageKind::bad_index, i, verdict.first_triangle, limit);
+        const std::uint64_t greatest = std::max<std::uint64_t>(limit, 1) - 1;
+        if (verdict.first_triangle > greatest) {
+            return content.damage(DamageKind::bad_index, i, verdict.first_triangle, greatest);
         }
         if (!std::isfinite(verdict.area) || !std::isfinite(verdict.volume)) {
             return content.damage(DamageKind::bad_number, i, i, 0);

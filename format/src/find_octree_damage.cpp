@@ -163,8 +163,7 @@ Found find_bad_sorted_leaf(const Parts& parts) noexcept {
     for (std::uint64_t i = 0; i < parts.leaf_count; ++i) {
         const std::uint32_t number = parts.leaf_nodes[i];
         if (number >= parts.nodes.count()) {
-            return parts.leaf_nodes.damage(DamageKind::bad_index, i, number,
-                                           parts.nodes.count() - 1);
+            return parts.leaf_nodes.bad_index(i, number, parts.nodes.count());
         }
         const OctreeNode node = parts.nodes[number];
         if (!is_leaf(node)) return parts.leaf_nodes.damage(DamageKind::bad_order, i, number, 0);

@@ -47,14 +47,14 @@ Begins begins_of(const Parts& parts, std::uint64_t piece) noexcept {
     return {at.first_triangle, at.first_vertex, at.first_facet};
 }
 
-/// Finds a number in a run that is not below `limit` or does not rise. The run must lie in the
+/// Finds a number in a run that is not below `end` or does not rise. The run must lie in the
 /// section.
 Found find_bad_run(const SectionView<std::uint32_t>& list, std::uint64_t first, std::uint64_t last,
-                   std::uint64_t limit) noexcept {
+                   std::uint64_t end) noexcept {
     std::uint64_t least = 0;
     for (std::uint64_t i = first; i < last; ++i) {
         const std::uint64_t number = list[i];
-        if (number >= limit) return list.damage(DamageKind::bad_index, i, number, limit);
+        if (number >= end) return list.bad_index(i, number, end);
         if (number < least) return list.damage(DamageKind::bad_order, i, number, least);
         least = number + 1;
     }
@@ -66,7 +66,7 @@ Found find_bad_facet(const Parts& parts, std::uint64_t i, std::uint64_t corners,
     const PieceFacet facet = parts.facets[i];
     for (const std::uint32_t corner : facet.corner) {
         if (corner >= corners) {
-            return parts.facets.damage(DamageKind::bad_index, i, corner, corners);
+            return parts.facets.bad_index(i, corner, corners);
         }
     }
     const auto& c = facet.corner;
@@ -159,7 +159,7 @@ Found find_bad_adjacency(const Parts& parts,
             const auto& across = adjacency[first + f].across;
             for (std::size_t k = 0; k < 3; ++k) {
                 if (across[k] >= count) {
-                    return adjacency.damage(DamageKind::bad_index, first + f, across[k], count);
+                    return adjacency.bad_index(first + f, across[k], count);
                 }
                 if (!leads_back(parts, adjacency, first, across[k], f, corner[k],
                                 corner[(k + 1) % 3])) {
@@ -178,7 +178,7 @@ Found find_bad_owner(const Parts& parts, const SectionView<std::uint32_t>& piece
     }
     for (std::uint64_t t = 0; t < piece_of.count(); ++t) {
         if (piece_of[t] < parts.pieces.count()) continue;
-        return piece_of.damage(DamageKind::bad_index, t, piece_of[t], parts.pieces.count());
+        return piece_of.bad_index(t, piece_of[t], parts.pieces.count());
     }
     for (std::uint64_t i = 0; i < parts.pieces.count(); ++i) {
         const std::uint64_t end = begins_of(parts, i + 1).triangle;

@@ -25,7 +25,7 @@ Found find_bad_leaf(const SectionView<Piece>& pieces, const SectionView<PieceLea
                     std::uint64_t triangles, std::uint64_t i) noexcept {
     const PieceLeaf leaf = leaves[i];
     if (leaf.piece >= pieces.count()) {
-        return leaves.damage(DamageKind::bad_index, i, leaf.piece, pieces.count());
+        return leaves.bad_index(i, leaf.piece, pieces.count());
     }
     if (leaf.count == 0 || leaf.count > kBvhWidth) {
         return leaves.damage(DamageKind::bad_count, i, leaf.count, kBvhWidth);

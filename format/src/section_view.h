@@ -41,6 +41,11 @@ struct SectionView {
                                 std::uint64_t limit) const noexcept {
         return {kind, entry.id, entry.offset + index * sizeof(T), found, limit};
     }
+    /// Returns the damage of element `index`, which holds a number that is not below `end`.
+    [[nodiscard]] Damage bad_index(std::uint64_t index, std::uint64_t found,
+                                   std::uint64_t end) const noexcept {
+        return damage(DamageKind::bad_index, index, found, end == 0 ? 0 : end - 1);
+    }
 };
 
 }  // namespace cdprep::format

@@ -216,7 +216,9 @@ TEST(FindDamage, VerdictsAreOfAllTrianglesAndThenOfParts) {
     EXPECT_EQ(kind({}), DamageKind::bad_count);
     EXPECT_EQ(kind({of(11, 0, 6)}), DamageKind::bad_count);
     EXPECT_EQ(kind({of(12, 0, 6), of(8, 0, 4), of(5, 8, 2)}), DamageKind::bad_count);
-    EXPECT_EQ(kind({of(12, 12, 6)}), DamageKind::bad_index);
+    const auto behind = damage_of(test::assemble(facts, verdicts_of({of(12, 12, 6)})));
+    EXPECT_EQ(kind_of(behind), DamageKind::bad_index);
+    EXPECT_EQ(behind->limit, 11U);
     EXPECT_EQ(kind({of(12, 0, std::numeric_limits<double>::infinity())}), DamageKind::bad_number);
 }
 

@@ -41,6 +41,7 @@ void expect(DamageKind kind, SectionId id, std::size_t index, Change change) {
     ASSERT_TRUE(damage) << section_name(id);
     EXPECT_EQ(damage->kind, kind) << section_name(damage->section);
     EXPECT_EQ(damage->section, id);
+    if (kind == DamageKind::bad_index) EXPECT_GT(damage->found, damage->limit);
 }
 
 TEST(FindPieceTreeDamage, AcceptsASoundHierarchy) {
@@ -77,7 +78,10 @@ TEST(FindPieceTreeDamage, RefusesSectionsOfAnotherLength) {
 
 TEST(FindPieceTreeDamage, RefusesLeavesThatAreNoRunsOfTheirPiece) {
     constexpr auto kLeaves = SectionId::piece_leaves;
-    expect<PieceLeaf>(DamageKind::bad_index, kLeaves, 3, [](PieceLeaf& l) { l.piece = ~0U; });
+    const auto pieces = find_section(baked().span(), SectionId::pieces);
+    ASSERT_TRUE(pieces);
+    expect<PieceLeaf>(DamageKind::bad_index, kLeaves, 3,
+                      [&](PieceLeaf& l) { l.piece = static_cast<std::uint32_t>(pieces->count); });
     expect<PieceLeaf>(DamageKind::bad_count, kLeaves, 3, [](PieceLeaf& l) { l.count = 0; });
     expect<PieceLeaf>(DamageKind::bad_count, kLeaves, 3, [](PieceLeaf& l) { l.count = 9; });
     expect<PieceLeaf>(DamageKind::bad_order, kLeaves, 3,
