@@ -42,8 +42,10 @@ constexpr std::array kFields = {
 constexpr Name kOptions = {"options"};
 
 /// The queries that sections of build_model() serve.
-constexpr Ask kBuildable = Ask::collide | Ask::overlap | Ask::distance | Ask::within | Ask::inside |
-                           Ask::ray | Ask::closest | Ask::touch | Ask::corners | Ask::solid;
+constexpr Ask kBuildable = Ask::collide | Ask::overlap | Ask::distance | Ask::within |
+                           Ask::continuous | Ask::self | Ask::deform | Ask::tear | Ask::haptic |
+                           Ask::inside | Ask::ray | Ask::closest | Ask::touch | Ask::corners |
+                           Ask::solid;
 
 static_assert(alignof(cdprep_model) <= CDPREP_ALIGNMENT);
 static_assert(CDPREP_ALIGNMENT % format::kSectionAlignment == 0);

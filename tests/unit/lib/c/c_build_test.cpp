@@ -294,6 +294,19 @@ TEST(CBuild, AModelNeedsItsMemoryAlone) {
     }
 }
 
+// Whatever a build can serve may be asked for alone.
+TEST(CBuild, EachQueryCanBeBuiltFor) {
+    const TestMesh mesh = icosphere(1);
+    const CWorkspace workspace;
+    for (std::uint32_t ask = 1; ask != 0; ask <<= 1) {
+        if ((kBuildable & ask) == 0) continue;
+        cdprep_build_options options = build_options_of(mesh);
+        options.ask = ask;
+        const CBuilt built(options, workspace.get());
+        EXPECT_EQ(cdprep_model_serves(built.get(), ask, nullptr), CDPREP_OK) << ask;
+    }
+}
+
 // A build that is asked for one thing has the sections of that alone.
 TEST(CBuild, WhatIsNotAskedForIsNotBuilt) {
     const TestMesh mesh = icosphere(3);
