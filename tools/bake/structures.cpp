@@ -198,10 +198,11 @@ constexpr const char* kGroup = "Structures";
 /// Adds the options for splitting and bounding cells.
 void add_cell_rules(const Command& command, StructureArguments& arguments) {
     command
-        .add_option("--split", arguments.split,
-                    "Split planes of octree-adaptive. median: at the median of the triangles' "
-                    "centres; area: where the sum of area times triangles over both sides is "
-                    "least. Default: set by the preset")
+        .add_option(
+            "--split", arguments.split,
+            "Split planes of octree-adaptive. median: at the median of the triangles' centres; "
+            "area: where area times number of triangles, summed over both sides, is least. "
+            "Default: set by the preset")
         .type_name("RULE")
         .check(one_of({"median", "area"}))
         .group(kGroup);

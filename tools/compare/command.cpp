@@ -182,10 +182,10 @@ void add_compare(const Command& app, Exit& exit) {
     command.set_notes(
         "Table 1 shows what each strategy can answer. Table 2 shows the cost of spatial "
         "decompositions, Table 3 that of hulls, hierarchies and convex pieces. Table 4 shows the "
-        "times of collisions and overlapping triangles for each pair. Published figures are "
-        "shown beside ours if a model has the published numbers of vertices and triangles. The "
-        "table 'talk' shows what each step of pruning leaves. All models are scaled to a diagonal "
-        "of 1. The exit code is 6 when exact strategies disagree.",
+        "times of collisions, overlapping triangles, distances, tolerances and contacts of each "
+        "pair. Published figures are shown beside ours if a model has the published numbers of "
+        "vertices and triangles. The table 'talk' shows what each step of pruning leaves. All "
+        "models are scaled to a diagonal of 1. The exit code is 6 when exact strategies disagree.",
         {"cdprep compare bunny.ply horse.ply --quick",
          "cdprep compare scans/*.ply --format html -o tables.html"});
     command

@@ -220,8 +220,8 @@ void add_enclosing_options(const Command& command, EncloseOptions& enclosed, con
     const char* const enclosing = "Enclosing pieces";
     command
         .add_option("--max-error", enclosed.max_error,
-                    "Use as few pieces as possible, which stick out of the solid by at most this "
-                    "distance, in model units")
+                    "Use as few pieces as the search can find, which stick out of the solid by at "
+                    "most this distance, in model units")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .excludes(exact)
@@ -282,15 +282,15 @@ void add_decompose(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     const Command command = app.add_command("decompose", "Decompose a mesh into convex pieces");
     command.set_notes(
-        "By default, cuts the surface into pieces that lie on their own convex hulls: exactly, or "
-        "within --tolerance. Works for every mesh; no piece crosses a boundary, a non-manifold "
-        "edge or an edge with opposite windings. Names of nodes have no effect.\n\nWith "
-        "--max-error or --parts, encloses the solid in few convex pieces instead. The distance by "
-        "which they stick out is proved and reported. Components and nodes stay separate. A node "
-        "named UCX_..., ...-convcolonly, ...-convcol, ...-convex or ..._convex is replaced by its "
-        "convex hull. Other groups that 'cdprep bake' would leave out stay separate even if they "
-        "are open.\n\nIf the request cannot be met, the best result is written and the exit "
-        "code is 1.",
+        "By default, the command cuts the surface into pieces that lie on their own convex hulls: "
+        "exactly, or within --tolerance. It works for every mesh; no piece crosses a boundary, a "
+        "non-manifold edge or an edge with opposite windings. Names of nodes have no effect.\n\n"
+        "With --max-error or --parts, the command encloses the solid in few convex pieces instead. "
+        "A proven bound on the distance by which they stick out is reported. Components and nodes "
+        "stay separate. A node named UCX_..., ...-convcolonly, ...-convcol, ...-convex or "
+        "..._convex is replaced by its convex hull. Other groups that 'cdprep bake' would leave "
+        "out stay separate even if they are open.\n\n"
+        "If the request cannot be met, the best result is written and the exit code is 1.",
         {"cdprep decompose part.obj -o pieces.ply",
          "cdprep decompose robot.obj -o robot.urdf --max-error 0.5 --unit mm",
          "cdprep decompose chair.glb -o parts.glb --parts 16 --max-vertices 64"});

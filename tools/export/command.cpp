@@ -132,7 +132,7 @@ void add_content_options(const Command& command, ExportOptions& options) {
         .group(content);
     command
         .add_flag("--strict", options.strict,
-                  "Refuse a file in metres if the model has no unit (exit 1)")
+                  "Refuse to write a file in metres if the model has no unit (exit 1)")
         .group(content);
 }
 
@@ -148,11 +148,11 @@ void add_export(const Command& app, Exit& exit) {
         "a GLB with the parts below a node named colliders. mujoco: MJCF. gazebo: SDF. urdf: URDF. "
         "All have the mesh itself too. json: points, triangles and mass, for loaders of other "
         "engines.\n\n"
-        "Unity reads GLB by a package such as glTFast. It makes no colliders by itself: add a "
+        "Unity reads GLB by a package such as glTFast. Unity makes no colliders by itself: add a "
         "convex MeshCollider to each node below colliders. A URDF names its meshes by paths "
         "relative to itself. ROS tools expect --package, or file:// before the paths.\n\n"
-        "All but json are in metres and turned to the up axis of the engine. Points that "
-        "hull builders of engines ignore are dropped. The others move out by less than the stated "
+        "All but json are in metres and turned to the up axis of the engine. Points that hull "
+        "builders of engines ignore are dropped. The others move out by less than the reported "
         "error, so that the colliders still enclose the mesh.",
         {"cdprep bake chair.glb --structures hull --parts 16",
          "cdprep export chair.cdp.h5 --for godot -o game/chair.glb",
@@ -166,8 +166,8 @@ void add_export(const Command& app, Exit& exit) {
     command
         .add_option("-o,--output", arguments->options.output,
                     "The output, or a folder for it. Meshes of a URDF, SDF or MJCF are written "
-                    "beside it. Default: NAME.glb, .xml, .sdf, .urdf or .json beside NAME.cdp.h5, "
-                    "if there is no such file yet")
+                    "beside it. Default: NAME.glb, .xml, .sdf, .urdf or .json beside NAME.cdp.h5; "
+                    "such a file is not replaced if it exists")
         .type_name("PATH")
         .group("Output");
     add_content_options(command, arguments->options);

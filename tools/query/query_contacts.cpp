@@ -84,24 +84,23 @@ Exit run(const ContactArguments& arguments) {
 }
 
 constexpr const char* kNotes =
-    "Each line of ndjson describes one pose. 'count' is the number of contacts listed. "
-    "'found' counts pairs of pieces within the tolerance; 'computed' counts those whose "
-    "contact was computed. 'work' is what --budget limits. 'searched' is false if --budget "
-    "ended the search. 'complete' is false if --budget or --most left contacts out. Each of "
-    "'contacts' has an 'id' of two numbers, which stays the same as long as its two pieces "
-    "touch. 'piece_a' and 'piece_b' are these pieces. 'normal' has length 1 and points from A "
-    "to B. 'lower' and 'upper' are bounds of the distance. They are negative where the pieces "
-    "overlap, and 'overlap' is true. Moving B by -lower along the normal then separates them. "
-    "'point_a' and 'point_b' are the nearest or deepest points. 'feature_a' and 'feature_b' "
-    "are the vertices, edges or triangles there, numbered as in the imported files. "
-    "'internal_edge' is true if the normal was turned so that nothing catches on an edge "
-    "inside the surface. 'from_behind' is true if the contact is on the back of a surface. "
-    "'members' counts the contacts that --cluster-deg joined into this one. With --manifold, "
-    "'points' lists the deepest point first. Each has a point on each model, a distance, and "
-    "an 'id' in hexadecimal. With --as solid, a component inside the other model makes a "
-    "contact with 'deep' true. Moving B by -lower along the normal frees the component. For "
-    "this, the files must be baked with --effects contacts,collide. The translation can be "
-    "shorter if the enclosing model is baked with parts: --structures hull --parts N.";
+    "Each line of ndjson describes one pose. 'count' is the number of contacts listed. 'found' "
+    "counts pairs of pieces within the tolerance; 'computed' counts those whose contact was "
+    "computed. 'work' is what --budget limits. 'searched' is false if --budget ended the search. "
+    "'complete' is false if --budget or --most left contacts out. Each of 'contacts' has an 'id' "
+    "of two numbers, which stays the same as long as its two pieces touch. 'piece_a' and 'piece_b' "
+    "are these pieces. 'normal' has length 1 and points from A to B. 'lower' and 'upper' are "
+    "bounds of the distance. They are negative where the pieces overlap, and 'overlap' is true. "
+    "Moving B by -lower along the normal then separates them. 'point_a' and 'point_b' are the "
+    "nearest or deepest points. 'feature_a' and 'feature_b' are the vertices, edges or triangles "
+    "there, numbered as in the imported files. 'internal_edge' is true if the normal was turned so "
+    "that nothing catches on an edge inside the surface. 'from_behind' is true if the contact is "
+    "on the back of a surface. 'members' counts the contacts that --cluster-deg joined into this "
+    "one. With --manifold, 'points' lists the deepest point first. Each entry has a point on each "
+    "model, a distance, and an 'id' in hexadecimal. With --as solid, a component inside the other "
+    "model makes a contact with 'deep' true. Moving B by -lower along the normal frees the "
+    "component. For this, the files must be baked with --effects contacts,collide. The translation "
+    "can be shorter if the enclosing model is baked with parts: --structures hull --parts N.";
 
 }  // namespace
 
@@ -136,8 +135,8 @@ void add_contacts(const Command& query, Exit& exit) {
             .group("Query");
     command
         .add_option("--budget", arguments->budget,
-                    "Stop after this much work: 1 for each pair of near triangles, 32 for each "
-                    "contact and 1 for every 8 triangles of its pieces. With --most, a closer "
+                    "Stop after this much work. A pair of near triangles counts 1. A contact "
+                    "counts 32, plus 1 for every 8 triangles of its pieces. With --most, a closer "
                     "bound of a depth counts 8. Default: no limit")
         .type_name("N")
         .check(whole_from(1))

@@ -424,7 +424,7 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
     command
         .add_option("--max-distance", arguments.errors.max_distance,
                     "Do not search beyond this distance, in model units; larger distances are not "
-                    "reported. Default: no limit; in a scene the limit of the pair of layers, or "
+                    "reported. Default: no limit. In a scene: the limit of the pair of layers, or "
                     "else 1 % of the diagonal of the box around all parts")
         .type_name("DISTANCE")
         .check(zero_or_more())
@@ -470,12 +470,11 @@ std::string scene_notes(PairQuestion question) {
            read_of_pairs(question) +
            "If the file has no pairs, every part is queried against every other. In a glTF file, "
            "each node with triangles is a part, named by its path. Later nodes of the same path "
-           "get #2, #3 and so on. Nodes that use one mesh share its model. A transform that is not "
-           "rigid is applied to the vertices. One that deviates from a rigid one by at most 1e-5 "
-           "is "
-           "rounded to it; the summary states the largest deviation as 'rounding'. The answers are "
-           "exact for the resulting parts. Touching parts clash. The lines do not depend on the "
-           "number of threads.";
+           "get #2, #3 and so on. Nodes that use one mesh share its model. A transform that "
+           "deviates from a rigid one by at most 1e-5 is rounded to a rigid one. The summary "
+           "states the largest deviation as 'rounding'. Other transforms that are not rigid are "
+           "applied to the vertices. The answers are exact for the resulting parts. Touching parts "
+           "clash. The lines do not depend on the number of threads.";
 }
 
 void add_pair_format(const Command& command, std::string& word, bool serves_scenes) {
@@ -530,9 +529,10 @@ void add_question(const Command& query, PairQuestion question, const char* name,
     command.add_flag("--timings", arguments->timings, "Print times of the queries to stderr")
         .group("Report");
     command
-        .add_flag("--counts", arguments->counts,
-                  "Print to stderr how many pairs of boxes, leaves and triangles were tested, and "
-                  "how many were decided in float, in double and exactly")
+        .add_flag(
+            "--counts", arguments->counts,
+            "Print counts to stderr: tested pairs of boxes, leaves and triangles; decisions in "
+            "float, in double and exact")
         .group("Report");
     if (question == PairQuestion::collide || question == PairQuestion::overlap) {
         add_contact_options(command, *arguments);

@@ -296,8 +296,8 @@ private:
 void add_scene(const Command& command, SceneArguments& arguments) {
     command
         .add_option("--scene", arguments.scene,
-                    "Instead of two models, query all pairs of parts of a scene file (JSON) or of "
-                    "a glTF file, at time 0. Prints a line for each clash, then a summary")
+                    "Instead of two models, query the pairs of parts of a scene file (JSON) or "
+                    "glTF file, at time 0. Prints a line for each clash, then a summary")
         .type_name("SCENE")
         .group("Scene");
     command

@@ -213,10 +213,10 @@ void add_repair(const Command& app, Exit& exit) {
     arguments->options.seconds = kMostSeconds;
     const Command command = app.add_command("repair", "Repair a mesh and account for every change");
     command.set_notes(
-        "The exit code is 1 when the output does not reach the preset's goal, has no triangle or "
-        "has more crossings than the input. The output is written in each case. The test for "
-        "2-manifold uses the output's vertex numbers. 'cdprep validate' first merges vertices "
-        "with equal positions, so it may report vertices that the repair split.",
+        "The exit code is 1 if the output misses the goal, is empty or has more crossings than the "
+        "input. The output is written even then. The test for 2-manifold uses the output's vertex "
+        "numbers. 'cdprep validate' first merges vertices with equal positions, so it may report "
+        "vertices that the repair split.",
         {"cdprep repair scan.ply -o fixed.ply --preset solid",
          "cdprep repair part.obj -o part.stl --seam-width 0.01"});
     add_input(command, arguments->input);

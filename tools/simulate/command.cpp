@@ -428,17 +428,19 @@ void add_study_options(const Command& command, Arguments& arguments, const Optio
         .check(one_of(effect_words()))
         .group("Simulation");
     command
-        .add_flag("--cost", arguments.cost,
-                  "Also run the scene without each of its effects, in 5 rounds, and tell what that "
-                  "saves")
+        .add_flag(
+            "--cost", arguments.cost,
+            "Also run the scene without each of its effects, in 5 rounds, and report the time that "
+            "this saves")
         .excludes(plan)
         .group("Simulation");
     command
-        .add_option("--record", arguments.record,
-                    "Also write a recording: the scene, and the poses and events of each frame. "
-                    "`cdprep simulate FILE` replays it, imports as the run did, and compares the "
-                    "results. It also appears after an interrupt or an error, with the frames that "
-                    "were complete")
+        .add_option(
+            "--record", arguments.record,
+            "Also write a recording: the scene, and the poses and events of each frame. `cdprep "
+            "simulate FILE` replays it with the same import options, and compares the results. The "
+            "recording also appears after an interrupt or an error, with the frames that were "
+            "complete")
         .type_name("FILE")
         .excludes(plan)
         .group("Report");
@@ -478,17 +480,17 @@ void add_report_options(const Command& command, Arguments& arguments) {
 
 void add_notes(const Command& command) {
     command.set_notes(
-        "A scene file is JSON: objects with models, layers, poses and motions, and for pairs of "
-        "layers the effects to compute. Objects of layers that are not paired are never looked "
-        "at. Events do not depend on the number of threads. Motions may deform and tear models: "
-        "a shear, a twist, a vertex stream (PC2), or a cut along a plane. With response, bodies "
-        "fall, push each other and come to rest. Events name the contacts that push. A frame then "
-        "takes 4 substeps, and the solver takes 50 iterations in each; `dynamics` of the scene "
-        "changes these numbers. A glTF file is a scene too, by its extension "
-        "KHR_physics_rigid_bodies. Collision filters become layers, and motions become bodies. "
-        "Triggers report which colliders begin and end to collide with them. The geometry of a "
-        "collider is the mesh of its node. Standard error lists the parts of the file that "
-        "are ignored, and the values that are assumed because the file does not state them.",
+        "A scene file is JSON. It lists objects with models, layers, poses and motions. For pairs "
+        "of layers, it lists the effects to compute. Objects whose layer is in no pair are never "
+        "examined. Events do not depend on the number of threads. Motions may deform and tear "
+        "models: a shear, a twist, a vertex stream (PC2), or a cut along a plane. With response, "
+        "bodies fall, push each other and come to rest. Events name the contacts that push. A "
+        "frame then takes 4 substeps, and the solver takes 50 iterations in each. `dynamics` of "
+        "the scene changes these numbers. A glTF file with the extension KHR_physics_rigid_bodies "
+        "is a scene too. Collision filters become layers, and motions become bodies. Triggers "
+        "report which colliders start and stop colliding with them. The geometry of a collider is "
+        "the mesh of its node. Messages on standard error list the parts of the file that are "
+        "ignored. They also list the values that are assumed because the file does not state them.",
         {"cdprep simulate samples/scenes/crates.json --plan",
          "cdprep simulate samples/scenes/crates.json --frames 100",
          "cdprep simulate samples/scenes/cut.json --format text",
@@ -502,8 +504,8 @@ void add_notes(const Command& command) {
 
 void add_simulate(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    const Command command =
-        app.add_command("simulate", "Compute what the objects of a scene ask about each other");
+    const Command command = app.add_command(
+        "simulate", "Run the queries between the objects of a scene, frame by frame");
     add_notes(command);
     command
         .add_option("scene", arguments->scene,
@@ -512,9 +514,9 @@ void add_simulate(const Command& app, Exit& exit) {
     const Option plan =
         command
             .add_flag("--plan", arguments->plan,
-                      "Print what would be computed and what not, and exit. Lists the sections "
-                      "of the models that are read, and the memory of the scene. All reasons "
-                      "against a plan are listed (exit 2)")
+                      "Print what would be computed and what not, and exit. Lists the sections of "
+                      "the models that are read, and the memory of the scene. If the plan is "
+                      "invalid, all reasons are listed (exit 2)")
             .group("Simulation");
     const Option frames =
         command
@@ -527,7 +529,7 @@ void add_simulate(const Command& app, Exit& exit) {
             .group("Simulation");
     command
         .add_option("--until", arguments->until_s,
-                    "Compute the frames up to this time instead, it included")
+                    "Compute the frames up to and including this time, instead of --frames")
         .type_name("SECONDS")
         .check(zero_or_more("seconds"))
         .excludes(frames)

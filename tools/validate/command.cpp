@@ -280,15 +280,15 @@ void add_judging_options(const Command& command, ValidateArguments& arguments) {
     const char* const group = "Rules";
     command
         .add_option("--fail-on", arguments.fail_on,
-                    "Exit with 1 for findings of this severity (error, warning or note) or this "
-                    "rule. May be repeated. Default: error")
+                    "Exit with 1 for findings of this severity or a higher one (note, warning, "
+                    "error), or of this rule. May be repeated. Default: error")
         .type_name("SEVERITY")
         .one_value_each()
         .group(group);
     command
         .add_option("--rule", arguments.rules,
-                    "RULE=SEVERITY: report a rule, by id or name, as off, note, warn, warning or "
-                    "error. May be repeated. 'cdprep explain' lists the rules")
+                    "RULE=SEVERITY: set the severity of a rule, by id or name: off, note, warn, "
+                    "warning or error. May be repeated. 'cdprep explain' lists the rules")
         .type_name("SETTING")
         .one_value_each()
         .group(group);

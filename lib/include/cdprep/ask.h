@@ -19,11 +19,11 @@ enum class Ask : std::uint32_t {
     distance = 1U << 2,
     within = 1U << 3,
     contacts = 1U << 4,
-    response = 1U << 5,    ///< contacts and mass properties, of bodies that push each other
+    response = 1U << 5,    ///< contacts and mass properties, for bodies that push each other
     continuous = 1U << 6,  ///< the time of impact of two models that move
     self = 1U << 7,        ///< overlaps of a model with itself
-    deform = 1U << 8,      ///< to become a LiveModel
-    tear = 1U << 9,        ///< to become a LiveModel that can tear
+    deform = 1U << 8,      ///< the data to make a LiveModel
+    tear = 1U << 9,        ///< the data to make a LiveModel that can tear
     haptic = 1U << 10,     ///< distances within a limit of work
     inside = 1U << 11,
     ray = 1U << 12,
@@ -32,7 +32,7 @@ enum class Ask : std::uint32_t {
     hulls = 1U << 15,    ///< convex hulls of the whole model, components, instances and parts
     pieces = 1U << 16,   ///< convex pieces of the surface, and queries through them
     corners = 1U << 17,  ///< access to geometry: corners, numbers and names of the imported file
-    inaccessible = 1U << 18,
+    inaccessible = 1U << 18,  ///< triangles occluded along every ray to the tetra-tree's centre
     octree = 1U << 20,
     adaptive_octree = 1U << 21,
     tetra_tree = 1U << 22,
@@ -65,16 +65,15 @@ enum class Vertices : std::uint8_t {
 /// The sections of a file that one query, effect or structure reads.
 struct Needs {
     Ask ask;
-    const char* name;           ///< as in the options of `cdprep bake`
-    const char* bake_option;    ///< for `cdprep bake`, adds what is missing: "--effects collide"
+    const char* name;           ///< the name in the options of `cdprep bake`
+    const char* bake_option;    ///< of `cdprep bake`, to add the sections: "--effects collide"
     format::SectionSet needed;  ///< all of them are required
     Vertices vertices;          ///< required in addition
     format::SectionSet used;    ///< read if the file has them, for speed or for names
 };
 
 /// Returns the table of needs: a row for each bit of Ask. Model::serves(), `bake --effects`,
-/// `info`, `query` and the C API read it. It is the only place that knows the sections of each
-/// query.
+/// `info`, `query` and the C API read this table. No other place lists the sections of each query.
 [[nodiscard]] CDPREP_API std::span<const Needs> needs() noexcept;
 
 /// Returns the row of one bit, or null for a set of bits or an unknown bit.
@@ -90,8 +89,8 @@ struct Needs {
 /// result includes positions_f32 and positions_f64, although a file has only one of them.
 [[nodiscard]] CDPREP_API format::SectionSet sections_for(Ask asks) noexcept;
 
-/// Returns the bits that a file with these sections serves. `has_exact_leaves` means that its
-/// leaves hold model coordinates without loss (format::model_exact_leaves).
+/// Returns the bits that a file with these sections serves. `has_exact_leaves` means that the
+/// file's leaves hold model coordinates without loss (format::model_exact_leaves).
 [[nodiscard]] CDPREP_API Ask served_by(format::SectionSet sections, bool has_exact_leaves) noexcept;
 
 /// Returns the sections that `ask` needs and `sections` lacks. `ask` is one bit. If both kinds of

@@ -16,14 +16,15 @@ namespace cdprep {
 // The units of work. A pair of nodes, which have up to 64 pairs of boxes, counts 1.
 inline constexpr std::uint64_t kWorkOfLeaves = 2;     ///< a pair of leaves: up to 64 triangle pairs
 inline constexpr std::uint64_t kWorkOfTriangles = 4;  ///< a pair of triangles, tested in double
-inline constexpr std::uint64_t kWorkOfExact = 16;     ///< one tested beyond double
+inline constexpr std::uint64_t kWorkOfExact = 16;     ///< one tested beyond double precision
 
 /// The distance of two surfaces, or bounds of it if the search ended early.
 struct BoundedDistance {
     /// True: the search was completed, and `nearest` is what distance() returns. False: the answer
     /// is late. Its bounds hold, but they may be wide.
     bool is_complete = false;
-    /// The exact distance is in [lower, upper], model units. 0 and infinity if nothing is known.
+    /// The exact distance is in [lower, upper], model units. They are 0 and infinity if nothing is
+    /// known.
     double lower = 0;
     double upper = std::numeric_limits<double>::infinity();
     /// The nearest pair of triangles found, with the same bounds. Nothing if none was found, or
@@ -39,20 +40,23 @@ struct LastDistance {
     BoundedDistance distance;  ///< in that placement
     std::uint64_t late = 0;    ///< late answers since then
 
-    /// Notes an answer, as bounded_distance() does with DistanceBudget::last.
+    /// Stores a complete answer, or counts a late one. bounded_distance() does this with
+    /// DistanceBudget::last.
     CDPREP_API void note(const Placement& at, const BoundedDistance& found) noexcept;
 };
 
 /// The limits of the work of one query.
 struct DistanceBudget {
-    /// The maximum work, 0 for no limit. The search ends as soon as its work is at least this. Up
-    /// to 64 pairs of triangles may exceed it. These are in the last pair of leaves of a search for
-    /// contact, or are about equally near. The latter are measured again at the end.
+    /// The maximum work, 0 for no limit. The search ends as soon as its work is at least this. The
+    /// work of up to 64 pairs of triangles may be added after that. These pairs are in the last
+    /// pair of leaves of a search for contact, or are about equally near. Equally near pairs are
+    /// measured again at the end.
     ///
-    /// For a limit of time, measure the rate once. It is the time of many answers, divided by the
-    /// sum of their BoundedDistance::work. The limit divided by the rate is the work.
+    /// For a limit of time, first measure the time per unit of work. It is the time of many
+    /// answers, divided by the sum of their BoundedDistance::work. The limit of time divided by
+    /// this quotient is the work.
     std::uint64_t work = 0;
-    /// Receives each complete answer, and counts late ones; or null.
+    /// The object that stores complete answers and counts late ones, or null.
     LastDistance* last = nullptr;
 };
 
@@ -66,12 +70,13 @@ struct DistanceBudget {
 ///
 /// With a cache, `lower` is at least the last proven gap minus the motion since then. The pair that
 /// was nearest before is measured first. So late bounds are close if the models moved little. If
-/// nothing of the gap is left, a search for contact comes first, with about half of the work.
+/// nothing of the gap is left, a search for contact precedes that for the distance, with about half
+/// of the work.
 ///
 /// Reads no pair options: it is about surfaces, through the BVHs. `options` are read as in
 /// distance(). If max_distance is NaN or negative, no pair is found. Needs Ask::distance of both
 /// models. Takes as long as distance(), and less without contact. A late answer takes time in
-/// proportion to budget.work: the caller measures how much (tests/bench/haptic_bench). A late
+/// proportion to budget.work. The caller measures the factor (tests/bench/haptic_bench). A late
 /// answer depends on the instruction set, because the counted work does. Never allocates, locks or
 /// calls the system.
 ///

@@ -14,9 +14,9 @@
 namespace cdprep {
 
 /// A closed, axis-aligned box. All boxes of a broad phase are in the same coordinates; those of a
-/// scene are relative to Plan::origin(). A box may be flat or a point. Infinite
-/// numbers count as the largest finite ones. If lower > upper along an axis, as given, the box is
-/// absent: it forms no pair.
+/// scene are relative to Plan::origin(). A box may be flat or a point. If lower > upper along an
+/// axis, the box is absent: it forms no pair. In all other boxes, infinite numbers count as the
+/// largest finite ones.
 struct WorldBox {
     float lower[3];
     float upper[3];
@@ -46,8 +46,8 @@ inline constexpr std::uint32_t kMostWorldBoxes = std::uint32_t{1} << 29;
 
 struct BroadPhaseLimits {
     std::uint32_t boxes;  ///< at most kMostWorldBoxes
-    /// The maximum number of pairs of boxes that meet. If boxes move little, room for twice as many
-    /// makes updates faster.
+    /// The maximum number of pairs of boxes that meet. If boxes move little, a limit of twice this
+    /// number makes updates faster.
     std::uint32_t pairs;
     std::uint32_t threads = 1;  ///< the maximum number of tasks at once; at least one
 };
@@ -57,10 +57,10 @@ struct BroadPhaseUpdate {
     /// All pairs of boxes that meet, sorted. They stay valid until the next update that is not
     /// refused.
     std::span<const BoxPair> pairs = {};
-    bool complete = true;      ///< otherwise `pairs` is empty; the next two say why
-    std::uint64_t needed = 0;  ///< the limits.pairs that suffices, if there are too many pairs
-    /// The first box with a NaN, in the order of `moved` if that is given. The update has changed
-    /// nothing.
+    bool complete = true;      ///< false: `pairs` is empty; see `needed` and `refused`
+    std::uint64_t needed = 0;  ///< a sufficient limits.pairs, if there are too many pairs
+    /// The first box with a NaN, in the order of `moved` if that is given. Such an update has
+    /// changed nothing.
     std::optional<std::uint32_t> refused = std::nullopt;
     /// Boxes that left the larger box around them, or whose filter has changed.
     std::uint32_t escaped = 0;
@@ -70,10 +70,10 @@ struct BroadPhaseUpdate {
 /// Finds the pairs of boxes that meet, as boxes move. Touching counts.
 ///
 /// Each box gets a larger box around it, and pairs of larger boxes that meet are kept from update
-/// to update. Only boxes that leave their larger box are searched for again, in a tree of eight
-/// boxes a node. If many leave, all pairs are searched for anew without larger boxes. The tree
-/// follows the Z-order curve (Morton 1966). The answer does not depend on which search was used, or
-/// on the threads.
+/// to update. New pairs are searched for only for boxes that leave their larger box, in a tree with
+/// eight boxes per node. If many boxes leave, all pairs are searched for anew, without larger
+/// boxes. The tree follows the Z-order curve (Morton 1966). The answer does not depend on which
+/// search was used, or on the threads.
 ///
 /// An update takes O(n + pairs) time if few boxes leave. Otherwise, it takes O(n log n + pairs) for
 /// boxes of similar size that are spread out. If all boxes meet, every pair is tested.
@@ -84,7 +84,7 @@ struct BroadPhaseUpdate {
 ///     for (const cdprep::BoxPair& pair : update.pairs) ...
 class BroadPhase {
 public:
-    /// Allocates memory once; updates never allocate. Aborts the program if the limits are invalid.
+    /// Allocates memory once; updates never allocate. Stops the program if the limits are invalid.
     CDPREP_API explicit BroadPhase(const BroadPhaseLimits& limits);
 
     /// Makes a broad phase in the caller's memory, which must outlive it. Allocates nothing.
@@ -92,8 +92,8 @@ public:
     /// limits are invalid.
     [[nodiscard]] CDPREP_API static std::optional<BroadPhase> in_memory(
         std::span<std::byte> memory, const BroadPhaseLimits& limits) noexcept;
-    /// Returns the number of bytes that it takes: about 165 for each box and 24 for each pair. Each
-    /// thread but the first adds 4 for each box.
+    /// Returns the number of bytes that a broad phase takes: about 165 for each box and 24 for each
+    /// pair. Each thread but the first adds 4 for each box.
     [[nodiscard]] CDPREP_API static std::size_t size(const BroadPhaseLimits& limits) noexcept;
     [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two
 
@@ -102,15 +102,16 @@ public:
     CDPREP_API ~BroadPhase();
 
     /// Returns the pairs of boxes that meet. Any box may have moved since the last update. There
-    /// are at most limits.boxes boxes. There is one filter for each box, or none: then all boxes
-    /// may form pairs. Calls `parallel_for` at most twice, each time for at most limits.threads
-    /// tasks.
+    /// must be at most limits.boxes boxes, and one filter for each box or no filters. Otherwise the
+    /// program stops. Without filters, all boxes may form pairs. Calls `parallel_for` at most
+    /// twice, each time for at most limits.threads tasks.
     [[nodiscard]] CDPREP_API BroadPhaseUpdate
     update(std::span<const WorldBox> boxes, std::span<const BoxFilter> filters = {},
            ParallelFor parallel_for = serial_for) noexcept;
 
-    /// The same, if only the boxes with these numbers, or their filters, have changed. The number
-    /// of boxes must be that of the last update. The numbers may be in any order, and may repeat.
+    /// Does the same as update(), if only the boxes numbered in `moved`, or their filters, have
+    /// changed. There must be as many boxes as in the last update, and `moved` must hold numbers of
+    /// boxes. Otherwise the program stops. `moved` may be in any order, and may repeat numbers.
     /// This takes less time if few boxes move.
     [[nodiscard]] CDPREP_API BroadPhaseUpdate update_moved(
         std::span<const WorldBox> boxes, std::span<const BoxFilter> filters,

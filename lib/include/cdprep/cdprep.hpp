@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// The C++ API: models, poses, and queries about them. Include other headers of cdprep/advanced/
-/// and cdprep/cells/ where they are needed.
+/// The C++ API: models, poses, and queries about them. Include cells.h, sweep.h, window.h and the
+/// headers of cdprep/advanced/ and cdprep/cells/ where they are needed.
 
 #include "cdprep/ask.h"
 #include "cdprep/bounded_distance.h"

@@ -8,7 +8,7 @@ namespace cdprep {
 struct CellSearches;
 
 /// Returns the searches through octrees and tetra-trees, for a Workspace. The library cdprep::cells
-/// defines them. A program links it only if its queries use these structures.
+/// defines this function. A program links that library only if its queries use these structures.
 ///
 ///     cdprep::Workspace workspace(cdprep::cells());
 ///     pair.options.through = cdprep::Structure::octree;

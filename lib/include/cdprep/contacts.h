@@ -18,7 +18,7 @@ struct ContactFeature {
     /// The corner of `triangle` at which the edge starts; the edge ends at the next corner. 0 for
     /// other kinds.
     std::uint8_t edge;
-    std::uint32_t triangle;  ///< a triangle with the vertex or edge, or around the point
+    std::uint32_t triangle;  ///< a triangle that has the vertex or edge, or contains the point
     std::uint32_t vertex;    ///< the vertex; the first of an edge; the first corner of a face
 };
 
@@ -43,8 +43,8 @@ enum ContactFlags : std::uint32_t {
     /// both pieces are contained (format::piece_contained). The distance is 0 or negative: minus
     /// the length of the shortest translation that separates the hulls.
     contact_overlap = 1,
-    /// The shortest line between the pieces, or the shortest way out of their overlap, snags. The
-    /// normal is a different direction: see contacts().
+    /// The shortest line between the pieces, or the shortest way out of their overlap, snags.
+    /// `normal` has a different direction: see contacts().
     contact_internal_edge = 2,
     /// The pieces do not overlap, but one lies behind the other's triangles, inside the solid.
     /// Ignore this contact in a solver; other piece pairs give the separating direction.
@@ -83,7 +83,7 @@ struct Contact {
     std::array<ManifoldPoint, kMostManifoldPoints> points;  ///< the deepest first
 };
 
-/// The number of points of a contact.
+/// The manifold of a contact: none, or up to four points.
 enum class Manifold : std::uint8_t { none, four };
 
 /// The largest ContactOptions::most.
@@ -98,8 +98,8 @@ struct ContactOptions {
     /// The maximum work, 0 for no limit. Each pair of near triangles counts 1. Each contact counts
     /// kWorkOfContact and, between two pieces, 1 for every kTrianglesOfWork of their triangles. The
     /// search for near triangles takes at most half of the work. The last contact may exceed the
-    /// work. If the work allows all contacts, and `most` fewer than half of them, some depths are
-    /// bounded more closely first. Each such bound counts kWorkOfBound.
+    /// work. If the work allows all contacts, but `most` allows fewer than half, some depths are
+    /// first bounded more closely. Each such bound counts kWorkOfBound.
     std::uint64_t work = 0;
     /// Joins contacts that are linked by common pieces, if their normals differ little. The limit
     /// is the angle to the normal of the deepest one, in radians. A joined contact has at most four
@@ -116,14 +116,15 @@ struct ContactsVerdict {
     std::size_t count;       ///< contacts stored in `room`
     std::uint64_t found;     ///< pairs of pieces found within the tolerance, and
                              ///< enclosed components
-    std::uint64_t computed;  ///< those of them whose contact was computed
+    std::uint64_t computed;  ///< how many of these had their contact computed
     std::uint64_t work;      ///< counted as in ContactOptions::work
     bool searched;           ///< the search covered the whole surface; false if `work` ended it
     bool complete;           ///< all contacts are in `room`, or in the clusters there
 };
 
 /// Finds one contact for each pair of convex pieces that have triangles at most options.tolerance
-/// apart. This test is exact, as in pairs_within(). A negative tolerance or NaN gives no contacts.
+/// apart. The test of the tolerance is exact, as in pairs_within(). A negative tolerance or NaN
+/// gives no contacts.
 ///
 /// Without options.most, stores the first contacts in `room`, in the order of (piece_a, piece_b),
 /// and then those of enclosed components. With an empty span it only counts them (`found`). With
@@ -141,56 +142,57 @@ struct ContactsVerdict {
 ///     apart             shallow                 at an edge inside a surface
 ///
 /// If two pieces are apart, their contact names the nearest features of their hulls. If no triangle
-/// has these features, it names those of the nearest triangles and has their distance. The distance
-/// interval is no wider than that of convex_distance(). A piece is contained if its hull lies
-/// within the solid. Two pieces overlap if their hulls overlap and either their triangles touch or
-/// both pieces are contained. Then `normal` is the direction of the shortest separating
-/// translation, unless that one snags (see below). The candidates are the face normals of both
-/// hulls and the directions perpendicular to an edge of each. If the hulls overlap but the pieces
-/// do not, the contact has the distance of the triangles. If several pairs of points are equally
-/// near, as between parallel faces, the contact has one of them. If the pieces do not overlap, the
-/// normal is the direction of the shortest line between them. If it snags at a feature, it is
-/// turned until it no longer tilts across the feature's edges. If either feature is a face, the
-/// normal is turned only if it tilts across a flat edge.
+/// has these features, the contact names features of the nearest triangles and has their distance.
+/// The distance interval is no wider than that of convex_distance(). A piece is contained if its
+/// hull lies within the solid. Two pieces overlap if their hulls overlap and either their triangles
+/// touch or both pieces are contained. Then `normal` is the direction of the shortest separating
+/// translation, unless this translation snags (see below). The candidates are the face normals of
+/// both hulls and the directions perpendicular to an edge of each. If the hulls overlap but the
+/// pieces do not, the contact has the distance of the triangles. If several pairs of points are
+/// equally near, as between parallel faces, the contact has one of them. If the pieces do not
+/// overlap, the normal is the direction of the shortest line between them. If this line snags at a
+/// feature, the normal is turned until it no longer tilts across the feature's edges. If either
+/// feature is a face, the normal is turned only if it tilts across a flat edge.
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
 /// vertex, the tilt counts only if a triangle there reaches farther along the translation than the
 /// vertex. A translation also snags if it leads through a part of the hull that no triangle covers.
-/// If the shortest translation snags, the shortest one that does not is used, and
-/// contact_internal_edge is set. A translation less than half as long as that one is preferred,
-/// even if it tilts across a reflex edge. It must not tilt across a flat edge or lead deeper into a
-/// solid. If all translations snag, the shortest one that leads out of the solid is turned until it
-/// does not. `upper` is still minus the length of the shortest separating translation. If that one
-/// does not snag, `lower` and `upper` are equal up to rounding. Bodies may overlap by more than the
-/// size of a piece. Then a contact separates its two pieces only, not the bodies: push by the
-/// deepest, and query again. Inside a solid, the inner side of a wall may be near
-/// (contact_from_behind); such a contact should not push.
+/// If the shortest translation snags, the shortest one that does not snag is used, and
+/// contact_internal_edge is set. A translation less than half as long is preferred, even if it
+/// tilts across a reflex edge. It must not tilt across a flat edge or lead deeper into a solid. If
+/// all translations snag, the shortest one that leads out of the solid is turned until it no longer
+/// snags. `upper` is still minus the length of the shortest separating translation. If the shortest
+/// translation does not snag, `lower` and `upper` are equal up to rounding. Bodies may overlap by
+/// more than the size of a piece. Then a contact separates its two pieces only, not the bodies:
+/// push by the deepest contact, and query again. Inside a solid, the inner side of a wall may be
+/// near (contact_from_behind); such a contact should not push.
 ///
 /// With Body::solid, a component that is proven to be inside the other model makes a contact of its
-/// own (contact_deep). No such contact is made if any triangles of the two models touch. A deep
+/// own (contact_deep). If any triangles of the two models touch, there are no deep contacts. A deep
 /// contact names one piece of the component and the nearest piece of the other model. The
-/// translation moves the component out of hulls that enclose the other model. These are that
-/// model's parts (`bake --structures hull --parts`), else its whole hull, else its bounding box. A
-/// translation by -lower along `normal` frees the component. No translation shorter than -upper
-/// frees it: -upper is the distance of one of its vertices from the other surface. Such a contact
-/// counts in `found`. With options.most, other contacts are listed only in the places that deep
+/// translation moves the component out of hulls that enclose the other model. These hulls are the
+/// parts of that model (`bake --structures hull --parts`), else its whole hull, else its bounding
+/// box. A translation by -lower along `normal` frees the component. No translation shorter than
+/// -upper frees it: -upper is the distance of one of its vertices from the other surface. A deep
+/// contact counts in `found`. With options.most, other contacts get only the places that deep
 /// contacts leave free. A model that is not closed encloses nothing.
 ///
 /// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
-/// are the corners of one face, clipped by the other. Each distance is that between the two faces
-/// there, along the normal. The clipping face may be up to 0.03 radians from perpendicular to the
-/// normal. Nearly parallel faces are, where their edges cross. The deepest point is first, then
-/// those that span the largest area.
+/// are the corners of one face, clipped by the other. ManifoldPoint::distance is the distance of
+/// the two faces there, along the normal. The clipping face may be up to 0.03 radians from
+/// perpendicular to the normal. This happens where edges of nearly parallel faces cross. The
+/// deepest point is first, then those that span the largest area.
 ///
 /// The answer is the same on every processor. With Body::surface, a piece inside another's hull
 /// makes a contact only within the tolerance of the other's triangles.
 ///
-/// Reads the options body, degenerate and through of the pair. The only structure beside the BVH is
-/// Structure::pieces, which is slower (1.7 times for near poses, 1.1 times for others). Needs
-/// Ask::contacts of both models, Ask::solid with Body::solid, and ask_of(options.through). A deep
-/// contact reads hulls if the models serve Ask::hulls. Takes the time of pairs_within(), plus 5 to
-/// 10 microseconds per contact and 1 more with a manifold (tests/bench/results, contacts.csv).
-/// Body::solid adds the time of containment(). Never allocates.
+/// Reads body, degenerate and through of pair.options. The only structure beside the BVH is
+/// Structure::pieces. It takes 1.7 times as long for near poses, and 1.1 times as long for others.
+/// Needs Ask::contacts of both models, Ask::solid with Body::solid, and
+/// ask_of(pair.options.through). A deep contact reads hulls if the models serve Ask::hulls. Takes
+/// the time of pairs_within(), plus 5 to 10 microseconds per contact and 1 more with a manifold
+/// (tests/bench/results, contacts.csv). Body::solid adds the time of containment(). Never
+/// allocates.
 [[nodiscard]] CDPREP_API ContactsVerdict contacts(const Pair& pair, Workspace& workspace,
                                                   std::span<Contact> room,
                                                   const ContactOptions& options = {}) noexcept;
@@ -200,7 +202,7 @@ using ContactVisitor = Visitor<Contact>;
 /// Calls `visit` once with every contact that contacts() finds without options.most and
 /// options.cluster_angle. The order is the same: by pieces, then those of enclosed components.
 /// Returns false if `visit` or options.work ended the search. Needs Ask::contacts of both models,
-/// Ask::solid with Body::solid, and ask_of(options.through).
+/// Ask::solid with Body::solid, and ask_of(pair.options.through).
 CDPREP_API bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                                const ContactOptions& options = {}) noexcept;
 

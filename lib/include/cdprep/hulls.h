@@ -14,36 +14,38 @@
 namespace cdprep {
 
 /// Returns the index in Model::hulls().hulls of a hull around the whole model, a component, an
-/// instance or a part. Returns nothing if the model has no such hull. `number` is 0 for the whole.
-/// Parts are the last hulls, numbered from 0; together they contain every point of the model. Needs
-/// Ask::hulls. Takes O(log n) time.
+/// instance or a part. Returns nothing if the model has no such hull. `number` is 0 for the whole
+/// model. Parts are the last hulls, numbered from 0; together they contain the surface and its
+/// interior. Needs Ask::hulls. Takes O(log n) time.
 [[nodiscard]] CDPREP_API std::optional<std::uint32_t> find_hull(const Model& model,
                                                                 format::HullScope scope,
                                                                 std::uint32_t number = 0) noexcept;
 
-/// The parts that stand for the solid of a model. Together they contain the solid.
+/// The parts that represent the solid of a model. Together they contain the solid.
 struct EnclosingParts {
     std::uint32_t first = 0;  ///< part 0 in Model::hulls().hulls; the others follow
-    std::uint32_t count = 0;  ///< 0: no parts stand for the solid
-    double error = 0;         ///< no point of a part is farther from the solid, model units
-    double size = 0;          ///< at least |x| + |y| + |z| of every point of a part, model units
+    std::uint32_t count = 0;  ///< 0: no parts represent the solid
+    /// No point of a part is farther than this from the solid, model units.
+    double error = 0;
+    double size = 0;  ///< at least |x| + |y| + |z| of every point of a part, model units
 };
 
-/// Returns the parts that stand for the solid of a model. There are none if the model is open or
-/// has no parts. The sections of hulls and `components` must be open. A LiveModel has none. A model
-/// of several components has none either. Where components overlap, parts and winding numbers may
-/// not agree what is inside. Any model may be given. Takes O(parts) time.
+/// Returns the parts that represent the solid of a model. Any model may be given. The result has no
+/// parts if the model is open or a LiveModel, or was baked without parts. It also has none if the
+/// sections of hulls or `components` were not opened. A model of several components has none
+/// either: where components overlap, parts and winding numbers may disagree about what is inside.
+/// Takes O(parts) time.
 [[nodiscard]] CDPREP_API EnclosingParts enclosing_parts(const Model& model) noexcept;
 
 /// Returns the corners of a hull, as input for queries. They refer to the file's memory and are
-/// valid as long as the model. Needs Ask::hulls. `hull` must be below model.hulls().hulls.size().
-/// The hull of an empty set has the count 0.
+/// valid as long as the model lives. Needs Ask::hulls. `hull` must be below
+/// model.hulls().hulls.size(). The hull of an empty set has the count 0.
 [[nodiscard]] CDPREP_API ConvexPoints convex_points(const Model& model,
                                                     std::uint32_t hull) noexcept;
 
 /// Returns the corners of a convex piece's hull, as input for queries. They refer to the file's
-/// memory and are valid as long as the model. They are the vertices that pieces().vertices lists
-/// for the piece, in that order. `piece` must be below model.pieces().pieces.size(). Needs
+/// memory and are valid as long as the model lives. They are the vertices that pieces().vertices
+/// lists for the piece, in that order. `piece` must be below model.pieces().pieces.size(). Needs
 /// Ask::pieces. Takes O(1) time.
 [[nodiscard]] CDPREP_API ConvexPoints piece_points(const Model& model,
                                                    std::uint32_t piece) noexcept;

@@ -19,7 +19,8 @@ namespace cdprep {
 /// The capacity of a live model that can tear.
 struct LiveLimits {
     std::uint32_t triangles = 0;  ///< the maximum number; 0: the model cannot tear
-    /// Triangles may use the vertices with numbers less than this. 0: those of the base.
+    /// Triangles may use vertices with numbers less than this. 0: those of the vertices of the
+    /// base.
     std::uint32_t vertices = 0;
 };
 
@@ -34,8 +35,8 @@ struct LiveTriangle {
 };
 
 /// A model whose vertices move and whose triangles come and go: an object that deforms and tears.
-/// It is refitted each frame and queried like any other. It lives in the caller's memory, is made
-/// once, and then allocates nothing.
+/// It is refitted each frame and queried like any other model. It lives in the caller's memory.
+/// After construction, updates and queries allocate only on failure.
 ///
 /// Each refit() updates positions, boxes, leaves and marks of degenerate triangles. The model has
 /// no oriented boxes, because a refit with them would take three times as long. It has no swept
@@ -43,18 +44,18 @@ struct LiveTriangle {
 /// collide, overlap, distance, within, continuous, self, haptic, ray, closest, inside and touch.
 ///
 /// A model made with LiveLimits can tear: append() and remove() change its triangles. After the
-/// first such call, model().is_torn() is true. The model then counts as open, without winding and
-/// components, so only boxes and surfaces decide about solids. Some places of its tree order have
-/// no triangle. model().triangle_count() counts places, but is 0 without triangles. The mesh() and
-/// source() views have an element for each place.
+/// first such call, model().is_torn() is true. The model then counts as open, without winding
+/// numbers and components. So only boxes and surfaces decide about solids. Some places of its tree
+/// order have no triangle. model().triangle_count() counts places, but is 0 without triangles. The
+/// mesh() and source() views have an element for each place.
 ///
-/// A scene finds changes itself if the layers ask for Ask::deform or Ask::tear. Otherwise call
+/// A scene finds changes itself if the object's layer has Ask::deform or Ask::tear. Otherwise call
 /// set_pose() for each object of the model after a change. Caches stay valid: after a change,
 /// queries ignore the gaps proven before it.
 ///
 /// Move-only; a move leaves the model's bytes in place. A live model that was moved from may only
 /// be destroyed or assigned to. Const members, and queries about model(), may run on any number of
-/// threads at once. They must not run during a change.
+/// threads at once. None of these may run during a change.
 ///
 ///     const auto arrays = build::build_model(positions, triangles,
 ///                                            {.bounds = build::BvhBounds::aligned});
@@ -67,8 +68,8 @@ struct LiveTriangle {
 class LiveModel {
 public:
     /// Returns the number of bytes that in() takes: those of the base's sections, and about 40 per
-    /// triangle. With limits, it is about 200 per triangle of the limit. Takes as long as in(), and
-    /// as much memory while it runs. Fails if in() rejects `base` or `limits`.
+    /// triangle. With limits, there are about 200 per triangle of the limit. Takes as much time and
+    /// temporary memory as in(). Fails if in() rejects `base` or `limits`.
     [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const build::ModelArrays& base,
                                                               const LiveLimits& limits = {});
     [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const Model& base,
@@ -77,16 +78,17 @@ public:
     /// Makes a live model from arrays or from another model, such as a baked one. `memory` must
     /// start at a multiple of format::kSectionAlignment and stay in place while the live model
     /// lives. `base` must not lie in it, and is not used afterwards. Allocates. Takes O(n) time;
-    /// with limits, O(n log n) time. Triangles are spread over all places of the limit. So a limit
-    /// far above the number in use makes queries slower.
+    /// with limits, O(n log n) time. With limits, triangles are spread evenly over all places. So a
+    /// limit far above the number of triangles makes queries slower.
     ///
     /// Fails with `bad_argument` if `memory` is too small or misaligned. Also fails if `base` is a
-    /// Model that can tear or has vertices that a repair made. Fails if two of its vertices or
-    /// triangles have the same number. Fails if it lacks, or was opened without, one of these
-    /// sections: triangles, source_triangle, source_vertex, bvh_nodes, bvh_leaves and positions.
-    /// Without the section components, the live model does not serve Ask::solid. Fails if limits
-    /// are lower than the counts of the base, or only vertices are limited. Also fails if there
-    /// would be more than 1,431,655,764 places. With limits, a ninth of the places stays free.
+    /// Model that can tear or has vertices that a repair made. Fails if two vertices or two
+    /// triangles of this Model have the same number. Fails if the Model lacks, or was opened
+    /// without, one of these sections: triangles, source_triangle, source_vertex, bvh_nodes,
+    /// bvh_leaves and positions. Without the section components, the live model does not serve
+    /// Ask::solid. Fails if limits are lower than the counts of the base, or only vertices are
+    /// limited. Also fails if there would be more than 1,431,655,764 places, or limits.vertices
+    /// exceeds format::kMaxVertices. With limits, a ninth of the places stays free.
     [[nodiscard]] CDPREP_API static Result<LiveModel> in(std::span<std::byte> memory,
                                                          const build::ModelArrays& base,
                                                          const LiveLimits& limits = {});
@@ -133,8 +135,9 @@ public:
     ///
     /// In a model that can tear, a vertex that no triangle uses may get its first position.
     ///
-    /// Fails as above. Also fails if the numbers of positions and vertices differ. Numbers must be
-    /// less than position_count() or, in a model that can tear, LiveLimits::vertices.
+    /// Fails like the refit() of all vertices. Also fails if `vertices` and `positions` differ in
+    /// length. Numbers in `vertices` must be less than position_count() or, in a model that can
+    /// tear, LiveLimits::vertices.
     ///
     /// Takes O(m log n) time for m triangles at these vertices, and looks at a bit for each leaf.
     /// Takes O(n) in three cases:
@@ -149,15 +152,15 @@ public:
                                   std::span<const format::Float3> positions,
                                   ParallelFor parallel_for = serial_for);
 
-    /// Adds triangles, whose vertices have numbers as in refit(). Returns the number of the first;
-    /// the others get the next numbers. Answers name a triangle by its number, which is never used
-    /// again.
+    /// Adds triangles, whose vertices are numbered as in refit(). Returns the number of the first
+    /// triangle; the others get the next numbers. Answers name a triangle by its number, which is
+    /// never reused.
     ///
     /// Fails with `bad_argument`, and then changes nothing, if the model cannot tear or would have
     /// more triangles than LiveLimits::triangles. Also fails if a vertex does not exist or has no
-    /// position. Fails if numbers would exceed 2^31 - 1, or `triangles` are those of model(). Takes
-    /// O(m log^2 n) time for m triangles, amortised. Takes O(n) more if a vertex lies outside the
-    /// frame of the boxes. Allocates only on failure.
+    /// position. Fails if triangle numbers would exceed 2^31 - 1, or `triangles` are those of
+    /// model(). Takes O(m log^2 n) time for m triangles, amortised. Takes O(n) more if a vertex
+    /// lies outside the frame of the boxes. Allocates only on failure.
     CDPREP_API Result<std::uint32_t> append(std::span<const format::Triangle> triangles);
 
     /// Removes triangles by their numbers. A number that is listed twice counts once. Fails with
@@ -169,25 +172,25 @@ public:
     [[nodiscard]] CDPREP_API std::uint32_t triangle_count() const noexcept;
 
     /// Returns the place of a triangle in the views of model(), if the model can tear. Returns
-    /// nothing if there is no triangle of this number, or the model cannot tear. O(1).
+    /// nothing if there is no triangle of this number, or the model cannot tear. Takes O(1) time.
     [[nodiscard]] CDPREP_API std::optional<std::uint32_t> place_of(
         std::uint32_t number) const noexcept;
 
-    /// Stores the triangles of a model that can tear in ascending order of their numbers, as many
-    /// as `room` holds. Returns how many there are; 0 for a model that cannot tear. Takes O(n log
-    /// n) time.
+    /// Stores triangles of a model that can tear, by ascending number, as many as `room` holds.
+    /// Returns the number of all triangles; 0 for a model that cannot tear. Takes O(n log n) time.
     CDPREP_API std::size_t triangles(std::span<LiveTriangle> room) const noexcept;
 
     /// Rebuilds subtrees whose boxes have grown, so that queries stay fast. A call rebuilds up to
     /// `most_triangles` triangles and returns how many it rebuilt. It rebuilds whole subtrees of up
     /// to 4,096 triangles, so a smaller budget may do nothing for a larger model. The subtree whose
-    /// surface cost has grown most since it was built comes first. Begins when one cost has grown
-    /// by 40 %, and continues in later calls until none has grown by 20 %.
+    /// surface cost has grown most since it was built comes first. Rebuilding begins when one cost
+    /// has grown by more than 40 %. It continues in later calls until none has grown by more than
+    /// 20 %.
     ///
-    /// Answers stay the same, but caches start anew, and the step of a Sweep must end after it.
-    /// Does not help if far triangles have come near each other: then surface_cost() stays high,
-    /// and a new model helps. Takes O(nodes) time, and about 100 ns for each triangle rebuilt.
-    /// Never allocates.
+    /// Answers stay the same, but caches start anew. Within a step of a Sweep, rebuild() must come
+    /// before Sweep::end(). It does not help if triangles that were far apart have come near each
+    /// other: then surface_cost() stays high. Build a new model in this case. Takes O(nodes) time,
+    /// and about 100 ns for each triangle rebuilt. Never allocates.
     CDPREP_API std::uint32_t rebuild(std::uint32_t most_triangles) noexcept;
 
     /// Returns build::surface_cost() of the BVH. When it has grown by half in spite of rebuild(),

@@ -24,21 +24,23 @@ namespace cdprep {
 using format::SectionId;
 using format::SectionSet;
 
-/// The place where an opened file keeps its bytes.
+/// The place of an opened file's bytes.
 enum class OpenMode : std::uint8_t {
     /// In the file, mapped: nothing is copied, and processes share the memory. Needs a file that
     /// nobody truncates or rewrites while the Model lives; see Model.
     map,
-    /// In memory that the Model owns, aligned to pages. Opening reads the whole file and takes as
-    /// much memory as the file is long. Later changes to the file never change an answer. Use it
-    /// for network shares, removable media, and files that others truncate.
+    /// In memory that the Model owns, aligned to pages. Opening reads the whole file, and allocates
+    /// memory of the file's size. Later changes to the file never change an answer. Use it for
+    /// network shares, removable media, and files that others truncate.
     copy,
 };
 
-/// The options for opening a model. Only the sections that are opened are checked and read.
+/// The options for opening a model. The sections that are not opened are not checked, and only
+/// OpenMode::copy reads them.
 struct OpenOptions {
     /// The queries to open the model for. Opening fails if the file was baked without something
-    /// that they need. With Ask::nothing, the model serves whatever the file contains.
+    /// that they need. With Ask::nothing, no query is required: the model serves whatever the
+    /// opened sections allow.
     Ask asks = Ask::nothing;
     /// The sections to open, if the file has them, in addition to those of `asks`. Unset: those of
     /// `asks` only, or every section if `asks` is Ask::nothing.
@@ -52,7 +54,8 @@ struct OpenOptions {
 /// The reason why a model does not serve a query.
 struct Refusal {
     enum class Reason : std::uint8_t {
-        not_baked,   ///< the file lacks sections: bake it again
+        /// The file lacks sections: bake it again. For a LiveModel or a Window, no bake helps.
+        not_baked,
         not_opened,  ///< the file has them, but they were not opened
     };
     Reason reason;
@@ -89,35 +92,38 @@ class Model {
 public:
 #ifndef __wasi__
     /// Maps or copies `path`, and completely checks the sections that `options` names. The others
-    /// are not touched and give empty spans. Takes O(bytes of the sections) time, at memory speed.
+    /// are not checked and give empty spans. Takes O(bytes of the checked sections) time, at memory
+    /// speed. OpenMode::copy also takes the time to read the whole file.
     ///
     /// Fails with `unreadable` if the file cannot be read, is not a finished bake, or is damaged.
-    /// The same holds if an incompatible version wrote it, or another tool rewrote it. Fails with
-    /// `bad_argument` if it lacks sections that options.asks needs.
+    /// Fails in the same way if an incompatible version wrote the file, or another tool rewrote it.
+    /// Fails with `bad_argument` if the file lacks sections that options.asks needs.
     [[nodiscard]] CDPREP_API static Result<Model> open(const std::filesystem::path& path,
                                                        const OpenOptions& options = {});
 
-    /// The same with options.asks = asks: opens only the sections that `asks` needs or uses.
+    /// Opens as above, with options.asks = asks: only the sections that `asks` needs or uses.
     ///
     ///     auto arm = cdprep::Model::open("arm.cdp.h5", cdprep::Ask::collide);
     [[nodiscard]] CDPREP_API static Result<Model> open(const std::filesystem::path& path, Ask asks);
 
-    /// The same with the sections of `wanted` that are present. The model serves whatever these
-    /// allow.
+    /// Opens as above, but only the sections of `wanted` that are present. The model serves
+    /// whatever these allow.
     [[nodiscard]] CDPREP_API static Result<Model> open(const std::filesystem::path& path,
                                                        SectionSet wanted);
 #endif
 
-    /// The same for bytes that the caller keeps, such as an archive or a network buffer. They must
-    /// start at a multiple of format::kSectionAlignment and stay unchanged while the Model lives.
+    /// Opens bytes that the caller keeps, such as an archive or a network buffer. The bytes are
+    /// used in place. They must start at a multiple of format::kSectionAlignment; otherwise fails
+    /// with `bad_argument`. They must stay unchanged while the Model lives.
     [[nodiscard]] CDPREP_API static Result<Model> open(std::span<const std::byte> bytes,
                                                        const OpenOptions& options = {});
     [[nodiscard]] CDPREP_API static Result<Model> open(std::span<const std::byte> bytes,
                                                        SectionSet wanted);
 
 #ifndef __wasi__
-    /// Maps `path` and checks its first 4,144 bytes only, whatever its size. Use it for files whose
-    /// hash was verified by other means: a damaged file may crash a query.
+    /// Maps `path` and checks only the first 4,144 bytes of the file, whatever its size. Use this
+    /// function only for files whose hash was verified by other means: a damaged file may crash a
+    /// query.
     [[nodiscard]] CDPREP_API static Result<Model> open_trusted(const std::filesystem::path& path);
 #endif
 
@@ -128,7 +134,7 @@ public:
     [[nodiscard]] CDPREP_API std::uint32_t triangle_count() const noexcept;  ///< from the header
     [[nodiscard]] CDPREP_API std::uint32_t vertex_count() const noexcept;    ///< from the header
     /// Returns a number that is greater than all triangle numbers in answers. It is
-    /// triangle_count(), unless the model is a Window's or a LiveModel that can tear.
+    /// triangle_count(), unless the model belongs to a Window, or to a LiveModel that can tear.
     [[nodiscard]] CDPREP_API std::uint32_t triangle_number_bound() const noexcept;
 
     [[nodiscard]] CDPREP_API const format::FileHeader& header() const noexcept;
@@ -140,17 +146,17 @@ public:
     /// Returns the sections that were requested and are present.
     [[nodiscard]] CDPREP_API SectionSet sections() const noexcept;
 
-    /// Reads a byte of each page of the open sections of `wanted`, and returns how many bytes these
-    /// sections have. Then the first query does not wait for the disk. Pages may be evicted later;
-    /// the caller may lock them (mlock() on bytes()). A page has at least format::kPageAlignment
-    /// bytes. Takes as long as the disk needs for pages that are not in memory, otherwise a few
-    /// nanoseconds per page. Needs no Ask. Never allocates.
+    /// Reads one byte of each page of the open sections in `wanted`. Returns the number of bytes
+    /// that these sections have. After this call, the first query does not wait for the disk. Pages
+    /// may be evicted later; the caller may lock them (mlock() on bytes()). Pages are assumed to
+    /// have at least format::kPageAlignment bytes. Takes as long as the disk needs for pages that
+    /// are not in memory, otherwise a few nanoseconds per page. Needs no Ask. Never allocates.
     CDPREP_API std::size_t touch(SectionSet wanted = SectionSet::all()) const noexcept;
-    /// The same for the sections that the queries of `asks` need or use.
+    /// As above, for the sections that the queries of `asks` need or use.
     CDPREP_API std::size_t touch(Ask asks) const noexcept;
 
-    /// Returns the features that this model serves, computed once at opening. A query that it does
-    /// not serve aborts the program with a message (precondition.h).
+    /// Returns the features that this model serves, computed once at opening. Calling a query that
+    /// the model does not serve aborts the program with a message (precondition.h).
     [[nodiscard]] Ask asks() const noexcept {
         return served_;
     }
@@ -158,7 +164,7 @@ public:
     [[nodiscard]] bool serves(Ask asks) const noexcept {
         return contains(served_, asks);
     }
-    /// Returns why the model does not serve all of `asks`, or nothing if serves() is true.
+    /// Returns why the model does not serve all of `asks`, or nothing if serves(asks) is true.
     /// Allocates.
     [[nodiscard]] CDPREP_API std::optional<Refusal> refusal(Ask asks) const;
 
@@ -174,20 +180,21 @@ public:
     [[nodiscard]] CDPREP_API const PieceView& pieces() const noexcept;
     [[nodiscard]] CDPREP_API const RecordView& record() const noexcept;
 
-    /// Returns name number `index` of instance_names, group_names or material_names, or an empty
-    /// text if there is none. Takes O(index) time.
+    /// Returns the name with number `index`, from 0, in the section `names`. This section is
+    /// instance_names, group_names or material_names. Returns an empty text if there is no such
+    /// name. Takes O(index) time.
     [[nodiscard]] CDPREP_API std::string_view name(SectionId names,
                                                    std::uint32_t index) const noexcept;
 
-    /// Returns whether a LiveModel has gained or lost triangles since it was made, or the model is
-    /// a Window's. Queries about solids then give Answer::unknown unless boxes or the surface
-    /// decide.
+    /// Returns whether the model belongs to a LiveModel that has gained or lost triangles since it
+    /// was made, or to a Window. Queries about solids then give Answer::unknown, unless bounding
+    /// boxes or a touch of the surface decide.
     [[nodiscard]] CDPREP_API bool is_torn() const noexcept;
 
     /// Returns whether bvh().leaves is not empty and holds model coordinates without loss.
     [[nodiscard]] CDPREP_API bool has_exact_leaves() const noexcept;
     /// Returns whether every edge is used equally often in both directions. Winding numbers then
-    /// exist, and queries about solids have exact answers.
+    /// exist, and queries about solids have exact answers. Returns false if is_torn().
     [[nodiscard]] CDPREP_API bool is_balanced() const noexcept;
 
 private:
@@ -202,9 +209,10 @@ private:
     void set_torn(std::uint32_t triangle_number_bound) noexcept;
     /// Makes this a part of a surface, which serves `asks` alone.
     void set_part(Ask asks) noexcept;
-    /// Makes this a live model: no bake adds what it lacks.
+    /// Makes this a live model: a bake cannot add what it lacks.
     void set_live() noexcept;
-    /// Sets the leaves of a part, and its positions, triangles and oriented boxes, or none of them.
+    /// Sets the number of leaves of a part. Also sets its positions, triangles and oriented boxes;
+    /// each may be empty.
     void set_leaves(std::uint32_t count, std::span<const format::Double3> positions,
                     std::span<const format::Triangle> triangles,
                     std::span<const format::OrientedNode> oriented) noexcept;

@@ -9,8 +9,8 @@
 namespace cdprep {
 
 /// The rigid motion of one model during a step, from time 0 to time 1. One point of the model, the
-/// centre, moves along a straight line at constant speed. The model turns about the centre, about a
-/// fixed axis at constant speed.
+/// centre, moves along a straight line at constant speed. The model turns at constant speed about a
+/// fixed axis through the centre.
 ///
 /// A good centre for a free body is its centre of mass. For a part that turns about a joint, it is
 /// the joint. A centre far outside the model makes time_of_impact() slow.
@@ -18,23 +18,23 @@ class Motion {
 public:
     /// No motion at all: the identity at all times.
     Motion() noexcept : Motion(Pose()) {}
-    /// A model that stays where it is.
+    /// The motion of a model that stays at a pose.
     CDPREP_API explicit Motion(const Pose& world_from_model) noexcept;
 
     /// Makes the motion between two poses of the model. `centre` is a point of the model, in its
-    /// own coordinates. The model turns the shorter way, by pi at most. Two turns by exactly pi
-    /// are equally short. Then it takes one of them, always the same.
+    /// own coordinates. The model turns the shorter way, by pi at most. If the turn is exactly pi,
+    /// both directions are equally short. Then it always takes the same one.
     ///
     /// Fails with bad_argument if a number of `centre` is not finite. Also fails if the centre
-    /// moves farther than format::kMaxCoordinate along an axis, or if a pose might exceed it.
-    /// Allocates only on failure.
+    /// moves farther than format::kMaxCoordinate along an axis, or if a pose might exceed this
+    /// limit. Allocates only on failure.
     [[nodiscard]] CDPREP_API static Result<Motion> between(const Pose& start, const Pose& end,
                                                            const Double3& centre = {});
 
     /// Makes the motion from velocities, as a solver has them. `shift` is the displacement of the
-    /// centre during the step, in model units. `turn` is a vector along the axis of the turn, in
-    /// world coordinates. Its length is the angle in radians, kMostTurn at most. So a model may
-    /// turn around more than once.
+    /// centre during the step, in world coordinates and model units. `turn` is a vector along the
+    /// axis of the turn, in world coordinates. Its length is the angle in radians, kMostTurn at
+    /// most. So a model may make more than one full turn.
     ///
     /// Fails like between(), and if `shift` or `turn` is not finite or too long.
     [[nodiscard]] CDPREP_API static Result<Motion> by_velocity(const Pose& start,

@@ -64,15 +64,17 @@ struct Pair {
     Placement placement;
     PairOptions options = {};
     PairCache* cache = nullptr;  ///< results of earlier queries on this pair, or null
-    /// The same, for distances through Structure::pieces (pair_front.h), or null.
+    /// Separating planes from earlier queries, or null (pair_front.h). distance() and within() use
+    /// them with Structure::pieces. distance() uses them only if `cache` is not null.
     PairFront* front = nullptr;
 };
 
 /// The containment of a component of one model in the other.
 struct Containment {
     Answer answer = Answer::no;
-    /// The winding number that decided. An integer if `answer` is yes, and 0 if it is no. If
-    /// `answer` is unknown, the generalised winding number: solid angle / 4 pi.
+    /// The winding number that decided: an integer if `answer` is yes, and 0 if it is no. If
+    /// `answer` is unknown, it is the generalised winding number: solid angle / 4 pi. For a
+    /// component of a torn model (Model::is_torn()), it is then 0.
     double winding = 0;
     bool a_inside_b = false;  ///< unless `answer` is no: true for A in B, false for B in A
 };
@@ -82,16 +84,16 @@ struct Collision {
     /// yes: the surfaces touch or, with Body::solid, one model is proven inside the other.
     /// unknown: the surfaces do not touch, and `containment` is unknown.
     Answer hit = Answer::no;
-    /// collide() computes it only for Body::solid, if the surfaces do not touch. Otherwise its
-    /// answer is no.
+    /// Computed only with Body::solid, if the surfaces do not touch. Otherwise containment.answer
+    /// is no.
     Containment containment;
 };
 
 /// Returns whether two models collide. Stops at the first pair of triangles found.
 ///
-/// With Body::surface, nested surfaces that do not touch do not collide. With Body::solid they do
-/// if a nonzero winding number proves that one is inside the other. See containment() for open
-/// models. As exact as overlaps().
+/// With Body::surface, nested surfaces that do not touch do not collide. With Body::solid they
+/// collide if a nonzero winding number proves that one is inside the other. See containment() for
+/// open models. The answer is as exact as that of overlaps().
 ///
 /// Reads all options. Needs Ask::collide of both models, Ask::solid with Body::solid, and
 /// ask_of(options.through). Takes O(log n) time for most poses. With a cache, takes O(1) time if
@@ -102,15 +104,15 @@ struct Collision {
 /// models must not touch.
 ///
 /// Inside means a winding number other than 0. Nested shells of opposite orientation cancel, and an
-/// inverted component counts as solid. A component inside the other model's open surface gives
-/// `unknown` with the generalised winding number, unless another component answers `yes`. For an
-/// open model, the answer is `unknown` whatever that number is.
+/// inverted component counts as solid. A component of one model gives `unknown` if the other model
+/// is open and its box does not exclude the component. The generalised winding number is then
+/// stored, but does not decide. The result is then `unknown`, unless another component gives `yes`.
 ///
-/// One vertex of each component is tested. If it is outside the other model's box, the component is
-/// outside, even if that model is open. This decides most cases. Exact for balanced models, by a
-/// ray with symbolic perturbation (Feito and Torres 1997). Reads no options. Needs Ask::solid of
-/// both models. Takes O(components (log n + hits)) time, or O(n) per component against an open
-/// model. Never allocates.
+/// One vertex of each component is tested. If this vertex is outside the other model's box, the
+/// component is outside, even if that model is open. This test decides most cases. Exact for
+/// balanced models, by a ray with symbolic perturbation (Feito and Torres 1997). Reads no options.
+/// Needs Ask::solid of both models. Takes O(log n + hits of the ray) time per component, or O(n)
+/// against an open model. Never allocates.
 [[nodiscard]] CDPREP_API Containment containment(const Pair& pair, Workspace& workspace) noexcept;
 
 /// One triangle of each model, in source numbers.
@@ -120,20 +122,23 @@ struct TrianglePair {
     friend auto operator<=>(const TrianglePair&, const TrianglePair&) = default;
 };
 
-/// Finds every pair of triangles of the two models with a common point.
+/// Finds every pair of triangles, one of each model, that overlap. With Overlap::closed, these are
+/// the pairs with a common point.
 ///
 /// Returns the number of pairs. Stores the first of them in `room`, in the order of (a, b). If
-/// `room` is too short, it holds the smallest pairs, and the result is still the true number. With
-/// an empty span it only counts. The order costs a sort of the stored pairs.
+/// `room` is too short, it receives the smallest pairs, and the result is still the number of all
+/// pairs. With an empty `room`, the function only counts. The order costs a sort of the stored
+/// pairs.
 ///
 /// Exact: the answer is that of exact arithmetic on the vertices as transform_point() moves them.
-/// It is the same on every machine and in every floating-point environment of the caller. An empty
-/// model overlaps nothing.
+/// The answer is the same on every machine and in every floating-point environment of the caller.
+/// An empty model overlaps nothing.
 ///
-/// Reads options.overlap, degenerate and through. Needs Ask::overlap of both models, and
-/// options.through its ask_of(). Takes O(log n + pairs) time for typical meshes, O(n m) in the
-/// worst case. With a cache, a pose without contact takes as long as collide(). Through octrees and
-/// tetra-trees, it uses about 20 KiB of stack. Never allocates.
+/// Reads options.overlap, degenerate and through. Needs Ask::overlap and ask_of(options.through) of
+/// both models. Takes O(log n + pairs) time for typical meshes, O(n m) in the worst case. Here n
+/// and m are the models' numbers of triangles. With a cache, a query without overlaps takes as long
+/// as collide(). A query through octrees or tetra-trees uses about 20 KiB of stack. Never
+/// allocates.
 [[nodiscard]] CDPREP_API std::size_t overlaps(const Pair& pair, Workspace& workspace,
                                               std::span<TrianglePair> room) noexcept;
 
@@ -151,10 +156,9 @@ CDPREP_API bool visit_overlaps(const Pair& pair, Workspace& workspace, PairVisit
 
 /// Marks the triangles of each model that overlap any triangle of the other, and returns the number
 /// of pairs. The mark of source triangle i is bit i % 64 of element i / 64. Clears `bits_a` and
-/// `bits_b` first. Each needs an element for every 64 numbers below
-/// Model::triangle_number_bound(). A shorter array gets no marks. Faster than overlaps() if many
-/// pairs share few triangles. Reads options.overlap and degenerate. Needs Ask::overlap of both
-/// models.
+/// `bits_b` first. An array for a model needs Model::triangle_number_bound() / 64 elements, rounded
+/// up. A shorter array gets no marks. This function is faster than overlaps() if many pairs share
+/// few triangles. Reads options.overlap and degenerate. Needs Ask::overlap of both models.
 CDPREP_API std::size_t mark_overlaps(const Pair& pair, Workspace& workspace,
                                      std::span<std::uint64_t> bits_a,
                                      std::span<std::uint64_t> bits_b) noexcept;
@@ -162,8 +166,8 @@ CDPREP_API std::size_t mark_overlaps(const Pair& pair, Workspace& workspace,
 /// Two triangles that overlap, and their common segment.
 struct Crossing {
     TrianglePair pair;
-    /// True if the triangles lie in one plane or one has no area. Then no segment is given, because
-    /// they may share an area.
+    /// True if the triangles lie in one plane, where they may share an area, or one has no area.
+    /// Then no segment is given.
     bool is_flat;
     Double3 from;  ///< an end of the common segment; 0 if `is_flat`
     Double3 to;    ///< the other end; equal to `from` if the triangles touch in a point
@@ -172,15 +176,15 @@ struct Crossing {
 /// Finds every pair that overlaps() finds, with the common segment of its two triangles. Returns
 /// the number of pairs and stores the first of them in `room`, as overlaps() does.
 ///
-/// Coordinates are those of the placement: A's frame if B moves. The edges on which a segment ends
-/// are determined exactly, for the vertices as transform_point() moves them. Each coordinate is
-/// then rounded once. The result is the nearest double, except near the midpoint between two
-/// doubles. Near means within 2^-45 units in the last place (crossing_segments_laws_test).
-/// Triangles that share an edge get bit-identical segment ends on it, except near such a midpoint.
-/// Subnormal coordinates may be off by one unit in the last place.
+/// Coordinates are those of the placement, such as A's frame with Placement::b_moves(). The edges
+/// on which a segment ends are determined exactly, for the vertices as transform_point() moves
+/// them. Each coordinate is then rounded once. The result is the nearest double, except near the
+/// midpoint between two doubles. Here "near" means within 2^-45 units in the last place
+/// (crossing_segments_laws_test). Triangles that share an edge get bit-identical segment ends on
+/// it, except near such a midpoint. Subnormal coordinates may be off by one unit in the last place.
 ///
-/// Reads options.overlap and degenerate. Needs Ask::overlap of both models. Takes some microseconds
-/// more per pair than overlaps(), and about 20 KiB of stack. Never allocates.
+/// Reads options.overlap and degenerate. Needs Ask::overlap of both models. Takes a few
+/// microseconds more per pair than overlaps(), and about 20 KiB of stack. Never allocates.
 [[nodiscard]] CDPREP_API std::size_t crossings(const Pair& pair, Workspace& workspace,
                                                std::span<Crossing> room) noexcept;
 
@@ -190,47 +194,49 @@ struct Crossing {
 CDPREP_API bool visit_crossings(const Pair& pair, Workspace& workspace,
                                 Visitor<Crossing> visit) noexcept;
 
-/// The limits of a distance query. The search ends at either permitted error. With both 0, the
-/// result is as exact as double allows.
+/// The limits of a distance query. The search ends when the interval meets either permitted error.
+/// With both 0, the result is as exact as double allows.
 struct DistanceOptions {
     double relative_error = 0;  ///< upper may exceed lower by this share of lower
-    double absolute_error = 0;  ///< or by this, model units
-    /// Larger distances are not found; inclusive.
+    double absolute_error = 0;  ///< or upper may exceed lower by this, model units
+    /// The largest distance to find, inclusive; model units.
     double max_distance = std::numeric_limits<double>::infinity();
 };
 
-/// The distance of two surfaces, and points where it is attained.
+/// The distance between two surfaces, and points where it is attained.
 struct Distance {
     double lower;              ///< the distance is at least this, model units
     double upper;              ///< and at most this: [lower, upper] contains the exact distance
     Double3 witness_a;         ///< on A as moved, up to rounding; nearest to B
-    Double3 witness_b;         ///< on B as moved, up to rounding; `upper` from witness_a
+    Double3 witness_b;         ///< on B as moved, up to rounding; nearest to A
     std::uint32_t triangle_a;  ///< the triangle with witness_a; source number
     std::uint32_t triangle_b;  ///< the triangle with witness_b; source number
 };
 
-/// Returns the distance of two surfaces. Returns nothing if it exceeds options.max_distance or a
-/// model is empty.
+/// Returns the distance between two surfaces. Returns nothing if the distance exceeds
+/// options.max_distance or a model is empty.
 ///
 /// The distance is 0 exactly if the surfaces touch or, with Body::solid, one model is proven inside
-/// the other. If the surfaces touch, both witnesses are a common point. For contained solids, they
-/// are the surfaces' nearest points.
+/// the other. If the surfaces touch, both witnesses are one common point. For contained solids, the
+/// witnesses are the surfaces' nearest points. Otherwise the witnesses are `upper` apart, up to
+/// rounding.
 ///
 /// If the surfaces are apart, several pairs of triangles may have the least `upper`. The result is
 /// the first of these in the order of (triangle_a, triangle_b). Pairs that are equally near in
-/// exact arithmetic may differ in the last bits of `upper`. Any of them may be the result, but
-/// always the same one. If the surfaces touch, the result is a pair that touches. Which one depends
-/// on the instruction set and the structure.
+/// exact arithmetic may differ in the last bits of `upper`. Any of these pairs may be the result,
+/// but always the same one. If the surfaces touch, the result is a pair that touches. The
+/// instruction set and the structure determine which one.
 ///
-/// The interval contains the exact distance of the surfaces whose vertices transform_point() moved.
-/// Without permitted errors, its width is at most 1e-12 d + 1e-15 c (triangle_distance_laws_test).
-/// Here d is the distance, and c the largest absolute coordinate of the moved vertices. With
-/// permitted errors, the width is at most the larger of this bound and the permitted error.
+/// The interval contains the exact distance between the surfaces whose vertices transform_point()
+/// moved. Without permitted errors, its width is at most 1e-12 d + 1e-15 c
+/// (triangle_distance_laws_test). Here d is the distance, and c the largest absolute coordinate of
+/// the moved vertices. With permitted errors, the width is at most the larger of this bound and the
+/// permitted error.
 ///
-/// Reads pair.options.body and through; the only structure beside the BVH is Structure::pieces.
-/// Needs Ask::distance of both models, Ask::solid with Body::solid, and ask_of(options.through).
-/// Takes O(log n) time for typical meshes. Visits every triangle in the worst case, such as
-/// concentric spheres. Never allocates.
+/// Reads pair.options.body and through. Any structure but Structure::pieces means the BVH. Needs
+/// Ask::distance of both models, Ask::solid with Body::solid, and ask_of(options.through). Takes
+/// O(log n) time for typical meshes. Visits every triangle in the worst case, such as concentric
+/// spheres. Never allocates.
 [[nodiscard]] CDPREP_API std::optional<Distance> distance(
     const Pair& pair, Workspace& workspace, const DistanceOptions& options = {}) noexcept;
 
@@ -242,9 +248,9 @@ struct Distance {
 /// gives true, and the next smaller double gives false. Stops at the first pair of triangles that
 /// is near enough.
 ///
-/// Reads options.through; the only structure beside the BVH is Structure::pieces. Needs Ask::within
-/// of both models, and options.through its ask_of(). Takes as long as distance(), or less if the
-/// distance differs clearly from `tolerance`.
+/// Reads options.through. Any structure but Structure::pieces means the BVH. Needs Ask::within and
+/// ask_of(options.through) of both models. Takes as long as distance(), or less if the distance
+/// differs clearly from `tolerance`.
 [[nodiscard]] CDPREP_API bool within(const Pair& pair, double tolerance,
                                      Workspace& workspace) noexcept;
 
@@ -252,22 +258,22 @@ struct Distance {
 ///
 /// Returns the number of pairs. Stores the first of them in `room`, as overlaps() does. A tolerance
 /// of 0 gives the pairs of overlaps() with Overlap::closed; an infinite one gives all pairs. A
-/// negative tolerance or NaN gives none, and an empty model has none.
+/// negative tolerance, a NaN or an empty model gives none.
 ///
-/// Exact for the vertices as transform_point() moves them. The distance of a degenerate triangle is
-/// that of its segment or point, unless it is skipped.
+/// Exact for the vertices as transform_point() moves them. A degenerate triangle counts as its
+/// segment or point, unless it is skipped.
 ///
-/// Reads options.degenerate and through; the only structure beside the BVH is Structure::pieces.
-/// Needs Ask::within of both models, and options.through its ask_of(). Takes O(log n + pairs) time
-/// for typical meshes and tolerances that are small compared with them. Takes O(n m) in the worst
-/// case. Never allocates.
+/// Reads options.degenerate and through. Any structure but Structure::pieces means the BVH. Needs
+/// Ask::within and ask_of(options.through) of both models. Takes O(log n + pairs) time for typical
+/// meshes and tolerances that are small compared with them. Takes O(n m) in the worst case. Never
+/// allocates.
 [[nodiscard]] CDPREP_API std::size_t pairs_within(const Pair& pair, double tolerance,
                                                   Workspace& workspace,
                                                   std::span<TrianglePair> room) noexcept;
 
 /// Calls `visit` once for each pair that pairs_within() finds, as the search finds it. The order is
 /// that of visit_overlaps(). Returns false if `visit` ended the search. Reads the same options as
-/// pairs_within(). Needs Ask::within of both models, and options.through its ask_of().
+/// pairs_within(). Needs Ask::within and ask_of(options.through) of both models.
 ///
 ///     std::vector<bool> is_near(pair.a.get().triangle_number_bound());
 ///     const auto visit = [&](const cdprep::TrianglePair& found) {

@@ -12,13 +12,13 @@
 
 namespace cdprep {
 
-/// Returns the same as overlaps(), computed on as many threads as there are workspaces (at least
-/// one). The pairs, their order and their number do not depend on the threads.
+/// Returns the same as overlaps(), computed on one thread per workspace. There must be at least one
+/// workspace. The pairs, their order and their number do not depend on the threads.
 ///
 /// Use it for one query that takes a millisecond or more, such as two large models that overlap
-/// deeply. Calls `parallel_for` at most twice, each time for at most one task per workspace.
-/// A task that starts late finds less work or none. If `room` is not empty but too short, one
-/// thread repeats the query to keep the smallest pairs. Reads options.overlap and degenerate. Needs
+/// deeply. Calls `parallel_for` at most twice, each time with at most one task per workspace. A
+/// task that starts late finds less work or none. If `room` is not empty but too short, one thread
+/// repeats the query to keep the smallest pairs. Reads options.overlap and degenerate. Needs
 /// Ask::overlap of both models. Never allocates.
 [[nodiscard]] CDPREP_API std::size_t split_overlaps(const Pair& pair,
                                                     std::span<Workspace> workspaces,
@@ -27,13 +27,14 @@ namespace cdprep {
 
 /// Runs collide() for many pairs: stores the result for pairs[i] in answers[i]. The results are
 /// those of single calls and do not depend on the threads. Pairs may share models freely: a batch
-/// may hold many poses of the same two models. No two pairs of a batch may share a cache.
+/// may hold many poses of the same two models. No two pairs of a batch may share a cache or a
+/// front.
 ///
 /// There must be at least one workspace. The batch uses one thread per workspace. Calls
 /// `parallel_for` at most once. Processes min(pairs.size(), answers.size()) pairs. Never allocates.
-/// Starting a batch takes a few microseconds, so it pays off from about ten pairs. These rules also
-/// hold for the batches below. Needs Ask::collide of both models of a pair, and Ask::solid with
-/// Body::solid.
+/// Starting a batch takes a few microseconds, so a batch pays off from about ten pairs. The rules
+/// of this comment up to here also hold for the batches below. Both models of each pair must serve
+/// the bits of Ask that collide() needs.
 ///
 ///     std::vector<cdprep::Workspace> workspaces(4);
 ///     std::vector<cdprep::Collision> answers(pairs.size());
@@ -41,18 +42,20 @@ namespace cdprep {
 CDPREP_API void collide_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                              ParallelFor parallel_for, std::span<Collision> answers) noexcept;
 
-/// Runs distance() for many pairs. Needs Ask::distance of both models of a pair.
+/// Runs distance() for many pairs. Both models of each pair must serve the bits of Ask that
+/// distance() needs.
 CDPREP_API void distance_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                               ParallelFor parallel_for, std::span<std::optional<Distance>> answers,
                               const DistanceOptions& options = {}) noexcept;
 
-/// Runs within() for many pairs. Needs Ask::within of both models of a pair.
+/// Runs within() for many pairs. Both models of each pair must serve the bits of Ask that within()
+/// needs.
 CDPREP_API void within_many(std::span<const Pair> pairs, double tolerance,
                             std::span<Workspace> workspaces, ParallelFor parallel_for,
                             std::span<bool> answers) noexcept;
 
 /// Runs overlaps() with an empty room for many pairs, and stores the numbers of triangle pairs.
-/// Needs Ask::overlap of both models of a pair.
+/// Both models of each pair must serve the bits of Ask that overlaps() needs.
 CDPREP_API void count_overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                                     ParallelFor parallel_for,
                                     std::span<std::size_t> counts) noexcept;
@@ -60,10 +63,11 @@ CDPREP_API void count_overlaps_many(std::span<const Pair> pairs, std::span<Works
 /// The overlapping triangles of one pair of models.
 struct OverlapList {
     std::span<TrianglePair> room;  ///< input; receives the smallest pairs, sorted
-    std::size_t count = 0;         ///< of pairs found, even if the room is too short
+    std::size_t count = 0;         ///< output: number of pairs found, even if the room is too short
 };
 
-/// Runs overlaps() for many pairs. Needs Ask::overlap of both models of a pair.
+/// Runs overlaps() for many pairs. Both models of each pair must serve the bits of Ask that
+/// overlaps() needs.
 CDPREP_API void overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                               ParallelFor parallel_for, std::span<OverlapList> answers) noexcept;
 
@@ -71,7 +75,7 @@ CDPREP_API void overlaps_many(std::span<const Pair> pairs, std::span<Workspace> 
 struct OverlapMarks {
     std::span<std::uint64_t> bits_a;  ///< input; if too short, nothing is marked
     std::span<std::uint64_t> bits_b;  ///< input; if too short, nothing is marked
-    std::size_t count = 0;            ///< of pairs found
+    std::size_t count = 0;            ///< output: number of pairs found
 };
 
 /// Runs mark_overlaps() for many pairs. Needs Ask::overlap of both models of a pair.

@@ -28,29 +28,30 @@ inline constexpr std::array kSceneEffects = {Ask::collide,  Ask::overlap,  Ask::
                                              Ask::distance, Ask::contacts, Ask::continuous,
                                              Ask::self,     Ask::haptic};
 
-/// What a pair of layers says of its models: between two steps, they may change as a LiveModel
+/// Flags in LayerPair::effects: models of the two layers may change between steps, as a LiveModel
 /// does. A scene then looks for changes in each step. Ask::tear includes Ask::deform.
 inline constexpr Ask kSceneChanges = Ask::deform | Ask::tear;
 
-/// The effects for pairs of objects of two layers. The two may be the same layer.
+/// The effects for pairs of objects of two layers, which may be the same layer.
 ///
-/// `self` is about each object of one layer, and its own surface: a and b are that layer.
-/// `continuous` tells when two objects touch on the way from their last poses to the present ones.
-/// `haptic` is a distance within a limit of work. Contacts, and `continuous`, are refused together
-/// with Ask::deform and Ask::tear: pieces and motions do not follow a surface that changes. If only
-/// another pair of layers says that a model changes, `continuous` moves its present shape. `haptic`
-/// is refused together with `distance`, and with solid bodies.
+/// `self` tests each object of one layer against itself: a and b are both that layer. `continuous`
+/// finds when two objects touch on the way from their last poses to the present ones. `haptic` is a
+/// distance within a limit of work. With Ask::deform or Ask::tear, `contacts` and `continuous` are
+/// refused: pieces and motions do not follow a surface that changes. If only another pair of layers
+/// has these flags, `continuous` moves the model's present shape. `haptic` is refused together with
+/// `distance`, and with solid bodies.
 struct LayerPair {
     std::uint32_t a = 0;  ///< a layer, below kLayers
     std::uint32_t b = 0;
-    /// Any of kSceneEffects and kSceneChanges; others are refused. Nothing: the pair is dropped.
+    /// Any of kSceneEffects and kSceneChanges; others are refused. Ask::nothing: the pair is
+    /// dropped.
     Ask effects = Ask::nothing;
     double tolerance = 0;  ///< of `within`, in units of the models; finite, at least 0
-    /// Of `distance` and `haptic`: farther objects have none. In units of the models; finite, at
-    /// least 0.
+    /// Of `distance` and `haptic`: objects farther apart have no distance. In units of the models;
+    /// finite, at least 0.
     double max_distance = 0;
-    /// Of `distance`: the error that its answers may have, and those that follow from them (Rung).
-    /// In units of the models; finite, at least 0. 0: answers are exact.
+    /// Of `distance`: the permitted error of its answers, and of answers that follow from them (see
+    /// Rung). In units of the models; finite, at least 0. 0: answers are exact.
     double max_error = 0;
     Body body = Body::surface;          ///< of `collide`, `distance`, `contacts` and `continuous`
     Overlap overlap = Overlap::closed;  ///< of `collide` and `overlap`
@@ -62,44 +63,45 @@ struct LayerPair {
     bool lists_stays = false;
 };
 
-/// How distances are computed that LayerPair::max_error permits to be inexact. The plan chooses the
-/// cheapest way that is certified for every model of both layers. It reads numbers of the files and
-/// never a clock, so the same files give the same plan.
+/// The way to compute distances for which LayerPair::max_error permits an error. The plan chooses
+/// the cheapest way that is certified for every model of both layers. It reads numbers in the files
+/// and never a clock, so the same files give the same plan.
 ///
-/// `distance`: [lower, upper] contains the exact distance, and is at most PairRung::error wide,
+/// For `distance`, [lower, upper] contains the exact distance, and is at most PairRung::error wide,
 /// plus rounding. Rounding is at most 3e-12 of `upper`, and 1e-13 of the largest coordinate of a
 /// model or a translation.
 ///
-/// Flags: a `no` is right. A `yes` may be wrong if the exact distance is above the threshold by at
-/// most PairRung::error, plus rounding. The threshold is 0 for `collide`, max_distance for
-/// `distance`, and the tolerance for `within`. `within` is exact unless the pair also has
-/// `distance` of surfaces. `collide` is exact unless parts decide it. While `distance` is paused,
-/// both are exact. So are all other effects: they are as cheap.
+/// An error never removes an effect from SceneHit::holds. It may add one if the exact distance is
+/// above the threshold by at most PairRung::error, plus rounding. This threshold is 0 for
+/// `collide`, max_distance for `distance`, and the tolerance for `within`. `within` is exact unless
+/// the pair also has `distance` of surfaces. `collide` is exact unless parts decide it. While
+/// `distance` is paused, both are exact. max_error changes no other effect: an error would make
+/// none of them cheaper.
 ///
-/// Levels of a tetra-tree are no rung: a scene does not need cdprep::cells, a library of its own.
+/// No rung uses a tetra-tree, so a scene does not need the separate library cdprep::cells.
 enum class Rung : std::uint8_t {
-    /// Through the BVH. The search of `distance` ends at max_error; all else is exact.
+    /// Through the BVH. The search of `distance` ends at max_error.
     walk,
-    /// Of solids: through their enclosing parts (EnclosingParts). Witnesses lie on parts, as far
-    /// from the solids as the parts' errors say, and have no triangles: kNoTriangleNumber. If parts
+    /// Of solids: through their enclosing parts (EnclosingParts). Witnesses lie on parts, at most
+    /// the parts' errors away from the solids. They have no triangles: kNoTriangleNumber. If parts
     /// touch, solids count as colliding, and `collide` reports no containment. With
-    /// Overlap::proper, `collide` is exact and reports it. Two objects whose own parts do not
-    /// certify PairRung::error take the walk.
+    /// Overlap::proper, `collide` is exact and reports containment. If the parts of two objects do
+    /// not certify PairRung::error, these objects use Rung::walk.
     parts,
 };
 
-/// The largest product of part counts of two models for which parts are cheaper than the walk:
-/// measured, see lib/scene/part_distance.h.
+/// The largest product of part counts of two models for which parts are cheaper than the walk. It
+/// was measured: see lib/scene/part_distance.h.
 inline constexpr std::uint64_t kMostPartPairs = 6;
 
-/// Instead of a triangle of a Distance: its witness lies on no triangle.
+/// The number in Distance::triangle_a and triangle_b if the witness lies on no triangle.
 inline constexpr std::uint32_t kNoTriangleNumber = 0xffffffffU;
 
 /// The rung of a pair of layers.
 struct PairRung {
     Rung rung = Rung::walk;
     double error = 0;  ///< certified: the largest error of an answer, model units
-    /// Of Rung::parts: the most parts of a model of LayerPair::a and ::b, otherwise 0.
+    /// With Rung::parts, the largest part count of a model of layer LayerPair::a or b; otherwise 0.
     std::uint32_t parts_a = 0;
     std::uint32_t parts_b = 0;
 };
@@ -109,45 +111,45 @@ struct ModelUse {
     std::string_view name;  ///< for refusals
     Ask serves;             ///< Model::asks()
     std::uint32_t layers;   ///< of its objects: bit i for layer i
-    /// enclosing_parts() of the model. Rung::parts needs them of all models of a layer, and that
-    /// these serve Ask::hulls.
+    /// The result of enclosing_parts(). Rung::parts requires that all models of both layers have
+    /// parts and serve Ask::hulls.
     EnclosingParts parts = {};
 };
 
 struct SceneLimits {
     std::uint32_t objects = 0;
-    /// Pairs of objects whose boxes meet at a time, as BroadPhaseLimits::pairs. An object that is
-    /// asked about itself counts as a pair.
+    /// The maximum number of pairs of objects whose boxes meet, as in BroadPhaseLimits::pairs. An
+    /// object that is tested against itself counts as a pair.
     std::uint32_t pairs = 0;
-    std::uint32_t threads = 1;  ///< tasks that a step runs at a time; at least one
-    /// The maximum length of all lists of `overlap` and `self` together, and of all lists of
-    /// `contacts`. Takes memory only if a pair of layers asks for the effect.
+    std::uint32_t threads = 1;  ///< the maximum number of tasks at once; at least one
+    /// The maximum total length of the lists of `overlap` and `self`. Lists take memory only if a
+    /// pair of layers asks for the effect.
     std::uint32_t triangle_pairs = 0;
-    std::uint32_t contacts = 0;
+    std::uint32_t contacts = 0;  ///< the maximum total length of the lists of `contacts`
 };
 
 struct PlanOptions {
     std::span<const LayerPair> pairs;
     std::span<const ModelUse> models = {};
     SceneLimits limits;
-    /// A point near the objects, finite and at most 2^1000. Their boxes are relative to it, so that
-    /// they stay tight in float. It changes which boxes meet, and so how many pairs need room. It
-    /// changes no result.
+    /// A point near the objects. Its coordinates are finite, and at most 2^1000 in absolute value.
+    /// Boxes of objects are relative to it, so that they stay tight in float. It affects which
+    /// boxes meet, and so how many pairs need room. It changes no result.
     Double3 origin{};
-    /// Of layers 0, 1, ..., for refusals and Plan::describe(). A layer without a name is a number
-    /// there.
+    /// The names of layers 0, 1, ..., for refusals and Plan::describe(). There, a layer without a
+    /// name appears as its number.
     std::span<const std::string_view> layer_names = {};
 };
 
-/// What a scene computes, and nothing else: compiled once from the effects of pairs of layers.
+/// The queries that a scene runs, compiled once from the effects of pairs of layers.
 ///
-/// Objects of layers that are not paired are never looked at together, not even their boxes. A
-/// query runs only for effects that its pair of layers asks for.
+/// Two objects whose layers are not paired are never a candidate. A query runs only for effects
+/// that its pair of layers asks for.
 class Plan {
 public:
     struct Compiled;
     /// Returns the plan, or every reason why there is none, a sentence each. Refuses unknown
-    /// layers, a pair of layers that occurs twice, effects that are not built, and numbers out of
+    /// layers, repeated pairs of layers, effects that a scene does not support, and numbers out of
     /// range. Also refuses options that no effect reads, and models that do not serve an effect of
     /// their layers.
     [[nodiscard]] CDPREP_API static Compiled compile(const PlanOptions& options);
@@ -162,7 +164,7 @@ public:
     [[nodiscard]] std::span<const LayerPair> pairs() const noexcept {
         return pairs_;
     }
-    /// The rung of each pair of pairs(). It is exact if LayerPair::max_error is 0.
+    /// The rung of each pair of pairs(). Its error is 0 if LayerPair::max_error is 0.
     [[nodiscard]] std::span<const PairRung> rungs() const noexcept {
         return rungs_;
     }
@@ -170,11 +172,11 @@ public:
     /// paired.
     [[nodiscard]] CDPREP_API std::optional<std::uint32_t> find_pair(std::uint32_t a,
                                                                     std::uint32_t b) const noexcept;
-    /// Returns what the objects of a layer are asked for: open their models for this. It includes
+    /// Returns the queries about objects of a layer: open their models for these. They include
     /// Ask::hulls for Rung::parts.
     [[nodiscard]] CDPREP_API Ask asks_of(std::uint32_t layer) const noexcept;
-    /// Returns the layers with which a layer is paired. A pair counts as none if it asks for no
-    /// effect of two objects, but for `self`, Ask::deform or Ask::tear.
+    /// Returns a filter with this layer and the layers that are paired with it. A pair of layers
+    /// counts only if it has an effect of two objects. `self`, Ask::deform and Ask::tear are none.
     [[nodiscard]] CDPREP_API BoxFilter filter_of(std::uint32_t layer) const noexcept;
     /// Returns the margin by which the boxes of a layer's objects are enlarged, in units of the
     /// models.
@@ -184,10 +186,11 @@ public:
     /// Returns all effects of all pairs.
     [[nodiscard]] CDPREP_API Ask effects() const noexcept;
 
-    /// Returns a page of text. Its first lines are those of pairs(), one each: the effects, and the
-    /// queries that run. With a max_error, also the rung and its error. Then it lists what is not
-    /// computed, and the layers that are not looked at. At the end are the sections that are read
-    /// of the models, and the size of a Scene.
+    /// Returns a report of about a page. It begins with a line for each pair of pairs(): the
+    /// effects, and the queries from which some of them follow. With a max_error, the line also has
+    /// the rung and its error. Then the report lists the effects that are not computed, and the
+    /// layers that are not paired. It ends with the sections that are read of the models, and the
+    /// size of a Scene.
     [[nodiscard]] CDPREP_API std::string describe() const;
 
 private:
@@ -197,7 +200,7 @@ private:
 
     SceneLimits limits_;
     Double3 origin_{};
-    /// Those that have a name, a model or a pair in the options: bit i for layer i.
+    /// The layers that have a name, a model or a pair in the options: bit i for layer i.
     std::uint32_t layers_ = 0;
     std::vector<LayerPair> pairs_;
     std::vector<PairRung> rungs_;  ///< of pairs_

@@ -28,17 +28,17 @@ struct ClosestPoint {
     std::uint32_t triangle;  ///< source number
 };
 
-/// Returns the point of `model`'s surface nearest to `query`, or nothing if no part of it is within
-/// `max_distance`.
+/// Returns the point of `model`'s surface nearest to `query`, or nothing if no point of the surface
+/// is within `max_distance`.
 ///
 /// The distance is to the surface, not to the solid: a point deep inside a closed model is far
 /// away. If several triangles are equally near in double, the result is on the one with the lowest
 /// number.
 ///
-/// `query` must be finite. `max_distance` may be infinite and is inclusive. No nearer point is
-/// missed, and the point found has a `lower` of at most `max_distance`. The interval always
-/// contains the exact distance (closest_point_laws_test). Its width is a few ulp of the distance to
-/// the triangle's farthest corner, more for slivers.
+/// `query` must be finite. `max_distance` may be infinite and is inclusive. A point within
+/// `max_distance` is never missed. The `lower` of a result is at most `max_distance`. The interval
+/// always contains the exact distance (closest_point_laws_test). Its width is a few ulp of the
+/// distance to the triangle's farthest corner, more for slivers.
 ///
 /// Needs Ask::closest. Never allocates. Visits every node in the worst case, such as a point at the
 /// centre of a sphere.
@@ -52,7 +52,7 @@ struct ClosestPoint {
 
 /// The position of a point with respect to a solid.
 struct Inclusion {
-    Answer answer = Answer::no;  ///< unknown if the model is open and p is not on it
+    Answer answer = Answer::no;  ///< unknown for an open model if p is in its box, off its surface
     bool on_surface = false;     ///< p lies on a triangle; then `answer` is yes
     double winding = 0;          ///< as in Containment; 0 on the surface
 };
@@ -62,18 +62,19 @@ struct Inclusion {
 ///
 /// `through` chooses the structure. The result is the same through each, bit for bit. The
 /// tetra-tree reads the triangles of one cone; octrees read those of the cells along a ray.
-/// Structure::pieces is treated as Structure::bvh. A query on an open model always uses the BVH.
+/// Structure::pieces is treated as Structure::bvh. For an open model, `through` has no effect.
 ///
 /// Exact if the model is balanced: each edge is used equally often in both directions. Needs
-/// Ask::inside and ask_of() the structure. The BVH takes O(log n + hits) time, a tetra-tree O(level
-/// + triangles in one cone). An octree takes O(cells along the ray + their triangles).
-/// QueryCounts::ray_triangles counts these triangles. Never allocates.
+/// Ask::inside and ask_of(through). The BVH takes O(log n + hits of a ray) time, a tetra-tree
+/// O(level + triangles in one cone). An octree takes O(cells along the ray + their triangles).
+/// QueryCounts::ray_triangles counts these triangles. For a point in the box of an open model, the
+/// query takes O(n) time. Never allocates.
 [[nodiscard]] CDPREP_API Inclusion points_inside(const Model& model, const Double3& p,
                                                  Workspace& workspace,
                                                  Structure through = Structure::bvh) noexcept;
 
 /// A half-line: origin + t * direction, t >= 0, in model coordinates. If the model moves, transform
-/// the ray back into its frame.
+/// the ray back into the model's frame.
 struct Ray {
     Double3 origin;     ///< model units, finite
     Double3 direction;  ///< finite, not zero; any length
@@ -81,7 +82,7 @@ struct Ray {
 
 /// A point where a ray meets a surface.
 struct RayHit {
-    double t;                ///< in lengths of the direction
+    double t;                ///< in multiples of the direction's length
     Double3 point;           ///< origin + t * direction, rounded
     std::uint32_t triangle;  ///< source number
 
@@ -90,8 +91,9 @@ struct RayHit {
 };
 
 struct RayOptions {
-    /// Inclusive. Compared with the rounded t. For a segment with exactly decided ends, use
-    /// touches() with a Capsule of radius 0.
+    /// The largest t of a hit, inclusive; it is compared with the rounded t. With a negative limit
+    /// or NaN, nothing is hit. For a segment with exactly decided ends, use touches() with a
+    /// Capsule of radius 0.
     double max_t = std::numeric_limits<double>::infinity();
 };
 
@@ -99,12 +101,12 @@ struct RayOptions {
 ///
 /// Each hit is decided exactly for the given origin and direction, by the signs of tetrahedron
 /// volumes. A triangle includes its edges and vertices, so no ray passes between two triangles that
-/// share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits where it
-/// enters.
+/// share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits the
+/// triangle where it enters it.
 ///
-/// `t` and `point` are rounded. The rounded t decides which hit is first and which hits max_t
-/// excludes. Among equal t, the lowest source number comes first. A model without triangles is
-/// never hit, and a zero direction hits nothing.
+/// `t` and `point` are rounded. The rounded t decides the order of hits, and the hits that max_t
+/// excludes. Among hits with equal t, the lowest source number comes first. A model without
+/// triangles is never hit, and a zero direction hits nothing.
 ///
 /// Needs Ask::ray. Takes O(log n) time for typical meshes. Never allocates.
 [[nodiscard]] CDPREP_API std::optional<RayHit> cast_ray(const Model& model, const Ray& ray,
@@ -112,29 +114,31 @@ struct RayOptions {
                                                         const RayOptions& options = {}) noexcept;
 
 /// Returns whether `ray` hits any triangle, that is, whether cast_ray() would return a hit. Exact
-/// if max_t is infinite. Stops at the first hit found: it is faster than cast_ray(), and sufficient
-/// for shadows and lines of sight. Needs Ask::ray.
+/// if max_t is infinite. Stops at the first hit found. So it is faster than cast_ray(), and
+/// sufficient for shadows and lines of sight. Needs Ask::ray.
 [[nodiscard]] CDPREP_API bool ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                                        const RayOptions& options = {}) noexcept;
 
 /// Finds every triangle that `ray` hits, each once, at its first point on the ray.
 ///
 /// Returns the number of hits. Sorts the hits by t, then by triangle, and stores as many of the
-/// first ones as fit in `hits`. With an empty span it only counts. Hits are decided exactly, as in
-/// cast_ray(). A ray through an edge or vertex hits all triangles there. Needs Ask::ray.
+/// first ones as fit in `hits`. With an empty span, the function only counts. Hits are decided
+/// exactly, as in cast_ray(). A ray through an edge or vertex hits all triangles there. Needs
+/// Ask::ray.
 [[nodiscard]] CDPREP_API std::size_t all_ray_hits(const Model& model, const Ray& ray,
                                                   Workspace& workspace, std::span<RayHit> hits,
                                                   const RayOptions& options = {}) noexcept;
 
 using RayVisitor = Visitor<RayHit>;
 
-/// Calls `visit` with every hit that all_ray_hits() finds, as it is found, in no particular order.
-/// Returns false if `visit` ended the search. Needs Ask::ray.
+/// Calls `visit` with every hit that all_ray_hits() finds, as the search finds it, in no particular
+/// order. Returns false if `visit` ended the search. Needs Ask::ray.
 CDPREP_API bool visit_ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                                RayVisitor visit, const RayOptions& options = {}) noexcept;
 
-/// A solid box along the world axes. Limits may be infinite. With lower > upper on any axis, or a
-/// NaN, it is not a box and touches nothing. Equal limits make it flat, a segment or a point.
+/// A solid box, aligned with the world axes. Limits may be infinite. With lower > upper on any
+/// axis, or a NaN, it is not a box and touches nothing. With equal limits on one, two or three
+/// axes, it is a rectangle, a segment or a point.
 struct Box {
     Double3 lower;  ///< model units
     Double3 upper;  ///< inclusive
@@ -149,12 +153,12 @@ struct Sphere {
 /// All points at most `radius` from a segment: a solid cylinder with round ends.
 struct Capsule {
     Double3 from;   ///< an end of the segment, model units, finite
-    Double3 to;     ///< the other; may equal `from`, which makes it a sphere
+    Double3 to;     ///< the other end; if it equals `from`, the capsule is a sphere
     double radius;  ///< model units; negative or NaN touches nothing, 0 is the segment
 };
 
-/// One triangle by its corners, in model units, finite. Collinear or equal corners give the segment
-/// or point that they span.
+/// One triangle, given by its corners, in model units, finite. Collinear or equal corners give the
+/// segment or point that they span.
 struct TriangleShape {
     std::array<Double3, 3> corner;
 };
@@ -163,25 +167,27 @@ struct TriangleShape {
 using Shape = std::variant<Box, Sphere, Capsule, TriangleShape>;
 
 struct ShapeOptions {
-    /// The placement of the model; shapes are in world coordinates. transform_point() moves each
-    /// vertex once, and the answer is exact for the resulting doubles. The identity moves nothing.
-    /// For an answer that is exact for the stored vertices, give the shape in model coordinates.
+    /// The pose of the model. Shapes are in world coordinates. transform_point() moves each vertex
+    /// once, and the answer is exact for the resulting doubles. The identity moves nothing. For an
+    /// answer that is exact for the stored vertices, give the shape in model coordinates.
     Pose world_from_model = {};
-    Degenerate degenerate = Degenerate::keep;  ///< all but shape_distance() read it
-    /// Read by shape_distance(): larger distances are not found; inclusive.
+    Degenerate degenerate = Degenerate::keep;  ///< every query but shape_distance() reads it
+    /// The largest distance that shape_distance() finds, inclusive; model units. No other query
+    /// reads it.
     double max_distance = std::numeric_limits<double>::infinity();
 };
 
-/// Returns whether `shape` has a point in common with a triangle of `model`. Stops at the first one
-/// found. The model is its surface: a shape deep inside a closed model touches nothing.
+/// Returns whether `shape` has a point in common with a triangle of `model`. Stops at the first
+/// such triangle found. The model is its surface: a shape deep inside a closed model touches
+/// nothing.
 ///
 /// Exact, also for tangent spheres and capsules: signs of determinants and comparisons in integers
 /// decide where double cannot. A triangle that lies in a face of the box touches it. A degenerate
 /// triangle counts as its segment or point, unless it is skipped.
 ///
-/// For a box along other axes, use an axis-aligned box in its own frame. Pass box_from_model as
-/// options.world_from_model: from two world poses, it is relative_pose(world_from_box,
-/// world_from_model).
+/// For an oriented box, use an axis-aligned box in the box's own frame. Pass box_from_model as
+/// options.world_from_model. If two world poses are given, box_from_model is
+/// relative_pose(world_from_box, world_from_model).
 ///
 /// Needs Ask::touch. Takes O(log n) time for most hits and misses. Never allocates.
 [[nodiscard]] CDPREP_API bool touches(const Model& model, const Shape& shape, Workspace& workspace,
@@ -189,8 +195,9 @@ struct ShapeOptions {
 
 /// Finds every triangle of `model` that has a point in common with `shape`.
 ///
-/// Returns the number of triangles. Stores the smallest of their source numbers, sorted, in `room`.
-/// With an empty span it only counts. As exact as touches(). Needs Ask::touch.
+/// Returns the number of triangles. Stores their source numbers in `room`, sorted; only the
+/// smallest ones if `room` is too short. With an empty span, the function only counts. The answer
+/// is as exact as that of touches(). Needs Ask::touch.
 [[nodiscard]] CDPREP_API std::size_t touching_triangles(const Model& model, const Shape& shape,
                                                         Workspace& workspace,
                                                         std::span<std::uint32_t> room,
@@ -199,18 +206,19 @@ struct ShapeOptions {
 /// Receives the source number of a triangle.
 using TriangleVisitor = Visitor<std::uint32_t>;
 
-/// Calls `visit` with every triangle that touching_triangles() finds, each once, as it is found, in
+/// Calls `visit` once for each triangle that touching_triangles() finds, as the search finds it, in
 /// no particular order. Returns false if `visit` ended the search. Needs Ask::touch.
 CDPREP_API bool visit_touching_triangles(const Model& model, const Shape& shape,
                                          Workspace& workspace, TriangleVisitor visit,
                                          const ShapeOptions& options = {}) noexcept;
 
-/// The distance of a shape from a surface, and points where it is attained.
+/// The distance between a shape and a surface, and points where it is attained.
 struct ShapeDistance {
     double lower;      ///< the distance is at least this, model units
     double upper;      ///< and at most this: [lower, upper] contains the exact distance
     Double3 on_model;  ///< on the surface as moved, up to rounding; nearest to the shape
-    /// on the box or triangle; the centre of a sphere; on the segment of a capsule
+    /// A point on the box or triangle, the centre of the sphere, or a point on the capsule's
+    /// segment.
     Double3 on_shape;
     std::uint32_t triangle;  ///< the triangle with on_model; source number
 };
@@ -223,9 +231,11 @@ struct ShapeDistance {
 /// The interval contains the exact distance to the surface whose vertices transform_point() moved.
 /// Its width is at most 1e-12 d + 1e-15 c. Here d is the distance, and c the largest absolute
 /// coordinate of the shape and the moved vertices. For spheres and capsules, the width is that for
-/// the centre or segment, plus 4 ulp for the radius. Among triangles with equal `upper`, the result
-/// has the lowest number. Among those that are equally near in exact arithmetic, any may be the
-/// result, but always the same one.
+/// the centre or segment, plus 4 ulp of `upper` for the subtraction of the radius.
+///
+/// If the shape touches several triangles, any of them may be the result. Otherwise, among
+/// triangles with equal `upper`, the result is the one with the lowest number. Among triangles that
+/// are equally near in exact arithmetic, any may be the result, but always the same one.
 ///
 /// Needs Ask::touch. Visits every triangle in the worst case. A box that does not touch takes
 /// twelve triangle queries, each limited to the smallest distance found before. Never allocates.

@@ -19,14 +19,16 @@ public:
     /// The identity.
     constexpr Pose() noexcept = default;
 
-    /// Makes a pose from R row by row, then T, in model units. Fails with bad_argument if a number
-    /// is not finite or beyond format::kMaxCoordinate; the message names that number. Also fails if
-    /// an entry of |R^T R - I| exceeds kRotationTolerance, or R mirrors.
+    /// Makes a pose from twelve numbers: the rotation R row by row, then the translation T, in
+    /// model units. Fails with bad_argument if a number is not finite or its absolute value exceeds
+    /// format::kMaxCoordinate; the message names that number. Also fails if an entry of |R^T R - I|
+    /// exceeds kRotationTolerance, or R mirrors.
     [[nodiscard]] CDPREP_API static Result<Pose> from_rows(const std::array<double, 12>& rows);
 
     /// Makes a pose from any quaternion w + xi + yj + zk except zero; its length does not matter.
-    /// Fails with bad_argument if a number is not finite, all four are zero, or the translation is
-    /// beyond format::kMaxCoordinate. Each entry of R is within kQuaternionError of the exact one.
+    /// Fails with bad_argument if a number is not finite, or w, x, y and z are all zero. Also fails
+    /// if a coordinate of the translation exceeds format::kMaxCoordinate in absolute value. Each
+    /// entry of R is within kQuaternionError of the exact one.
     [[nodiscard]] CDPREP_API static Result<Pose> from_quaternion(double w, double x, double y,
                                                                  double z,
                                                                  const Double3& translation);
@@ -57,18 +59,20 @@ private:
 };
 
 /// Returns a_from_b = world_from_a^-1 world_from_b. Computes R = Ra^T Rb and T = Ra^T (Tb - Ta) in
-/// double, each sum from left to right. The relative rounding error is about 1e-16. If parts of one
-/// turned assembly must still touch, use Placement::world.
+/// double, each sum from left to right. The relative rounding error is about 1e-16. This error may
+/// separate parts that touch. If the parts of one assembly must still touch, use
+/// Placement::world().
 [[nodiscard]] CDPREP_API Pose relative_pose(const Pose& world_from_a,
                                             const Pose& world_from_b) noexcept;
 
-/// Returns the pose that moves by `b_from_c` first and then by `a_from_b`, by one fixed formula in
-/// double. If an entry of |R^T R - I| exceeds 1e-13, R is replaced by the nearest rotation. So
-/// chains of any length stay rigid. Fails with bad_argument if the translation exceeds
-/// format::kMaxCoordinate.
+/// Returns a_from_c: the pose that moves by `b_from_c` first, then by `a_from_b`. Uses one fixed
+/// formula in double. If an entry of |R^T R - I| exceeds 1e-13, R is replaced by the nearest
+/// rotation. So chains of any length stay rigid. Fails with bad_argument if a coordinate of the
+/// translation exceeds format::kMaxCoordinate in absolute value.
 [[nodiscard]] CDPREP_API Result<Pose> composed_pose(const Pose& a_from_b, const Pose& b_from_c);
 
-/// Returns the inverse pose: R^T and -(R^T T), computed and corrected as in composed_pose().
+/// Returns the inverse pose: R^T and -(R^T T). Corrects the rotation, and fails, as composed_pose()
+/// does.
 [[nodiscard]] CDPREP_API Result<Pose> inverse_pose(const Pose& a_from_b);
 
 /// The order of the sixteen numbers of a matrix.
@@ -80,40 +84,42 @@ enum class MatrixLayout : std::uint8_t {
 /// The largest tolerance of nearest_pose(). Beyond it, the nearest rotation means little.
 inline constexpr double kGreatestPoseTolerance = 0.25;
 
-/// Returns the pose nearest to a 4 x 4 matrix, such as a transform of a game engine. M is the
-/// matrix's 3 x 3 part. R minimises the sum of the squared entries of M - R, with |R^T R - I| at
-/// most 1e-15 (pose_test).
+/// Returns the pose nearest to a 4 x 4 matrix, such as a transform of a game engine. M is the upper
+/// left 3 x 3 part of the matrix. The pose's rotation R minimises the sum of the squared entries of
+/// M - R. Entries of |R^T R - I| are at most 1e-15 (pose_test).
 ///
-/// The matrix may differ from a rigid motion by `tolerance`, which is 0 to kGreatestPoseTolerance.
-/// The limit holds for every entry of |M^T M - I|. It also holds for the deviation of the last row
-/// from 0 0 0 1. For matrices of floats, 1e-5 is a good value.
+/// The matrix may differ from a rigid motion by `tolerance`, which must be 0 to
+/// kGreatestPoseTolerance. This limit holds for every entry of |M^T M - I|. It also holds for the
+/// deviation of each entry of the last row from 0 0 0 1. For matrices of floats, 1e-5 is a good
+/// value.
 ///
-/// Fails with bad_argument, and states the reason, if the matrix scales, shears, mirrors or
-/// projects by more than that. Also fails if a number is not finite or beyond
-/// format::kMaxCoordinate, or the tolerance is out of range.
+/// Fails with bad_argument, and states the reason, if the matrix mirrors. Also fails if it scales,
+/// shears or projects by more than the tolerance, or the tolerance is out of range. Also fails if a
+/// number is not finite, or its absolute value exceeds format::kMaxCoordinate.
 [[nodiscard]] CDPREP_API Result<Pose> nearest_pose(const std::array<double, 16>& matrix,
                                                    double tolerance,
                                                    MatrixLayout layout = MatrixLayout::rows);
 
 /// Returns the point p moved by `pose`. Its coordinates are ((R00 x + R01 y) + R02 z) + T0 and so
-/// on, in double without contraction. Queries are exact for the points that this function returns
-/// (level E1 of GLOSSARY.md). Neither compiler options nor the caller's floating-point environment
-/// change them.
+/// on, in double without contraction (fused multiply-add). Queries are exact for the points that
+/// this function returns (level E1 of GLOSSARY.md). Neither compiler options nor the caller's
+/// floating-point environment changes these points.
 [[nodiscard]] CDPREP_API Double3 transform_point(const Pose& pose, const Double3& p) noexcept;
 
-/// The poses of two models, and which of the models moves.
+/// The poses of two models, and which of the models move.
 ///
 /// A query moves each vertex of a moved model once, by transform_point(), and answers exactly for
-/// the resulting doubles. The choice of the moving model matters. Rounding shifts moved vertices by
-/// up to 5 u (|R||v| + |t|) per axis, where u = 2^-53.
+/// the resulting doubles. The choice of the moving model matters: rounding shifts moved vertices by
+/// up to 5 u (|R||v| + |t|) per axis. Here u = 2^-53, and R, t and v are the rotation, translation
+/// and vertex.
 class Placement {
 public:
     /// B moves into A's frame. A does not move.
     [[nodiscard]] static Placement b_moves(const Pose& a_from_b) noexcept {
         return {Pose(), a_from_b, false, true};
     }
-    /// A moves into B's frame. Queries of (b, a) by b_moves(p) and of (a, b) by a_moves(p) give the
-    /// same pairs, swapped, bit for bit.
+    /// A moves into B's frame. B does not move. A query on (a, b) with a_moves(p) gives the pairs
+    /// of the query on (b, a) with b_moves(p), swapped, bit for bit.
     [[nodiscard]] static Placement a_moves(const Pose& b_from_a) noexcept {
         return {b_from_a, Pose(), true, false};
     }
@@ -123,7 +129,7 @@ public:
         return b_moves(relative_pose(world_from_a, world_from_b));
     }
     /// Both models move, each by its own world pose. If parts of an assembly have equal poses,
-    /// their common vertices stay equal. Parts that touch still touch.
+    /// their common vertices stay equal. So parts that touch still touch.
     [[nodiscard]] static Placement world(const Pose& world_from_a,
                                          const Pose& world_from_b) noexcept {
         return {world_from_a, world_from_b, true, true};
@@ -131,10 +137,10 @@ public:
 
     [[nodiscard]] const Pose& pose_a() const noexcept {
         return pose_a_;
-    }  ///< identity: A stays
+    }  ///< the identity if A does not move
     [[nodiscard]] const Pose& pose_b() const noexcept {
         return pose_b_;
-    }  ///< identity: B stays
+    }  ///< the identity if B does not move
     [[nodiscard]] bool a_is_moved() const noexcept {
         return a_is_moved_;
     }

@@ -11,8 +11,8 @@ namespace cdprep {
 using PreconditionHandler = void (*)(const char* sentence);
 
 /// Sets the process-wide handler and returns the previous one. Null sets the default, which prints
-/// the sentence to standard error. Any thread may call it. This handler is the library's only
-/// mutable global. The C API never calls it, but returns CDPREP_BAD_ARGUMENT.
+/// the sentence to standard error. Any thread may call this function. The handler is the library's
+/// only mutable global. The C API never calls the handler; it returns CDPREP_BAD_ARGUMENT instead.
 CDPREP_API PreconditionHandler set_precondition_handler(PreconditionHandler handler) noexcept;
 
 }  // namespace cdprep

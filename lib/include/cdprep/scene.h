@@ -30,8 +30,8 @@ struct ObjectId {
     auto operator<=>(const ObjectId&) const = default;
 };
 
-/// An object to add. The model must outlive it, and serve Plan::asks_of(layer). A change of a
-/// LiveModel is found by the next step if its layer asks for Ask::deform or Ask::tear. In other
+/// An object to add. The model must outlive the object, and serve Plan::asks_of(layer). The next
+/// step finds a change of a LiveModel if the object's layer has Ask::deform or Ask::tear. In other
 /// layers, call set_pose() for each object of the model after a change, even with the same pose.
 struct SceneObject {
     const Model* model = nullptr;
@@ -43,13 +43,14 @@ struct SceneObject {
 struct SceneHit {
     ObjectId a;
     ObjectId b;
-    std::uint32_t pair;  ///< of layers: its number in Plan::pairs()
+    std::uint32_t pair;  ///< the pair of layers: an index into Plan::pairs()
     /// The effects that hold. With LayerPair::max_error, see Rung. `distance` holds if the distance
     /// is at most max_distance. `overlap`, `self` and `contacts` hold if their list has items.
     /// `continuous` holds if ImpactKind is not `none`. `haptic` holds unless the distance is proven
     /// to exceed max_distance.
     Ask holds;
-    /// The answer of `collide`. If it is unknown, the pair is listed but is not a hit.
+    /// The answer of `collide`. If it is unknown, the objects are listed, but `collide` does not
+    /// hold.
     Collision collision;
 };
 
@@ -62,7 +63,7 @@ struct SceneDistance {
     Distance distance;  ///< A is the object with the lower slot; witnesses are in the world
 };
 
-/// The triangles of two objects that overlap: all of them, in the order of (a, b).
+/// All pairs of triangles in which two objects overlap, in the order of TrianglePair.
 struct SceneOverlaps {
     ObjectId a;
     ObjectId b;
@@ -77,7 +78,8 @@ struct SceneSelfOverlaps {
     std::span<const TrianglePair> triangles;
 };
 
-/// The time at which two objects touch between the last step's poses and the present ones.
+/// The time at which two objects first touch between the last step's poses and the present ones. If
+/// Motion::between() rejects a motion, the kind is `unfinished` and `lower` is 0.
 struct SceneImpact {
     ObjectId a;
     ObjectId b;
@@ -112,7 +114,7 @@ enum class EventKind : std::uint32_t {
     begins,
 };
 
-/// The reason of an event.
+/// The reason for an event.
 enum class EventReason : std::uint32_t {
     /// An object moved, changed or was added, or step_with() got other pairs. With `continuous`, an
     /// object also counts as moved in the step after its last motion.
@@ -123,29 +125,31 @@ enum class EventReason : std::uint32_t {
     unchanged,  ///< for EventKind::stays: neither object moved
 };
 
-/// An effect that begins, goes on or ceases to hold for two objects. Between two begins of the same
-/// objects and effect there is exactly one end.
+/// An effect that begins, goes on or ceases to hold for two objects. For the same objects and
+/// effect, there is exactly one EventKind::ends between two EventKind::begins.
 struct SceneEvent {
     ObjectId a;
     ObjectId b;          ///< for `self`, the same object as a
-    std::uint32_t pair;  ///< of layers, when it began
+    std::uint32_t pair;  ///< the pair of layers when the effect began
     Ask effect;          ///< one of kSceneEffects
     EventKind kind;
     EventReason reason;
 };
 
-/// A clock of the caller's, for SceneCounts. It must be safe to call on any thread.
+/// A clock of the caller for SceneCounts, in ticks of any unit. It must be safe to call on any
+/// thread.
 using SceneClock = std::uint64_t (*)() noexcept;
 
 /// The work of a step. A query is not called if its answer follows from another one. For surfaces,
-/// collide() follows from overlaps(), and mostly from distance(), as within() does.
+/// collide() follows from overlaps(). In most cases, collide() and within() also follow from
+/// distance().
 struct SceneCounts {
     /// Objects that moved, changed, were added, removed or relayered. With `continuous`, an object
     /// also counts in the step after its last motion.
     std::uint64_t moved = 0;
     /// Pairs whose boxes meet, and objects that are tested against themselves.
     std::uint64_t candidates = 0;
-    std::uint64_t kept = 0;   ///< candidates of which neither object moved: not queried again
+    std::uint64_t kept = 0;   ///< candidates in which no object moved: not queried again
     std::uint64_t apart = 0;  ///< candidates whose root boxes are apart: no query runs
     std::array<std::uint64_t, kSceneEffects.size()> calls{};  ///< by effect
     /// The length of all lists of overlaps() and self_overlaps().
@@ -163,13 +167,14 @@ struct SceneCounts {
     [[nodiscard]] CDPREP_API std::uint64_t calls_of(Ask effect) const noexcept;
 };
 
-/// The result of Scene::step(). If it is not complete, nothing has changed, and the limits that
-/// were too small are named. Lists are computed only if limits.pairs suffices.
+/// The result of Scene::step(). If the step is not complete, no result has changed, and sufficient
+/// limits are given. If SceneLimits::pairs is too small, no lists are computed. Then their limits
+/// remain unchecked.
 struct SceneStep {
     bool complete = true;
-    std::uint64_t needed_pairs = 0;           ///< SceneLimits::pairs for this step, else 0
-    std::uint64_t needed_triangle_pairs = 0;  ///< SceneLimits::triangle_pairs, else 0
-    std::uint64_t needed_contacts = 0;        ///< SceneLimits::contacts, else 0
+    std::uint64_t needed_pairs = 0;           ///< a sufficient SceneLimits::pairs; 0: it sufficed
+    std::uint64_t needed_triangle_pairs = 0;  ///< of SceneLimits::triangle_pairs, likewise
+    std::uint64_t needed_contacts = 0;        ///< of SceneLimits::contacts, likewise
 };
 
 /// Many objects that move. A step runs the plan's queries for pairs of objects near each other, if
@@ -207,9 +212,9 @@ public:
     /// Removes an object. The next step ends its events. Returns false if there is none with this
     /// id.
     CDPREP_API bool remove(ObjectId object) noexcept;
-    /// Moves an object. Returns false if there is none with this id. For `continuous`, its way
-    /// begins at its pose in the last complete step. After put(), it begins where put() left it.
-    /// Its motion is that of Motion::between(), about the centre of the model's box.
+    /// Moves an object. Returns false if there is none with this id. For `continuous`, the object's
+    /// way begins at its pose in the last complete step. After put(), the way begins at the pose of
+    /// put(). The motion is that of Motion::between(), about the centre of the model's box.
     CDPREP_API bool set_pose(ObjectId object, const Pose& world_from_model) noexcept;
     /// Puts an object at a pose, without a way for `continuous`. Returns false if there is none
     /// with this id.
@@ -229,17 +234,17 @@ public:
     /// limits.threads allows; there must be at least one. Calls `parallel_for` at most five times.
     CDPREP_API SceneStep step(std::span<Workspace> workspaces,
                               ParallelFor parallel_for = serial_for) noexcept;
-    /// Does the same with pairs of slots that the caller's own broad phase found. The pairs may
-    /// have any order, and so may the two slots of a pair. They must contain all pairs whose boxes
-    /// meet: the scene does not find missing pairs. Pairs of free slots, of layers that are not
-    /// paired and of boxes that do not meet are ignored. If pairs are listed twice, needed_pairs
-    /// may be larger than necessary.
+    /// Does the same as step(), with pairs of slots that the caller's own broad phase found. The
+    /// pairs may have any order, and so may the two slots of a pair. They must contain all pairs
+    /// whose boxes meet: the scene does not find missing pairs. Pairs of free slots, of layers that
+    /// are not paired and of boxes that do not meet are ignored. If pairs are listed twice,
+    /// needed_pairs may be larger than necessary.
     CDPREP_API SceneStep step_with(std::span<const BoxPair> candidates,
                                    std::span<Workspace> workspaces,
                                    ParallelFor parallel_for = serial_for) noexcept;
-    /// Returns the box of each slot in the next step, for such a broad phase, relative to the
-    /// plan's origin. With `continuous`, a box contains the whole way. Free slots have absent
-    /// boxes.
+    /// Returns the box of each slot in the next step, for the broad phase of step_with(). Boxes are
+    /// relative to the plan's origin. With `continuous`, a box contains the whole way. Free slots
+    /// have absent boxes, and so have objects whose layer is paired with none.
     [[nodiscard]] CDPREP_API std::span<const WorldBox> boxes() noexcept;
 
     [[nodiscard]] CDPREP_API std::span<const SceneHit> hits() const noexcept;
@@ -263,10 +268,10 @@ public:
     /// Returns the object in a slot, or an id with generation 0 if there is none.
     [[nodiscard]] CDPREP_API ObjectId object_at(std::uint32_t slot) const noexcept;
     /// Returns a hash of all hits, lists, distances, impacts and events. It leaves out witness
-    /// points, features, the points of manifolds and the bounds of impacts. For distances of 0, it
-    /// leaves out the triangles. It is equal for any number of threads and any instruction set.
-    /// Exceptions are answers of `haptic`, those with a max_error, and impacts that are `near`.
-    /// They may differ between instruction sets.
+    /// points, features, the coordinates of manifold points, and the bounds of impacts. For
+    /// distances of 0 and for `haptic`, it leaves out the triangles. The hash is equal for any
+    /// number of threads and any instruction set. Three kinds of answers may differ between
+    /// instruction sets: those of `haptic`, those with a max_error, and impacts that are `near`.
     [[nodiscard]] CDPREP_API std::uint64_t state_hash() const noexcept;
 
 private:

@@ -23,9 +23,9 @@ struct SelfOptions {
 ///
 /// Triangles share a vertex if they use one vertex number of the model. A bake merges vertices with
 /// equal positions into one. Two vertices of a LiveModel may move to one position later. They
-/// remain two vertices, so their triangles then touch. Triangles that share a vertex are in no
-/// pair, even if they overlap, as in a flat fold. In a torn LiveModel, only the present triangles
-/// are in pairs.
+/// remain two vertices, so triangles that touch there are a pair. Triangles that share a vertex are
+/// in no pair, even if they overlap, as in a flat fold. In a torn LiveModel, only the present
+/// triangles are in pairs.
 ///
 /// Exact: the answer is that of exact arithmetic on the model's own positions. It is the same on
 /// every machine and in every floating-point environment of the caller. An empty model has no

@@ -23,9 +23,9 @@ namespace cdprep {
 ///         if (may_touch(*sweep, blade, motion_of_blade, workspace)) { take smaller steps }
 ///     }
 ///
-/// Lives in the caller's memory and allocates nothing. Copies share that memory. Queries about it
-/// may run on any number of threads at once. None may run from the call of begin() until end()
-/// returns: the boxes then belong to no step.
+/// Lives in the caller's memory and allocates nothing. Copies share that memory. Queries about a
+/// sweep may run on any number of threads at once. None may run from the call of begin() until
+/// end() returns: the boxes then belong to no step.
 class Sweep {
 public:
     /// Returns the number of bytes that in() takes: 24 per vertex and about 4 per triangle.
@@ -33,8 +33,8 @@ public:
 
     /// Makes the sweep of a model that deforms in place, such as that of a LiveModel. The model
     /// must outlive it. `memory` must start at a multiple of format::kSectionAlignment. Returns
-    /// nothing if it is too small or misaligned. Needs Ask::within and Ask::corners of the model.
-    /// At first, nothing moves.
+    /// nothing if `memory` is too small or misaligned. Needs Ask::within and Ask::corners of the
+    /// model. At first, nothing moves.
     [[nodiscard]] CDPREP_API static std::optional<Sweep> in(std::span<std::byte> memory,
                                                             const Model& model) noexcept;
 
@@ -42,9 +42,9 @@ public:
     CDPREP_API void begin() noexcept;
 
     /// Ends the step: the positions of the model are those at time 1. A triangle that was appended
-    /// within the step starts at its vertices' positions at time 0. Vertices that had none start
-    /// where the first vertex of the base was. If the base was empty, they start at the origin. A
-    /// triangle that was removed within the step is nowhere. Takes O(n) time.
+    /// within the step starts at its vertices' positions at time 0. Vertices that had no position
+    /// start where the first vertex of the base was. If the base was empty, they start at the
+    /// origin. A triangle that was removed within the step is nowhere. Takes O(n) time.
     CDPREP_API void end() noexcept;
 
     /// Returns whether queries may use the sweep. The step must have ended, and the model must be
@@ -74,9 +74,9 @@ private:
 /// `true` means that the convex hull of a triangle's path, relative to B, comes near a triangle of
 /// B. It does not say whether they touch, nor when. may_touch() does not test containment:
 /// collide() with Body::solid does. It does not test a model against itself, or two models that
-/// both deform. Triangles that were removed within the step are left out. A hull ignores that its
-/// triangle is in one place at a time. So a step with less motion gives fewer false alarms. If B
-/// turns by more than a quarter of a radian, the step is tested in parts, at most 64.
+/// both deform. Triangles that were removed within the step are left out. The hull contains all
+/// places through which the triangle passes. So a step with less motion gives fewer false alarms.
+/// If B turns by more than a quarter of a radian, the step is tested in up to 64 parts.
 ///
 /// Requires sweep.is_current(). Needs Ask::within of B. Takes as long as within() with a tolerance
 /// of half of B's motion. Each pair of triangles near each other takes about 1 us more for each

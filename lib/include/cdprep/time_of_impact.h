@@ -12,7 +12,7 @@
 
 namespace cdprep {
 
-/// Two models that move during a step. The models must outlive it.
+/// Two models that move during a step. The models must outlive the MovingPair.
 struct MovingPair {
     std::reference_wrapper<const Model> a;
     std::reference_wrapper<const Model> b;
@@ -23,11 +23,11 @@ struct MovingPair {
 
 struct ImpactOptions {
     /// The search ends when no point moves farther than this between `lower` and `upper`, relative
-    /// to the other model. It also ends after narrowing this interval 32 times. It also ends when
-    /// the surfaces are this near, and no time of contact is found. Model units.
+    /// to the other model. It also ends after narrowing [lower, upper] 32 times. Otherwise it ends
+    /// when the surfaces are this near, and no time of contact is found. Model units.
     ///
     /// A tolerance close to rounding errors is raised to 2^-39 or so of the largest coordinate. It
-    /// is raised to more for many turns, and for poses whose R is not quite a rotation.
+    /// is raised further for many turns, and for poses whose matrix is not quite a rotation.
     double tolerance = 0;
     /// The search ends after this many distance queries that advance it.
     std::uint32_t most_steps = 256;
@@ -44,9 +44,9 @@ enum class ImpactKind : std::uint8_t {
 /// The result of time_of_impact().
 struct Impact {
     ImpactKind kind = ImpactKind::none;
-    /// At all times before, the surfaces are apart. 1 if the kind is `none`.
+    /// The surfaces are apart at all earlier times. 1 if the kind is `none`.
     double lower = 1;
-    /// At this time they touch. Infinity if no such time was found.
+    /// The surfaces touch at this time. Infinity if no such time was found.
     double upper = std::numeric_limits<double>::infinity();
     std::uint32_t steps = 0;  ///< distance queries that advanced the search
     /// The nearest points at `lower`, in world coordinates: the direction of the contact. Nothing
@@ -57,17 +57,18 @@ struct Impact {
 /// Returns when two moving models first touch: an interval of time that holds the first contact.
 ///
 /// The models are placed by Placement::world(), with the poses of Motion::at(). At each time before
-/// `lower` that is a double, they are apart. At `upper` they touch, as collide() finds. So nothing
-/// passes through unseen, however fast or thin it is. If they touch at time 0, both bounds are 0.
+/// `lower` that is a double, they are apart. At `upper` they touch, and collide() finds this. So no
+/// contact is missed, however fast or thin a model is. If they touch at time 0, both bounds are 0.
 /// With Body::solid, a model inside the other also touches it at time 0.
 ///
 /// If the search ends at the tolerance without a contact, the kind is `near`. The models may then
-/// pass each other closely, or touch later. A solver treats it as an impact at `lower`. An empty
-/// model touches nothing.
+/// pass each other closely, or touch later. A solver should treat this as an impact at `lower`. An
+/// empty model touches nothing.
 ///
 /// Conservative advancement (Mirtich 1996): no point moves faster than a bound, so a distance gives
 /// a time without contact. Where the surfaces are close, each pair of triangles has a bound of its
-/// own, along the direction between them. C2A does the same for boxes (Tang, Kim and Manocha 2009).
+/// own, along the direction between them. The method C2A does the same for boxes (Tang, Kim and
+/// Manocha 2009).
 ///
 /// Needs Ask::distance of both models, and Ask::solid with Body::solid. Takes a distance query for
 /// each step, most of them with a PairCache, and one for the nearest points. Near a contact it also

@@ -5,10 +5,10 @@
 
 namespace cdprep {
 
-/// A reference to a callable that receives each answer; returning false ends the search. A Visitor
-/// does not copy the callable, which must outlive the query. The callable must not throw and must
-/// not use the workspace of the query. The callable runs in the caller's floating-point
-/// environment.
+/// A reference to a callable that receives each answer. If the callable returns false, the search
+/// ends. A Visitor does not copy the callable, which must outlive the query. The callable must not
+/// throw and must not use the workspace of the query. The callable runs in the caller's
+/// floating-point environment.
 template <class Answer>
 class Visitor {
 public:

@@ -33,17 +33,17 @@ struct WindowFill {
 /// loop fills it. A fast loop, such as that of a haptic device at 1 kHz, queries it instead of A.
 ///
 /// model() is a model like any other, with the positions, boxes and triangle numbers of A. The fast
-/// loop reads nothing else of A, so A may deform meanwhile. At the fill, everything of A outside
-/// the window was farther than the radius from the probe. margin() is this radius, minus the
-/// largest displacement of a point of the probe since then, relative to A. So everything outside is
-/// still farther than margin() from the probe. An answer about anything within margin() is that
-/// about A.
+/// loop reads nothing else of A, so A may deform meanwhile. During the fill, everything of A
+/// outside the window was farther than WindowFill::radius from the probe. margin() is this radius,
+/// minus the largest displacement of a point of the probe since then, relative to A. So everything
+/// outside is still farther than margin() from the probe. An answer about anything within margin()
+/// is also the answer about A.
 ///
 /// The window counts as open and torn, because its surface has a rim. It serves collide, overlap,
 /// distance, within, ray, closest and touch, for surfaces. A query is complete if nothing farther
 /// than margin() from the probe can change its answer. So overlaps() and collide() are complete if
-/// margin() >= 0, within() and pairs_within() if margin() >= the tolerance. distance() of this
-/// class reports whether it is complete.
+/// margin() >= 0. within() and pairs_within() are complete if margin() is at least the tolerance.
+/// Window::distance() reports whether its answer is complete.
 ///
 /// Each fill() copies O(leaves) bytes: 430 for a leaf, or 1,000 if A keeps doubles. The caller
 /// keeps two windows: the slow loop fills one while the fast loop reads the other, as in
@@ -66,8 +66,8 @@ public:
     [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const WindowLimits& limits);
 
     /// Makes an empty window. `memory` must start at a multiple of format::kSectionAlignment and
-    /// stay in place while the window lives. Writes all of it, so that no later fill is the first
-    /// to touch a page. Allocates. Fails with `bad_argument` if `memory` is too small or
+    /// stay in place while the window lives. Writes all of `memory`, so that no later fill is the
+    /// first to touch a page. Allocates. Fails with `bad_argument` if `memory` is too small or
     /// misaligned, or if there are no leaves, or more than kMostWindowLeaves.
     [[nodiscard]] CDPREP_API static Result<Window> in(std::span<std::byte> memory,
                                                       const WindowLimits& limits);
@@ -77,10 +77,10 @@ public:
     CDPREP_API ~Window();
 
     /// Fills the window with the leaves of pair.a that may be at most `radius` from pair.b, in
-    /// model units. If they do not fit, halves the radius until they do, then tries four radii
-    /// between the last two. After 20 halvings it tries 0. Infinity asks for all leaves. Gives an
-    /// empty window for a negative radius or NaN. pair.a may be baked or live, or the model of
-    /// another window. Reads no other part of the pair.
+    /// model units. If they do not fit, halves the radius until they do, then bisects four times
+    /// between the last two radii. After 20 halvings, it tries the radius 0. An infinite radius
+    /// requests all leaves. A negative radius or NaN gives an empty window. pair.a may be baked or
+    /// live, or the model of another window. Reads no other part of the pair.
     ///
     /// Needs Ask::distance of both models. Takes O(log n + leaves log m) time for n triangles of A
     /// and m of B. Never allocates.
@@ -95,22 +95,24 @@ public:
     /// Returns the distance from the probe within which the window has everything of A, in model
     /// units. It is the radius, minus the largest displacement of a point of the probe's box since
     /// the fill, minus rounding. The displacement of a point is affine in the point, and length is
-    /// convex. So the largest is that of a corner of the box. Either placement may be of any kind.
+    /// convex. So the largest displacement is that of a corner of the box. The placements of the
+    /// fill and of this call may be of any kind.
     ///
     /// Negative if the probe has moved too far. Minus infinity for another probe, or one that has
-    /// deformed since. Infinity if A or the probe is empty. O(1).
+    /// deformed since. Infinity if A or the probe is empty. Takes O(1) time.
     [[nodiscard]] CDPREP_API double margin(const Model& probe,
                                            const Placement& placement) const noexcept;
 
     /// Returns the distance of A, as it was when the window was filled, and pair.b. Requires that
     /// pair.a is model(): otherwise the program stops with a message.
     ///
-    /// Complete if bounded_distance() of the window is, and the distance or max_distance is less
-    /// than margin(). Also complete if triangles touch, but then the answer may name another pair
-    /// that touches. Apart from that, a complete answer is the answer about A, bit for bit if no
-    /// errors are permitted. Otherwise the bounds are those of the window, with `lower` at most
-    /// margin(). Reads the same options, and needs the same Ask. Takes as long as
-    /// bounded_distance() of the window. Never allocates.
+    /// Complete if bounded_distance() of the window is complete, and the distance or max_distance
+    /// is less than margin(). Also complete if triangles touch, but then the answer may name
+    /// another touching pair than an answer about A. Apart from that, a complete answer is the
+    /// answer about A, bit for bit if no errors are permitted. The bounds of an incomplete answer
+    /// are those of the window, with `lower` at most margin(). Reads the same options as
+    /// bounded_distance(), and needs the same Ask. Takes as long as bounded_distance() of the
+    /// window. Never allocates.
     [[nodiscard]] CDPREP_API BoundedDistance
     distance(const Pair& pair, Workspace& workspace, const DistanceOptions& options = {},
              const DistanceBudget& budget = {}) const noexcept;
@@ -122,7 +124,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// The largest WindowLimits::leaves: each of its corners has a number in 32 bits.
+/// The largest WindowLimits::leaves: each corner of a window's triangles has a number in 32 bits.
 inline constexpr std::uint32_t kMostWindowLeaves = format::kMaxVertices / (3 * format::kBvhWidth);
 
 }  // namespace cdprep

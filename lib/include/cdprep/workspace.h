@@ -22,18 +22,18 @@ public:
     /// Makes a workspace for every query except those through octrees and tetra-trees.
     CDPREP_API Workspace();
 
-    /// Makes a workspace that also serves queries through octrees and tetra-trees. It takes 360 KiB
-    /// more. `cells` is cells() of <cdprep/cells.h>.
+    /// Makes a workspace that also serves queries through octrees and tetra-trees. This workspace
+    /// takes 360 KiB more. `cells` is cells() of <cdprep/cells.h>.
     ///
     ///     cdprep::Workspace workspace(cdprep::cells());
     CDPREP_API explicit Workspace(const CellSearches& cells);
 
     /// Makes a workspace in the caller's memory, which must outlive it. Allocates nothing. Returns
     /// nothing if the memory is smaller than size() or not aligned to alignment(). With null cells,
-    /// it serves the same queries as Workspace().
+    /// the workspace serves the same queries as Workspace().
     [[nodiscard]] CDPREP_API static std::optional<Workspace> in_memory(
         std::span<std::byte> memory, const CellSearches* cells = nullptr) noexcept;
-    /// Returns the size in bytes.
+    /// Returns the number of bytes that a workspace needs in in_memory().
     [[nodiscard]] CDPREP_API static std::size_t size(const CellSearches* cells = nullptr) noexcept;
     [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two
 
@@ -42,7 +42,7 @@ public:
     CDPREP_API ~Workspace();
 
     /// Adds the work of later queries with this workspace to `*counts` (query_counts.h); null turns
-    /// counting off. While counting is off, it costs 0.2 % of a query's instructions.
+    /// counting off. Even while it is off, counting costs 0.2 % of a query's instructions.
     CDPREP_API void count_into(QueryCounts* counts) noexcept;
 
     struct Storage;  ///< private to the library
@@ -51,7 +51,7 @@ public:
     }
 
 private:
-    /// Frees memory that was allocated, and does not touch the caller's.
+    /// Frees memory that the workspace allocated, never the caller's memory.
     struct Release {
         bool owns;
         void operator()(Storage* storage) const noexcept;

@@ -11,14 +11,14 @@ namespace cdprep::format {
 /// The positions of each level's nodes in the node array. They follow from the triangle count
 /// alone.
 ///
-/// Level 0 is the lowest: its boxes contain leaves. The root is level `levels - 1` and node 0 of
-/// the array. Without triangles there are no nodes.
+/// Level 0 is the lowest: its boxes contain leaves. The root is the only node of level `levels - 1`
+/// and node 0 of the array. Without triangles there are no nodes.
 struct BvhShape {
     std::uint32_t levels = 0;                          ///< 0 only if there are no triangles
     std::uint32_t leaf_count = 0;                      ///< ceil(triangles / 8)
     std::uint32_t node_count = 0;                      ///< nodes of all levels
-    std::array<std::uint32_t, kMaxBvhLevels> first{};  ///< index of the level's first node
-    std::array<std::uint32_t, kMaxBvhLevels> count{};  ///< nodes of the level
+    std::array<std::uint32_t, kMaxBvhLevels> first{};  ///< by level: index of its first node
+    std::array<std::uint32_t, kMaxBvhLevels> count{};  ///< by level: number of its nodes
 
     /// Returns the number of used boxes of a node: 1 to 8. `node` is its index within the level.
     [[nodiscard]] constexpr std::uint32_t used_boxes(std::uint32_t level,

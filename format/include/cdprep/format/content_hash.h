@@ -10,9 +10,10 @@
 
 namespace cdprep::format {
 
-/// Returns the hash of a model's content. It covers the header's facts: counts, flags, units, frame
-/// and normalisation. It also covers each section's id, element size, count and checksum, in the
-/// order of ids. It does not cover offsets, the file size or the HDF5 part.
+/// Returns the hash of a model's content. It covers the header's facts: version, required features,
+/// counts, flags, up axis, units, frame and normalisation. It also covers each section's id,
+/// element size, count and checksum. It does not cover offsets, the file size or the HDF5 part.
+/// `sections` must be sorted by id, with at most kMaxSections entries.
 [[nodiscard]] CDPREP_API std::uint64_t content_hash(
     const FileHeader& header, std::span<const SectionEntry> sections) noexcept;
 

@@ -11,14 +11,14 @@
 
 namespace cdprep::format {
 
-/// The first bytes of a finished baked file. The writer stores them last. 0x93 and the line ends
-/// detect transfers in text mode.
+/// The first bytes of a finished baked file. The writer stores them last. Byte 0x93 and the line
+/// ends reveal a transfer in text mode.
 inline constexpr std::array<char, 8> kMagic = {'\x93', 'C', 'D', 'P', '\r', '\n', '\x1a', '\n'};
 
 /// The format version. It increases whenever an older reader would misread a newer file.
 inline constexpr std::uint32_t kVersion = 1;
 
-inline constexpr std::uint32_t kEndianMark = 0x01020304;    ///< as the writer's processor stores it
+inline constexpr std::uint32_t kEndianMark = 0x01020304;    ///< in the writer's byte order
 inline constexpr double kIeeeCheck = 0x1.5bf0a8b145769p+1;  ///< e: proves IEEE 754 doubles
 
 inline constexpr std::uint64_t kUserBlockSize = 4096;   ///< bytes; the HDF5 part follows
@@ -56,7 +56,8 @@ enum ModelFlags : std::uint32_t {
     model_swept_rectangles = 16,  ///< swept_nodes hold rectangles
 };
 
-/// Returns the kind of swept_nodes in a model with these flags: points if neither bit is set.
+/// Returns the kind of swept_nodes in a model with these flags: SweptKind::point if neither
+/// model_swept_lines nor model_swept_rectangles is set.
 [[nodiscard]] constexpr SweptKind swept_kind(std::uint32_t flags) noexcept {
     if ((flags & model_swept_rectangles) != 0) return SweptKind::rectangle;
     return (flags & model_swept_lines) != 0 ? SweptKind::line : SweptKind::point;
@@ -86,8 +87,8 @@ struct FileHeader {
     /// The result of content_hash() over the sections' ids, sizes, counts and checksums, and the
     /// header's facts about the model. The same input, options and tool version give the same hash.
     std::uint64_t content_hash;
-    /// Bytes 8 to 47 of the HDF5 superblock. A tool that rewrites the file moves the sections but
-    /// copies this block. Then these bytes no longer match the superblock.
+    /// Bytes 8 to 47 of the HDF5 superblock. Another HDF5 tool that rewrites the file moves the
+    /// sections but copies the user block. Then this field no longer matches the superblock.
     std::array<std::uint8_t, 40> superblock;
     std::uint32_t section_count;
     std::uint32_t required_features;  ///< a reader refuses unknown bits; 0 in this version

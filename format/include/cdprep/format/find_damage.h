@@ -19,21 +19,22 @@ enum class DamageKind : std::uint32_t {
     too_short = 1,         ///< found: bytes of the file; limit: bytes needed
     bad_magic = 2,         ///< not a baked file, or an unfinished one
     bad_version = 3,       ///< found: the version; limit: kVersion
-    bad_byte_order = 4,    ///< written on a machine of other endianness or float format
+    bad_byte_order = 4,    ///< written on a machine with another byte order or float format
     bad_file_size = 5,     ///< found: bytes of the file; limit: the size that the header states
-    bad_header = 6,        ///< header checksum does not match, or a field outside its range
+    bad_header = 6,        ///< the header's checksum does not match, or a field is out of range
     rewritten = 7,         ///< the HDF5 superblock does not match the header
     unknown_feature = 8,   ///< found: feature bits; limit: those that this version knows
-    bad_section = 9,       ///< a section overlaps another, is misaligned, ends past the file's end
-                           ///< or has a wrong element size
-    missing_section = 10,  ///< a section that the header's counts demand is missing
+    bad_section = 9,       ///< a section overlaps another, is misaligned or out of order, ends past
+                           ///< the file's end, has a wrong element size or must be absent
+    missing_section = 10,  ///< a section that another one requires is missing
     bad_checksum = 11,     ///< found: checksum of the bytes; limit: the one in the table
-    bad_count = 12,        ///< found: elements; limit: the number that the header's counts demand
+    bad_count = 12,        ///< found: elements; limit: the number that the other facts require
     bad_index = 13,        ///< found: index; limit: the largest one allowed
-    bad_number = 14,       ///< a coordinate is not finite or beyond kMaxCoordinate
+    bad_number = 14,       ///< a number is not finite, or is out of range
     bad_order = 15,        ///< runs or nodes out of sequence, or a name without a zero at its end
-    bad_box = 16,          ///< a box does not contain what lies below it. Deep checks cover stored
-                           ///< boxes, find_damage() those that split points define.
+    bad_box = 16,          ///< deep check: a box does not contain what lies below it. Safety check:
+                           ///< an octree's box has lower > upper or leaves the frame, or a split
+                           ///< point lies outside its node's box.
     bad_fact = 17,         ///< deep check: a recorded fact (flag, component, bounds) is false
 };
 
@@ -52,8 +53,8 @@ struct Damage {
                                            std::uint64_t index, std::uint64_t found,
                                            std::uint64_t expected) noexcept;
 
-/// Returns a sentence for people: the file, the damage, the number found, the number allowed, and
-/// the next step.
+/// Returns a sentence for people. It states the file, the damage, the number found, the number
+/// allowed, and the next step.
 [[nodiscard]] CDPREP_API std::string damage_sentence(std::string_view file, const Damage& damage);
 
 /// Checks only the header, the section table and the 40 superblock bytes that the header repeats.
@@ -64,22 +65,30 @@ struct Damage {
     std::span<const std::byte> file) noexcept;
 
 /// Proves that a file is safe to query. Runs find_header_damage(). Then checks each present section
-/// in `wanted`: its checksum, its element count, every index and every coordinate. Coordinates must
-/// be finite and at most kMaxCoordinate. Returns nothing if no damage is found.
+/// in `wanted`: its checksum, its element count, every index and every coordinate. Vertex
+/// coordinates must be finite and at most kMaxCoordinate in absolute value. A section that a
+/// present one requires must be present too, wanted or not. Returns nothing if no damage is found.
 ///
-/// Sections outside `wanted` are not read. Sections that depend on each other are proven together,
+/// Sections outside `wanted` are not read. Sections that depend on each other are checked together,
 /// such as an octree's tables, nodes, grid and references. If `wanted` lacks a section on which
-/// another one depends, only the checksum of the dependent section is checked.
+/// another one depends, the dependent section is not proven safe. In general, only its checksum is
+/// then checked.
 ///
-/// Safe means that no query reads outside the file or runs forever. find_deep_damage() proves that
-/// the content is *right*. Reads each byte once, in O(bytes) time. Never allocates.
+/// Safe means that no query reads outside the file or runs forever. To check that the content is
+/// also *right*, call find_deep_damage(). find_damage() takes O(bytes) time and never allocates.
 [[nodiscard]] CDPREP_API std::optional<Damage> find_damage(
     std::span<const std::byte> file, SectionSet wanted = SectionSet::all()) noexcept;
 
-/// Proves more than find_damage(): boxes contain what lies below them, in exact arithmetic. The
-/// tree order is a permutation of the source triangles. Degenerate bits match the geometry's
-/// repeated corners. Returns nothing if no damage is found. Copies the sections that it compares.
-/// Takes O(bytes) time.
+/// Runs find_damage(), then checks the facts below. Returns nothing if no damage is found.
+///
+/// The bounds in the BVHs contain what lies below them. Aligned boxes are checked in exact
+/// arithmetic, oriented boxes and swept spheres in double precision. The tree order is a
+/// permutation of the source triangles. Each triangle belongs to one piece, and to one leaf of the
+/// BVH over pieces. Every triangle with a repeated corner is marked in degenerate_bits. The corners
+/// in bvh_leaves, the model's bounds and the content hash are right.
+///
+/// Other facts, such as octrees and hulls, are checked by `cdprep info --deep`. Copies the sections
+/// that it compares. Takes O(bytes * levels of the BVH) time.
 [[nodiscard]] CDPREP_API std::optional<Damage> find_deep_damage(std::span<const std::byte> file);
 
 }  // namespace cdprep::format

@@ -41,21 +41,21 @@ namespace cdprep::format {
 #endif
 }
 
-/// Sets a value that float_control() returned. Never inlined, so the compiler moves no arithmetic
-/// across the call.
+/// Sets the register to a value that float_control() returned. Never inlined, so the compiler moves
+/// no arithmetic across the call.
 CDPREP_API void set_float_control(std::uint64_t control) noexcept;
 
 /// Sets the default value of the register; see is_default_float_control().
 CDPREP_API void set_default_float_control() noexcept;
 
 /// A guard that gives its thread the default floating-point environment while it lives, and then
-/// restores the caller's. Usually the caller's is already the default. The guard then costs a read
-/// and two comparisons: eight instructions on x86-64.
+/// restores the caller's. Usually the caller's environment is already the default. The guard then
+/// costs a read and two comparisons: eight instructions on x86-64.
 ///
 /// Engines flush subnormal numbers to zero on their threads, and -ffast-math does so for a whole
 /// program. Some programs set another rounding mode or trap floating-point exceptions. Exactness is
-/// proven for the default environment only, so each entry of the library begins with a guard. A
-/// guard must stay on the thread that made it.
+/// proven for the default environment only, so each entry point of the library begins with a guard.
+/// A guard must stay on the thread that made it.
 class FloatEnvironment {
 public:
     FloatEnvironment() noexcept : callers_(float_control()) {
@@ -71,8 +71,8 @@ public:
     FloatEnvironment(const FloatEnvironment&) = delete;
     FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
-    /// Returns the result of call(), which runs in the caller's environment: for visitors and
-    /// hooks. A mode that it sets stays set for the caller.
+    /// Runs call() in the caller's environment and returns its result. It serves visitors and
+    /// hooks. A mode that call() sets stays set for the caller.
     template <class Call>
     decltype(auto) outside(Call&& call) {
 #if defined(__GNUC__)

@@ -28,13 +28,14 @@ struct Triangle {
     friend bool operator==(const Triangle&, const Triangle&) = default;
 };
 
-/// Eight boxes side by side, ready for eight lanes: row = axis, column = box.
+/// Eight boxes side by side, ready for eight SIMD lanes: row = axis, column = box.
 ///
 /// Box j of node i of level 0 contains the eight triangles from 8 (8i + j) on, in tree order. Box j
 /// of node i of level l > 0 contains node 8i + j of level l - 1. So there are no child links. The
 /// triangle count alone fixes the shape (bvh_shape.h), and no file can contain a cycle. Nodes are
-/// stored level by level, root first. Box j is unused if the level below has no node 8i + j. Below
-/// level 0, that is a leaf of eight triangles. Unused boxes have lower = 1, upper = -1.
+/// stored level by level, root first. Box j is unused if the level below has no node 8i + j. For
+/// level 0, the level below consists of the leaves, of up to eight triangles each. Unused boxes
+/// have lower = 1, upper = -1.
 ///
 /// Coordinates are frame coordinates, (x - frame_origin) * 2^frame_exponent (FileHeader), rounded
 /// outwards. Every vertex of every triangle below lies in the box in exact arithmetic. So a reader
@@ -47,11 +48,12 @@ struct BvhNode {
 /// Eight oriented boxes side by side: row = component, column = box. Box j has the same contents as
 /// box j of the BvhNode with the same number.
 ///
-/// A box is centre + sum of t_k axis_k with |t_k| <= half_k. The third axis is axis[0] x axis[1].
-/// Axis 0 is the one along which the box is thinnest. Axes are orthonormal up to float rounding.
-/// The half extents are enlarged so that the box contains every vertex below. This holds for the
-/// stored axes and any rounding of the third. Centres and half extents are in frame coordinates.
-/// Unused boxes have centre 0, axes x and y, half -1.
+/// A box is the set of points centre + sum of t_k axis_k with |t_k| <= half_k. The third axis is
+/// the cross product of axis[0] and axis[1]. Axis 0 is the one along which the surface spreads
+/// least (least second moment). Axes are orthonormal up to float rounding. The half extents are
+/// enlarged so that the box contains every vertex below. This holds for the stored axes and for any
+/// rounding of the third axis. Centres and half extents are in frame coordinates. Unused boxes have
+/// centre 0, axes along x and y, and half extents of -1.
 struct OrientedNode {
     std::array<std::array<std::array<float, kBvhWidth>, 3>, 2> axis;  ///< [axis][component][box]
     std::array<std::array<float, kBvhWidth>, 3> centre;               ///< [component][box]
@@ -71,13 +73,14 @@ struct SweptSide {
 /// Eight swept spheres side by side: row = component, column = box. Swept sphere j has the same
 /// contents as box j of the BvhNode with the same number.
 ///
-/// A swept sphere contains the points at most `radius` from its core. The core is centre + t_0
-/// axis_0 + t_1 axis_1 with |t_k| <= half_k. For a point, half_0 and half_1 are 0; for a line,
-/// half_1 is 0. A reader of points needs only the first 128 bytes of a node, a reader of lines 256.
-/// Axes are orthonormal up to float rounding. Axis 0 is the one along which the surface spreads
-/// most. With the axes as stored, a swept sphere contains every vertex below in exact arithmetic.
-/// Centres, half extents and radii are in frame coordinates. Unused swept spheres have centre 0,
-/// axes x and y, half extents and radius 0.
+/// A swept sphere contains the points that are at most `radius` from its core. The core is the set
+/// of points centre + t_0 axis_0 + t_1 axis_1 with |t_k| <= half_k. For a point, half_0 and half_1
+/// are 0; for a line, half_1 is 0. If the cores are points, a reader needs only the first 128 bytes
+/// of a node. If they are lines, it needs the first 256. Axes are orthonormal up to float rounding.
+/// Axis 0 is the one along which the surface spreads most (greatest second moment). With the axes
+/// as stored, a swept sphere contains every vertex below in exact arithmetic. Centres, half extents
+/// and radii are in frame coordinates. Unused swept spheres have centre 0, axes along x and y, half
+/// extents of 0 and radius 0.
 struct SweptNode {
     std::array<std::array<float, kBvhWidth>, 3> centre;  ///< [component][box]
     std::array<float, kBvhWidth> radius;                 ///< >= 0
@@ -98,11 +101,11 @@ struct BvhLeaf {
     std::uint32_t reserved;     ///< zero
 };
 
-/// The two boxes around the whole model, in double precision and model units. Both are rounded
-/// outwards.
+/// The two boxes around the whole model, in double precision and model units. Both contain every
+/// vertex. The aligned box is exact; the extents of the oriented box are rounded outwards.
 struct Bounds {
-    Double3 lower;                ///< least coordinates of all triangles
-    Double3 upper;                ///< greatest coordinates of all triangles
+    Double3 lower;                ///< least coordinates of all vertices
+    Double3 upper;                ///< greatest coordinates of all vertices
     Double3 oriented_centre;      ///< of the oriented box
     std::array<Double3, 3> axis;  ///< unit vectors of the oriented box, right-handed
     Double3 half_extent;          ///< of the oriented box along each axis, >= 0
@@ -126,7 +129,7 @@ enum ComponentFlags : std::uint32_t {
     component_balanced = 1,  ///< the directed uses of every edge cancel
 };
 
-/// Volume integrals of a closed, oriented model of density one.
+/// Integrals over the volume of a balanced model of density one, and the area of its surface.
 struct MassProperties {
     double volume;        ///< cubic model units, signed
     double surface_area;  ///< square model units
@@ -138,9 +141,8 @@ struct MassProperties {
 
 /// A use of one mesh by one node of the imported scene.
 ///
-/// Its triangles are the run [first_triangle, first_triangle + triangle_count) of the source
-/// numbers. Runs are consecutive, without gaps, and cover all triangles. Instances with equal
-/// `mesh` numbers use one mesh.
+/// Its triangles are a run of source numbers, from first_triangle on. Runs are consecutive, without
+/// gaps, and cover all triangles. Instances with equal `mesh` numbers use one mesh.
 struct Instance {
     std::array<double, 12> model_from_node;  ///< 3 x 4, row by row; already applied to positions
     std::uint32_t mesh;                      ///< number of the mesh in the imported file
@@ -153,7 +155,7 @@ struct Instance {
 
 /// Bits of Instance::flags.
 enum InstanceFlags : std::uint32_t {
-    instance_mirrored = 1,  ///< the transform mirrors; the winding was reversed to stay outward
+    instance_mirrored = 1,  ///< the transform mirrors; the winding was reversed to face outwards
 };
 
 /// A run of source triangles that share one name (a group or a material). Runs are sorted, do not

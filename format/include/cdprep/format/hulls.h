@@ -21,16 +21,16 @@ enum class HullScope : std::uint32_t {
 
 /// Bits of Hull::flags.
 enum HullFlags : std::uint32_t {
-    hull_exact = 1,  ///< all its points are mesh vertices; otherwise it contains the exact hull
+    hull_exact = 1,  ///< all points are mesh vertices; otherwise the hull contains the exact one
 };
 
 /// A convex hull. In dimension 3 it is a closed polyhedron, in 2 a two-sided polygon. In 1 it is a
 /// segment, in 0 a point, and in -1 it is empty.
 ///
-/// No point of the hull is farther than `distance` from the exact hull, in model units. No point of
-/// a part is farther than that from the surface and its interior. In each section, the elements of
-/// a hull directly follow those of the hull before. Indices in these elements count from the hull's
-/// own first element.
+/// The exact hull is the convex hull of the enclosed vertices. No point of the stored hull is
+/// farther than `distance` from it, in model units. No point of a part is farther than `distance`
+/// from the surface and its interior. In each section, the elements of a hull directly follow those
+/// of the previous hull. Indices in these elements count from the hull's own first element.
 struct Hull {
     HullScope scope;
     std::uint32_t number;  ///< of the component, instance or part; 0 for the whole
@@ -63,10 +63,10 @@ struct HullGroup {
     std::uint32_t facet_count;
 };
 
-/// The number of directions with a stored start point for hill climbing. They are cells of a cube:
-/// 8 x 8 on each face.
+/// The number of directions with a stored start point for hill climbing. They point to the middles
+/// of 8 x 8 cells on each face of a cube.
 inline constexpr std::uint32_t kHullStarts = 6 * 8 * 8;
-/// The value in hull_vertices for a point that is not in the imported file.
+/// The value in hull_vertices for a point that is not a vertex of the imported file.
 inline constexpr std::uint32_t kNoVertex = 0xffffffffU;
 
 static_assert(sizeof(Hull) == 88 && alignof(Hull) == 8);

@@ -5,8 +5,8 @@
 
 namespace cdprep::format {
 
-/// The limits that the runtime relies on. find_damage() checks each of them, so a query may size
-/// its stack and its indices by them. All are inclusive.
+/// The limits that the runtime relies on, all inclusive. find_damage() enforces them, so queries
+/// may size stacks and indices by them.
 
 inline constexpr std::uint32_t kMaxTriangles = 0x7fffffff;  ///< triangles of one model
 inline constexpr std::uint32_t kMaxVertices = 0x7fffffff;   ///< vertices of one model
@@ -14,13 +14,14 @@ inline constexpr std::uint32_t kMaxVertices = 0x7fffffff;   ///< vertices of one
 /// The number of boxes in a node, and of triangles in a leaf, of the BVH.
 inline constexpr std::uint32_t kBvhWidth = 8;
 
-/// The number of levels of nodes above the leaves: 8^11 triangles exceed kMaxTriangles.
+/// An upper bound of the number of levels of nodes above the leaves. Ten levels already suffice for
+/// 8^11 triangles, more than kMaxTriangles.
 inline constexpr std::uint32_t kMaxBvhLevels = 11;
 
-inline constexpr std::uint32_t kMaxSections = 120;  ///< entries that fit the user block
+inline constexpr std::uint32_t kMaxSections = 120;  ///< entries that fit in the user block
 
-/// The limit of |x| for every coordinate and every extent, in model units. Sums and differences of
-/// such numbers stay far below the largest double.
+/// The limit of |x| for every coordinate x of a vertex, in model units. Sums and differences of
+/// coordinates stay far below the largest double.
 inline constexpr double kMaxCoordinate = 0x1p1000;
 
 }  // namespace cdprep::format

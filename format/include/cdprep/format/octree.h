@@ -31,24 +31,25 @@ inline constexpr std::uint64_t kKeyMixer = 0x9e3779b97f4a7c15U;
 /// The cube that an octree divides, and the limits of the division.
 ///
 /// Plane i of an axis, 0 <= i <= 2^21, lies at origin + i * step. The product is exact, because
-/// step has at most 32 significant bits. The sum is rounded to double once. The planes' coordinates
-/// increase strictly with i. A cell of level l is the closed box between planes i and
-/// i + 2^(21 - l) of each axis. The root, level 0, contains every vertex and extends more than one
-/// step beyond. So the bounds of cells are exact on every level, whatever the model's size.
+/// step has at most 32 significant bits. The sum is rounded to double once. The rounded sum is the
+/// plane's coordinate by definition, and it increases strictly with i. A cell of level l is the
+/// closed box between planes i and i + 2^(21 - l) of each axis. The root, level 0, contains every
+/// vertex and extends more than one step beyond. So the bounds of cells are exact on every level,
+/// whatever the model's size.
 struct OctreeGrid {
     Double3 origin;           ///< model units
     double step;              ///< model units, > 0
     std::uint32_t level;      ///< no node is deeper; at most kOctreeBits
     std::uint32_t threshold;  ///< a cell with fewer triangles is not divided
     std::uint32_t top_level;  ///< the level of the cells in octree_top; at most `level`
-    std::uint32_t slot_bits;  ///< 2^slot_bits slots in either hash table
+    std::uint32_t slot_bits;  ///< 2^slot_bits slots in each hash table
 };
 
 /// A cell that some triangle touches. Nodes are sorted by `key`: level by level, and along the
 /// Z-order curve within a level. The root, key 1, is first. A model without triangles has no nodes.
 struct OctreeNode {
-    /// A leading one, then three bits per level from the root down. Bit 0 is set in the upper half
-    /// along x, bit 1 along y, bit 2 along z. The parent is key >> 3.
+    /// A leading one, then three bits per level from the root down. Of the three, bit 0 is set in
+    /// the upper half along x, bit 1 along y, bit 2 along z. The parent is key >> 3.
     std::uint64_t key;
     /// For a leaf: its first reference. For an inner node: its first child. The children are
     /// consecutive, in the order of their last three key bits.
@@ -62,20 +63,21 @@ constexpr std::uint32_t level_of(std::uint64_t key) noexcept {
     return static_cast<std::uint32_t>(std::bit_width(key | 1) - 1) / 3;
 }
 
-/// Returns a key without its leading one, shifted up to kOctreeBits levels. This is the position
-/// along the Z-order curve of the first finest cell in this cell.
+/// Returns a key without its leading one, shifted up to kOctreeBits levels. The key's cell contains
+/// cells of level kOctreeBits; the result is the first one's position along the Z-order curve.
 constexpr std::uint64_t code_of(std::uint64_t key) noexcept {
     const std::uint32_t level = level_of(key);
     const std::uint64_t path = key ^ (std::uint64_t{1} << (3 * level));
     return path << (3 * (kOctreeBits - level));
 }
 
-/// Returns the number of finest cells in a cell of this level.
+/// Returns the number of cells of level kOctreeBits in a cell of this level.
 constexpr std::uint64_t cells_below(std::uint32_t level) noexcept {
     return std::uint64_t{1} << (3 * (kOctreeBits - level));
 }
 
-/// Return the slot of a key in octree_modulus_table and in octree_mixed_table.
+/// Return the slot of a key: modulus_slot() in octree_modulus_table, mixed_slot() in
+/// octree_mixed_table.
 constexpr std::uint64_t modulus_slot(std::uint64_t key, std::uint32_t slot_bits) noexcept {
     return key & ((std::uint64_t{1} << slot_bits) - 1);
 }
@@ -87,7 +89,7 @@ constexpr std::uint64_t mixed_slot(std::uint64_t key, std::uint32_t slot_bits) n
 /// The rule by which an adaptive octree chooses split points.
 enum class SplitRule : std::uint32_t {
     median = 0,        ///< along each axis, the median of the midpoints of the triangles' boxes
-    surface_area = 1,  ///< along each axis, of 15 planes, the least sum of area times triangles
+    surface_area = 1,  ///< along each axis, the one of 15 planes with least area times triangles
 };
 
 /// The box that an adaptive octree divides, and its settings. Each inner node of this octree has

@@ -19,10 +19,10 @@ enum PieceFlags : std::uint32_t {
 };
 
 /// A convex piece of the surface. Its triangles all lie on the boundary of the hull of their
-/// corners, or at most outer_error below that boundary. Sections 50 to 53 are all present or all
-/// absent.
+/// corners, or at most outer_error below that boundary. Sections pieces, piece_triangles,
+/// piece_vertices and piece_facets are all present or all absent.
 ///
-/// Its triangles begin at piece_triangles[first_triangle] and end before those of the next piece,
+/// Its triangles begin at piece_triangles[first_triangle]. They end before those of the next piece,
 /// or at the end of the section. The same holds for the hull's corners in piece_vertices and its
 /// facets in piece_facets.
 struct Piece {
@@ -50,9 +50,9 @@ struct PieceFacet {
     std::uint32_t flags;                  ///< PieceFacetFlags
 };
 
-/// A leaf of the BVH over pieces: consecutive elements of piece_triangles, all of one piece. Box k
-/// % 8 of node k / 8 on the lowest level of piece_nodes contains the triangles of leaf k. Sections
-/// 54 to 56 and 61 are all present or all absent.
+/// A leaf of the BVH over pieces: consecutive elements of piece_triangles, all of one piece. The
+/// triangles of leaf k lie in box k % 8 of node k / 8 on the lowest level of piece_nodes. Sections
+/// piece_nodes, piece_leaves, piece_node_hulls and piece_swept are all present or all absent.
 struct PieceLeaf {
     std::uint32_t piece;
     std::uint32_t first_triangle;  ///< in piece_triangles
@@ -63,7 +63,7 @@ struct PieceLeaf {
 inline constexpr std::uint32_t kPieceHullCorners = 32;
 
 /// A convex hull of few corners around the contents of a node of the BVH over pieces. It contains
-/// every vertex below, exactly.
+/// every vertex below the node, exactly.
 struct PieceNodeHull {
     std::array<HullBlock, kPieceHullCorners / kHullLanes> block;  ///< corners
     /// No point of the hull is farther than this from the exact hull of the vertices below; model
@@ -76,7 +76,7 @@ struct PieceNodeHull {
 /// The largest number of leaves of the BVH over pieces.
 inline constexpr std::uint32_t kMaxPieceLeaves = kMaxTriangles / kBvhWidth;
 
-/// Returns the shape of the BVH over pieces. It is that of a model's BVH, except on level 0. On
+/// Returns the shape of the BVH over pieces. It is that of a model's BVH with this many leaves. On
 /// level 0, box j of node i contains leaf 8i + j of piece_leaves. `leaves` is at most
 /// kMaxPieceLeaves.
 [[nodiscard]] constexpr BvhShape piece_tree_shape(std::uint32_t leaves) noexcept {
@@ -101,8 +101,8 @@ struct PieceAdjacency {
     std::array<std::uint32_t, 3> across;
 };
 
-/// The bend of the surface at an edge of a triangle, decided by exact signs. Convex and reflex are
-/// seen from outside, where a triangle's corners are in counter-clockwise order.
+/// The bend of the surface at an edge of a triangle, decided by exact predicates. Convex and reflex
+/// are seen from outside, where a triangle's corners are in counter-clockwise order.
 enum class EdgeConvexity : std::uint8_t {
     /// The bend is not defined. The edge may be a border or have more than two triangles. Its two
     /// triangles may have opposite windings or fold onto each other in a plane. One of them may

@@ -20,17 +20,18 @@ template <class To, class From>
 #if defined(__cpp_lib_bit_cast)
     return std::bit_cast<To>(from);
 #else
-    return __builtin_bit_cast(To, from);  // of Clang
+    return __builtin_bit_cast(To, from);  // a builtin of Clang
 #endif
 }
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Kernels call the next three. Each source has its own copies, because kernels are compiled with
-// instructions of their own. A linker could keep one of several equal copies for all callers.
+// Kernels call the next three functions. Kernels are compiled for different instruction sets. The
+// functions are static, so each source file has its own copies. Otherwise a linker could keep one
+// copy for all callers, with instructions that the processor lacks.
 
-/// Returns the number of the lowest bit that is set. At least one bit must be set. Faster than
-/// std::countr_zero(), which also accepts 0.
+/// Returns the position of the lowest set bit, counted from 0. At least one bit must be set. Faster
+/// than std::countr_zero(), which also accepts 0.
 [[nodiscard]] static inline unsigned lowest_set_bit(std::uint32_t bits) noexcept {
 #if defined(__GNUC__)
     return static_cast<unsigned>(__builtin_ctz(bits));
@@ -61,19 +62,20 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 #endif
 }
 
-/// A hint that the cache line of an address is needed soon. Any address is allowed.
+/// Tells the processor that the cache line of `address` will be needed soon. Any address is
+/// allowed. Does nothing with Visual C++.
 inline void prefetch_line([[maybe_unused]] const void* address) noexcept {
 #if defined(__GNUC__)
     __builtin_prefetch(address);
 #endif
 }
 
-/// A signed integer of 128 bits for compilers that have none. Wraps around.
+/// A signed integer of 128 bits for compilers that have none. Arithmetic wraps around on overflow.
 class TwoWordInteger {
 public:
     constexpr TwoWordInteger() noexcept = default;
     template <class Integer, class = std::enable_if_t<std::is_integral_v<Integer>>>
-    // NOLINTNEXTLINE(google-explicit-constructor): as of an integer of the language
+    // NOLINTNEXTLINE(google-explicit-constructor): like the built-in integers
     constexpr TwoWordInteger(Integer value) noexcept
         : high_(value < Integer{0} ? -1 : 0), low_(static_cast<std::uint64_t>(value)) {}
 

@@ -16,7 +16,7 @@ public:
         for (const SectionId id : ids) insert(id);
     }
 
-    /// Returns the set of every id, known and future.
+    /// Returns the set of all ids below 64: those known to this version and future ones.
     [[nodiscard]] static constexpr SectionSet all() noexcept {
         SectionSet set;
         set.bits_ = ~std::uint64_t{0};
@@ -44,7 +44,8 @@ public:
     friend constexpr bool operator==(SectionSet, SectionSet) noexcept = default;
 
 private:
-    /// Ids of 64 and more belong to later versions; no reader of this version reads them.
+    /// Returns 0 for ids of 64 and more, which no set contains. They can only belong to later
+    /// versions, and readers of this version ignore them.
     static constexpr std::uint64_t bit(SectionId id) noexcept {
         const auto number = static_cast<std::uint32_t>(id);
         return number < 64 ? std::uint64_t{1} << number : 0;

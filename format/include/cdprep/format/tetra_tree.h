@@ -38,22 +38,22 @@ enum class TetraBounding : std::uint32_t {
 enum TetraTreeFlags : std::uint32_t {
     tetra_centre_inside = 1,  ///< a ray from the centre crosses the surface more often in one
                               ///< direction (inwards or outwards) than in the other. If the mesh
-                              ///< is closed, the winding number at the centre is then not 0
+                              ///< is balanced, the winding number at the centre is then not 0
     tetra_centre_on = 2,      ///< a triangle contains the centre
 };
 
 /// A tetra-tree: eight cones around a centre, one per octant, each split in four.
 ///
 /// The generators of an octant's cone are its three half axes v1, v2 and v3. A split adds the
-/// midpoint m of each pair of generators, on the octahedron's flat face |x| + |y| + |z| = 1. It
-/// makes the children
+/// midpoints m12, m23 and m31 of the pairs of generators. The midpoints lie on a flat face of the
+/// octahedron |x| + |y| + |z| = 1. The split makes the children
 ///
 ///     (v1, m12, m31), (m12, v2, m23), (m31, m23, v3) and (m12, m23, m31).
 ///
-/// The coordinates of generators of level l are integers divided by 2^l. So tests whether a cone
-/// contains a point are exact.
+/// On level l, the coordinates of generators are integers divided by 2^l. So the test whether a
+/// cone contains a point is exact.
 struct TetraTree {
-    Double3 centre;           ///< C: the mean of the vertices, model units
+    Double3 centre;           ///< C: the mean of the vertices, rounded; model units
     std::uint32_t level;      ///< no cone has more splits above it; at most kMaxTetraLevel
     std::uint32_t threshold;  ///< a cone with fewer triangles is not split
     std::uint32_t top_level;  ///< the level of the cones in tetra_top; at most `level`
@@ -74,7 +74,7 @@ enum TetraNodeFlags : std::uint32_t {
 /// octants, keys 8 to 15, come first.
 struct TetraNode {
     /// 8 + octant, then two bits per split. Bits 0, 1 and 2 of the octant stand for x, y and z. A
-    /// bit is set if its coordinate is negative. The parent is key >> 2.
+    /// bit is set if that coordinate is negative. The parent is key >> 2.
     std::uint32_t key;
     std::uint32_t first;  ///< leaf: its first reference; inner node: its first child
     std::uint32_t count;  ///< leaf: references; inner node: children
@@ -92,12 +92,13 @@ struct TetraNode {
 /// With TetraBounding::boxes, both sections hold boxes of nodes: tetra_boxes in a BvhNode,
 /// tetra_oriented in an OrientedNode. Lane k of element i belongs to node kTetraBoxStride * i + k.
 /// Both boxes contain the part of the triangles below that lies in the closed cone. They contain it
-/// in the same sense as the boxes in geometry.h contain vertices. An inner node's aligned box is
-/// the box around its children's.
+/// as exactly as the boxes in geometry.h contain vertices. An inner node's aligned box is the box
+/// around its children's aligned boxes.
 ///
 /// Each box is stored twice. So the boxes of up to four children lie side by side in one element,
 /// wherever the children begin. The index of that element is the first child's index divided by the
-/// stride, rounded down. Octants lie in element 0. Lanes past the last node hold unused boxes.
+/// stride, rounded down. The boxes of octants lie in element 0. Lanes past the last node hold
+/// unused boxes.
 inline constexpr std::uint32_t kTetraBoxStride = 4;
 
 /// Returns the number of elements of tetra_boxes, and of tetra_oriented, for `nodes` nodes.

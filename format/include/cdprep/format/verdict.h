@@ -8,14 +8,14 @@
 namespace cdprep::format {
 
 /// Bits of Verdict::facts: facts about a mesh or one component of it. A bit that is not set means
-/// that the fact is false. The exception is self_crossing, which is valid only if
-/// crossings_examined is set. Before facts are decided, vertices with equal positions are merged
-/// and triangles with a repeated corner are left out. If no triangle is left, no fact but
-/// crossings_examined can be set, and promise_surface is the only promise.
+/// that the fact is false. The exception is self_crossing: it is valid only if crossings_examined
+/// is set. Before facts are decided, vertices with equal positions are merged and triangles with a
+/// repeated corner are left out. If no triangle is left, no fact but crossings_examined can be set,
+/// and promise_surface is the only promise.
 enum VerdictFacts : std::uint32_t {
     verdict_closed = 1,               ///< every edge is used by two triangles or more
     verdict_two_manifold = 2,         ///< at most two triangles per edge, one fan per vertex
-    verdict_oriented = 4,             ///< two triangles traverse their edge in opposite directions
+    verdict_oriented = 4,             ///< triangles traverse common edges in opposite directions
     verdict_orientable = 8,           ///< some choice of windings would make it oriented
     verdict_balanced = 16,            ///< directed uses of every edge cancel: winding numbers exist
     verdict_inverted = 32,            ///< balanced, and its signed volume is negative
@@ -29,13 +29,13 @@ enum VerdictPromises : std::uint32_t {
     /// collide, overlap, distance, within, ray and closest, as queries about the surface, are
     /// exact. This holds for any mesh that can be baked.
     promise_surface = 1,
-    /// Inside is decided exactly, by winding numbers: the mesh is balanced.
+    /// Winding numbers decide exactly whether a point is inside: the mesh is balanced.
     promise_inside_exact = 2,
     /// The winding number is 0 or 1 everywhere, and Verdict::volume is the enclosed volume. The
     /// mesh is closed, 2-manifold, oriented and not inverted. It was examined for crossings, and
     /// none was found.
     promise_simple_solid = 4,
-    /// Convex pieces of the surface may lie within the solid: the mesh is closed and oriented.
+    /// Pieces of the surface can have piece_contained (pieces.h): the mesh is closed and oriented.
     promise_contained_pieces = 8,
 };
 

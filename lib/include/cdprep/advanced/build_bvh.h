@@ -32,31 +32,32 @@ struct Bvh {
     /// True if the leaves hold model coordinates without rounding. This requires that every
     /// coordinate is a float.
     bool exact_leaves = false;
-    /// The oriented boxes: one element per element of `nodes`, or empty.
+    /// The oriented boxes: one element for each of `nodes`, or empty.
     std::vector<format::OrientedNode> oriented_nodes;
-    /// The swept spheres: one element per element of `nodes`, or empty. swept_kind is their kind;
-    /// it is point if there are none.
+    /// The swept spheres: one element for each of `nodes`, or empty. swept_kind is their kind, or
+    /// SweptKind::point if there are none.
     std::vector<format::SweptNode> swept_nodes;
     format::SweptKind swept_kind = format::SweptKind::point;
 };
 
-/// The bounds that queries about two models use besides the axis-aligned boxes. All give the same
-/// answers. Oriented boxes are the fastest for overlap and collisions, by a small margin. Swept
-/// rectangles are the fastest for distance and tolerance queries, 1.1 to 1.3 times as fast as
-/// oriented boxes. The others are slower nearly everywhere (table in FORMAT.md). A BVH with swept
-/// bounds takes 1.5 to 4 times as long to build as one without.
+/// The bounds that queries about two models use besides the axis-aligned boxes. The answers do not
+/// depend on the choice. Oriented boxes are the fastest for overlap and for models that collide, by
+/// a small margin. Swept rectangles are slightly faster if models narrowly miss each other. For
+/// distance and tolerance queries, swept rectangles are 1.1 to 1.3 times as fast as oriented boxes.
+/// The other bounds are slower nearly everywhere (table in FORMAT.md). A BVH with swept bounds
+/// takes 1.5 to 4 times as long to build as one without.
 enum class BvhBounds : std::uint8_t {
     aligned,           ///< no other bounds: the nodes take 3.4 bytes per triangle
     oriented,          ///< oriented boxes: 6.9 bytes per triangle more
-    swept_points,      ///< spheres: 6.9 bytes per triangle more; queries read a third
-    swept_lines,       ///< capsules: 6.9 bytes per triangle more; queries read two thirds
+    swept_points,      ///< spheres: 6.9 bytes per triangle more; queries read a third of these
+    swept_lines,       ///< capsules: 6.9 bytes per triangle more; queries read two thirds of these
     swept_rectangles,  ///< rectangles with a radius: 6.9 bytes per triangle more
     /// Oriented boxes for overlap and collisions, and rectangles for distance: 13.7 bytes per
     /// triangle more.
     oriented_and_swept,
 };
 
-/// Returns the bounds that consist of swept spheres of one kind.
+/// Returns the bounds with swept spheres of one kind and without oriented boxes.
 [[nodiscard]] constexpr BvhBounds swept_bounds(format::SweptKind kind) noexcept {
     return static_cast<BvhBounds>(static_cast<std::uint32_t>(BvhBounds::swept_points) +
                                   static_cast<std::uint32_t>(kind));
@@ -71,14 +72,14 @@ enum class Quality : std::uint8_t {
     /// For objects that are rebuilt at run time. Splits along the longest axis, into triangle
     /// counts as nearly equal as full subtrees allow. The build takes two fifths of the time of
     /// Quality::best. On scans, surface_cost() is 5 to 15 % higher. Queries of collide() and
-    /// overlaps() take 2 to 9 % longer in the median. The slowest measured took 60 % longer.
+    /// overlaps() take 2 to 9 % longer in the median. The slowest measured query took 60 % longer.
     fast,
 };
 
 struct BvhOptions {
     ParallelFor parallel_for = serial_for;
-    /// Without oriented boxes, overlap queries take 1.1 to 1.3 times as long. With Quality::fast,
-    /// they take 1.3 to 1.5 times as long.
+    /// Without oriented boxes, overlap queries take 1.1 to 1.3 times as long. In a BVH of
+    /// Quality::fast, omitting oriented boxes makes them take 1.3 to 1.5 times as long.
     BvhBounds bounds = BvhBounds::oriented;
     Quality quality = Quality::best;
 };
@@ -88,8 +89,9 @@ struct BvhOptions {
 /// options.quality and options.bounds. It is the same, byte for byte, for any parallel_for,
 /// standard library and machine.
 ///
-/// Triangles may be degenerate or equal. Triangles whose boxes have the same middle, to 2^-100 of
-/// the model, are split by number. `positions` must be finite and at most format::kMaxCoordinate.
+/// Triangles may be degenerate or equal. Triangles are split by number if the middles of their
+/// boxes agree to 2^-100 in box coordinates. Coordinates in `positions` must be finite and at most
+/// format::kMaxCoordinate in magnitude.
 ///
 /// Takes O(n log n) time and 64 bytes of scratch memory per triangle, or 32 with Quality::fast.
 /// tests/bench/build_bvh_bench measures both.
@@ -98,7 +100,7 @@ struct BvhOptions {
                                        const BvhOptions& options = {});
 
 /// Builds the same BVH in the arrays of `bvh`. Arrays that are large enough are not allocated
-/// again. This saves a tenth of the time of a fast build, and more of a build on several threads.
+/// again. This saves a tenth of the time of a fast build, and a larger share on several threads.
 CDPREP_API void rebuild_bvh(Bvh& bvh, std::span<const format::Double3> positions,
                             std::span<const format::Triangle> triangles,
                             const BvhOptions& options = {});

@@ -58,7 +58,7 @@ struct ImageOptions {
 /// Writes a model into memory: header, section table with checksums, sections, and zeros between
 /// them. The result is like the file of `cdprep bake`, but without HDF5: the superblock is zero.
 /// Facts, content hash, sections and section table are the same, except for the offsets in the
-/// table. Model::open() accepts the bytes as those of a file.
+/// table. Model::open() accepts these bytes like those of a file.
 ///
 /// Returns the first image_size() bytes of `memory`. The bytes after them are not changed.
 ///
@@ -69,7 +69,7 @@ struct ImageOptions {
 /// Fails with `bad_argument`, and then writes nothing, if make_section_table() fails or
 /// options.section_alignment is not allowed. Also fails if `memory` is too small or does not start
 /// at a multiple of format::kSectionAlignment. Allocates only on failure. Takes O(bytes) time: each
-/// byte is copied and read once.
+/// byte is read once for its checksum and copied once.
 ///
 ///     const auto size = build::image_size(sections);
 ///     if (!size) return size.error();

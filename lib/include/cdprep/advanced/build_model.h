@@ -13,14 +13,14 @@
 
 namespace cdprep::build {
 
-/// The precision in which a model keeps positions.
+/// The precision in which a model stores positions.
 enum class Precision : std::uint8_t {
     single_precision,  ///< as floats; a value that is not a float is rounded to the nearest one
     double_precision,
 };
 
-/// The arrays of a model that queries read. `cdprep bake` makes the same arrays of a mesh. It adds
-/// hulls, pieces, octrees, bounds, mass, and notes about the imported file.
+/// The arrays of a model that queries read. `cdprep bake` makes the same arrays from a mesh. It
+/// also adds hulls, pieces, octrees, bounds, mass, and notes about the imported file.
 struct ModelArrays {
     format::FileHeader facts{};
     Bvh bvh;
@@ -32,7 +32,7 @@ struct ModelArrays {
     std::vector<std::uint64_t> degenerate_bits;  ///< empty when no triangle is degenerate
     std::vector<format::Component> components;
 
-    /// Returns views of the wanted arrays, for build_image(). They are valid while this object
+    /// Returns views of the wanted arrays, for build_image(). The views are valid while this object
     /// lives and is not moved.
     ///
     ///     arrays.sections(sections_for(Ask::overlap | Ask::ray))
@@ -49,9 +49,9 @@ struct PlannedModel {
     format::SectionSet wanted = format::SectionSet::all();
 };
 
-/// Returns an upper bound of the image_size() that build_model() gives for any mesh with these
-/// counts. It is the size for a mesh that uses every vertex, with degenerate triangles and as many
-/// components as possible. Takes O(1) time. Never allocates.
+/// Returns an upper bound of image_size() for the arrays that build_model() builds from any mesh
+/// with these counts. The bound is the size for a mesh that uses every vertex, with degenerate
+/// triangles and as many components as possible. Takes O(1) time. Never allocates.
 ///
 ///     std::span<std::byte> room = arena.allocate(build::image_size_bound(planned), 64);
 ///     const auto arrays = build::build_model(positions, triangles, {.bounds = planned.bounds});
@@ -81,13 +81,13 @@ struct PlannedModel {
     std::span<const format::Double3> positions, std::span<const format::Triangle> triangles,
     const BvhOptions& options = {});
 
-/// Builds the same arrays from floats, which the model keeps.
+/// Builds the same arrays from floats. The model stores these floats.
 [[nodiscard]] CDPREP_API Result<ModelArrays> build_model(
     std::span<const format::Float3> positions, std::span<const format::Triangle> triangles,
     const BvhOptions& options = {});
 
-/// Builds the same arrays with a BVH that build_bvh() made of these triangles. The mesh must meet
-/// the requirements of build_model(), which are not checked.
+/// Builds the same arrays with a BVH that build_bvh() built over these triangles. The mesh must
+/// meet the requirements of build_model(), which are not checked.
 [[nodiscard]] CDPREP_API ModelArrays arrange_model(std::span<const format::Double3> positions,
                                                    std::span<const format::Triangle> triangles,
                                                    Bvh bvh, Precision precision,

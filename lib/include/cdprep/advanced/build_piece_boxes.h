@@ -11,8 +11,8 @@
 
 namespace cdprep::build {
 
-/// A surface cut into convex pieces. Each lies on its own convex hull, up to Piece::outer_error
-/// (format/pieces.h).
+/// A surface cut into convex pieces. Each piece lies on its own convex hull, up to
+/// Piece::outer_error (format/pieces.h).
 struct PiecesOf {
     std::span<const format::Double3> positions;
     std::span<const format::Triangle> triangles;
@@ -28,8 +28,8 @@ struct PieceBoxes {
 };
 
 /// Builds the BVH over pieces, in the frame of the model's own BVH. Each piece is cut into the
-/// fewest leaves that hold it, with about equal numbers of triangles. The leaves are in the order
-/// in which build_bvh() would put triangles with the same boxes. Returns empty arrays if there
+/// fewest leaves that hold it, with about equal numbers of triangles. The leaves have the order
+/// that build_bvh() would give to triangles with the same boxes. Returns empty arrays if there
 /// would be more than format::kMaxPieceLeaves leaves. The result is the same for any parallel_for.
 [[nodiscard]] CDPREP_API PieceBoxes build_piece_boxes(const PiecesOf& surface, const Frame& frame,
                                                       ParallelFor parallel_for);

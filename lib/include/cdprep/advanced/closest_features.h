@@ -20,7 +20,7 @@ enum class FeatureKind : std::uint8_t { vertex, edge, face };
 /// A convex hull with its surface.
 struct FeatureHull {
     ConvexPoints points;  ///< corners only
-    /// A closed surface over the points; empty for a segment or a point alone.
+    /// The closed surface of the hull; empty if the hull is a segment or a point.
     std::span<const format::PieceFacet> facets;
     std::span<const format::PieceAdjacency> adjacency;  ///< per facet
 };
@@ -41,16 +41,16 @@ struct ClosestFeatures {
     HullFeature a;  ///< contains witness_a, up to rounding
     HullFeature b;
     double lower;  ///< the distance is at least this, model units; proven
-    double upper;  ///< and at most this; proven
+    double upper;  ///< the distance is at most this; proven
     Double3 witness_a;
     Double3 witness_b;
-    /// True if A and B are nearest along two parallel edges, an edge and a face, or two faces.
+    /// True if the nearest features are parallel: two edges, an edge and a face, or two faces.
     /// Other pairs of points may then be equally near.
     bool parallel;
 };
 
 /// The features at which the last query about two hulls ended, owned by the caller like a
-/// ConvexCache. The next query begins there. Any content is allowed; all zero is a new cache.
+/// ConvexCache. The next query begins there. Any content is allowed; a new cache is all zero.
 struct FeatureCache {
     bool is_set = false;
     std::array<FeatureKind, 2> kind{};    ///< of A and B
@@ -62,12 +62,13 @@ struct FeatureCache {
 ///
 /// The bounds are as tight as those of convex_distance() with default options. If several pairs of
 /// features are nearest, the result is one of them and may depend on the cache. If a nearest point
-/// lies on the border of two features, up to rounding, the result may be either feature.
+/// lies on the border of two features, up to rounding, the result may name either.
 ///
-/// With a cache, uses the method of Lin and Canny (1991). It walks to a neighbouring feature as
-/// long as that is nearer. This takes O(1) time if the hulls have moved little. The farthest points
-/// of both hulls along the gap then prove the distance. GJK computes the result if there is no
-/// cache, or if the walk or its proof fails. The proof fails if the hulls touch. Never allocates.
+/// With a cache, uses the method of Lin and Canny (1991). It walks from feature to neighbouring
+/// feature while the distance decreases. This takes O(1) time if the hulls have moved little. The
+/// farthest points of both hulls along the gap then prove the distance. GJK (convex_distance.h)
+/// computes the result if there is no cache, or if the walk or its proof fails. The proof fails if
+/// the hulls touch. Never allocates.
 [[nodiscard]] CDPREP_API std::optional<ClosestFeatures> closest_features(
     const FeatureHull& a, const FeatureHull& b, const Placement& placement,
     FeatureCache* cache = nullptr, QueryCounts* counts = nullptr) noexcept;

@@ -13,12 +13,13 @@
 namespace cdprep {
 
 // Queries about two convex hulls that read only their points. They use the method of Gilbert,
-// Johnson and Keerthi (1988) in double. Every answer is proven; if double arithmetic proves
+// Johnson and Keerthi (1988), GJK, in double. Every answer is proven; if double arithmetic proves
 // nothing, the answer is computed without rounding.
 //
 // A query is about the hulls of the points as `placement` moves them (level E1 in GLOSSARY.md).
-// transform_point() rounds each point once. Nothing is rounded after that. The hulls are solid: a
-// hull inside another one touches it. A hull without points touches nothing.
+// transform_point() rounds each point once. Answers and proven bounds hold exactly for the rounded
+// points. The hulls are solid: a hull inside another one touches it. A hull without points touches
+// nothing.
 //
 // No query allocates. A step takes O(sqrt(n)) time for a hull of n points with
 // ConvexPoints::neighbours, otherwise O(n). From a good start a few steps suffice. If hulls touch
@@ -26,10 +27,10 @@ namespace cdprep {
 // microseconds.
 
 /// The simplex with which the last GJK query about two hulls ended, as point numbers. The caller
-/// owns it. The next query about the same two hulls begins there: the less they have moved, the
-/// less time it takes. Any content is allowed: it never changes whether hulls collide or are within
-/// a tolerance. Bounds may differ in their last digits, or by the errors that options permit. Use
-/// one cache for each pair of hulls and thread. All zero is a new cache.
+/// owns it. The next query about the same two hulls begins there: the less the hulls have moved,
+/// the less time it takes. Any content is allowed: it never changes whether hulls collide or are
+/// within a tolerance. It may change the last digits of bounds, or change bounds by the errors that
+/// options permit. Use one cache for each pair of hulls and thread. A new cache is all zero.
 struct ConvexCache {
     std::uint32_t count = 0;           ///< used elements of `a` and `b`, at most 4
     std::array<std::uint32_t, 4> a{};  ///< points of A
@@ -46,29 +47,29 @@ struct ConvexCache {
 /// The distance of two hulls, and points where it is attained.
 struct ConvexDistance {
     double lower;       ///< the distance is at least this, model units
-    double upper;       ///< and at most this
+    double upper;       ///< the distance is at most this
     Double3 witness_a;  ///< on A as moved, up to rounding; nearest to B
-    Double3 witness_b;  ///< on B as moved, up to rounding; `upper` from witness_a
+    Double3 witness_b;  ///< on B as moved, up to rounding; at distance `upper` from witness_a
 };
 
-/// Returns the distance of two hulls. Returns nothing if it exceeds `max_distance` or one has no
-/// points. If the hulls touch, both bounds are 0 and the witnesses are a common point. Otherwise
-/// lower is above 0, except for gaps near the smallest doubles. If faces or edges are parallel,
-/// many pairs of points are nearest; the witnesses are one of them.
+/// Returns the distance of two hulls. Returns nothing if the distance exceeds `max_distance` or a
+/// hull has no points. If the hulls touch, both bounds are 0 and the witnesses are a common point.
+/// Otherwise, lower is above 0, except for gaps near the smallest doubles. If faces or edges are
+/// parallel, many pairs of points are nearest; the witnesses are one of them.
 ///
-/// upper - lower is at most the error that `options` permits, except for relative errors below
-/// 1e-14. Here, options.relative_error is a share of upper. Without permitted errors, the limit is
-/// 1e-12 of upper plus 1e-14 of the size of A - B (convex_distance_laws_test). A - B is the
-/// Minkowski difference. Its size is the largest difference between a point of A and a point of B
-/// along a coordinate axis.
+/// upper - lower is at most the error that `options` permits. It may exceed permitted relative
+/// errors below 1e-14. Here, options.relative_error is a share of upper. Without permitted errors,
+/// the limit is 1e-12 of upper plus 1e-14 of the size of A - B (convex_distance_laws_test). A - B
+/// is the Minkowski difference. Its size is the largest difference between a point of A and a point
+/// of B along a coordinate axis.
 [[nodiscard]] CDPREP_API std::optional<ConvexDistance> convex_distance(
     const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
     const DistanceOptions& options = {}, ConvexCache* cache = nullptr,
     QueryCounts* counts = nullptr) noexcept;
 
 /// Returns whether two hulls are at most `tolerance` apart; inclusive. A tolerance of 0 tests
-/// whether they touch. Returns false for a negative tolerance or NaN. Exact: a tolerance equal to
-/// the distance to the last bit gives true, and the next smaller double gives false.
+/// whether they touch. Returns false for a negative tolerance or NaN. Exact: a tolerance that
+/// equals the distance gives true; the next smaller double gives false.
 [[nodiscard]] CDPREP_API bool convex_within(const ConvexPoints& a, const ConvexPoints& b,
                                             const Placement& placement, double tolerance,
                                             ConvexCache* cache = nullptr,

@@ -19,19 +19,21 @@ struct Penetration {
 };
 
 /// Returns the penetration depth of two hulls that have a common point; touching counts. Returns
-/// nothing if they have none, as convex_collide() decides exactly, or if one has no points. So no
-/// contact is lost. If the hulls only touch, or both lie in one plane, upper is 0 up to rounding.
+/// nothing if they have no common point, as convex_collide() decides exactly, or if one has no
+/// points. So every contact has a depth. If the hulls only touch, or both lie in one plane, upper
+/// is 0 up to rounding.
 ///
-/// upper - lower is at most 1e-12 of upper plus 1e-13 of the largest coordinate of A - B. A larger
-/// permitted error replaces this limit. The difference exceeds this only if the polytope described
-/// below would exceed 128 corners (convex_penetration_laws_test). Finely rounded bodies of
-/// thousands of points that are deep in each other can need that many. Of `options`, only the
-/// permitted errors are read; the relative one is a share of upper.
+/// upper - lower is at most 1e-12 of upper plus 1e-13 of the largest coordinate of the Minkowski
+/// difference A - B. A larger permitted error replaces this limit. upper - lower exceeds the limit
+/// only if the polytope described below would need more than 128 corners
+/// (convex_penetration_laws_test). Finely rounded hulls of thousands of points can need that many
+/// if they overlap deeply. Of `options`, only the permitted errors are read; the relative one is a
+/// share of upper.
 ///
 /// Uses the expanding polytope of van den Bergen (2001) with exact signs. The polytope lies within
-/// the Minkowski difference A - B. Its corners are differences of a point of A and a point of B. It
-/// grows where its boundary is nearest to the origin. The distance from the origin to this boundary
-/// proves `lower`. The farthest points of A and B along a direction prove `upper`.
+/// A - B. Its corners are differences of a point of A and a point of B. The polytope grows where
+/// its boundary is nearest to the origin. The distance from the origin to this boundary proves
+/// `lower`. The farthest points of A and B along a direction prove `upper`.
 ///
 /// Takes ten to a hundred times as long as convex_distance(). Never allocates; uses 30 kB of stack.
 [[nodiscard]] CDPREP_API std::optional<Penetration> convex_penetration(

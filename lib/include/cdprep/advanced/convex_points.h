@@ -14,8 +14,8 @@ namespace cdprep {
 
 using format::Double3;
 
-/// The corners of a convex hull in the form that queries read. The caller owns all spans, such as
-/// those of a mapped file.
+/// The corners of a convex hull in the form that queries read. The caller owns the memory behind
+/// all spans, such as a mapped file.
 ///
 /// The hull is that of the points and may have any dimension; a single point is allowed. Without
 /// neighbours, points that are not corners are allowed too.
@@ -34,7 +34,7 @@ struct ConvexPoints {
     /// For each direction_cell(), a point that is far along the directions in that cell; or empty.
     /// Any point gives the correct result. A point near the farthest one saves steps.
     std::span<const std::uint32_t> starts;
-    /// An alternative to blocks, for hulls of few points and without neighbours. Point i is
+    /// An alternative to `blocks`, for hulls of few points without neighbours. Point i is
     /// floats[corners[i]] or, if `floats` is empty, doubles[corners[i]].
     std::span<const std::uint32_t> corners{};
     std::span<const format::Float3> floats{};
@@ -52,8 +52,8 @@ struct ConvexPoints {
 /// The minimum point count for hill climbing along hull edges.
 inline constexpr std::uint32_t kClimbFrom = 64;
 
-/// Directions are classified by cells on the faces of a cube around the hull. This is the number of
-/// cells along each edge of the cube.
+/// Directions are classified by cells on the faces of a cube around the origin. This is the number
+/// of cells along each edge of the cube.
 inline constexpr std::uint32_t kDirectionCells = 8;
 /// The length of ConvexPoints::starts.
 inline constexpr std::uint32_t kDirectionStarts = 6 * kDirectionCells * kDirectionCells;
@@ -62,8 +62,8 @@ inline constexpr std::uint32_t kDirectionStarts = 6 * kDirectionCells * kDirecti
 /// divide the faces of a cube around the origin. They are numbered face by face (+x, -x, +y, -y,
 /// +z, -z), and within a face row by row. On the faces +x and -x, the cells of a row are in
 /// ascending order of y. The rows are in ascending order of z. The other faces are numbered
-/// likewise, with the axes in cyclic order. Of several largest coordinates, the first selects the
-/// face. The direction must be finite. The zero vector has a cell too.
+/// likewise, with the axes in cyclic order. The coordinate of largest magnitude selects the face;
+/// of several, the first does. The direction must be finite. The zero vector has a cell too.
 [[nodiscard]] CDPREP_API std::uint32_t direction_cell(const Double3& direction) noexcept;
 
 }  // namespace cdprep

@@ -21,8 +21,8 @@ namespace cdprep {
 /// parts, each vertex is in at least one.
 ///
 /// Three properties are not checked. Vertices of a component or an instance may lie outside its
-/// hull. Vertices may lie outside a hull that is a segment, or outside a polygon within its plane.
-/// A triangle whose corners lie in different parts may have points that lie in no part. The last
+/// hull. Vertices may lie outside a hull that is a segment, or beside a polygon, in its plane. A
+/// triangle whose corners lie in different parts may have points that lie in no part. The last
 /// check requires exact numbers of any length (tools/info/find_cover_falsehood.h).
 ///
 /// format::find_damage() must find nothing in `file`. `model` is this file, opened with all its
@@ -31,10 +31,10 @@ namespace cdprep {
 [[nodiscard]] CDPREP_API std::optional<format::Damage> find_hull_falsehood(
     std::span<const std::byte> file, const Model& model);
 
-/// Proves that the hulls around the nodes of the BVH over pieces are right. Each contains every
-/// vertex below its node, exactly. Each corner of a hull is within PieceNodeHull::slack of the
-/// exact hull of these vertices, up to rounding. Returns nothing if all are right, or if there are
-/// no pieces.
+/// Proves that the hulls around the nodes of the BVH over pieces are correct. Each hull contains
+/// every vertex below its node; this check is exact. Each corner of a hull is within
+/// PieceNodeHull::slack of the exact hull of these vertices, up to rounding. Returns nothing if all
+/// are correct, or if there are no pieces.
 ///
 /// format::find_deep_damage() must find nothing in `file`. `model` is this file, opened with all
 /// its sections. Takes O(vertices * levels) hull queries. Allocates.

@@ -19,14 +19,14 @@ struct FloatContact {
 };
 
 enum class FloatSearch : std::uint8_t {
-    all,   ///< in tree order
+    all,   ///< in the order of a depth-first walk
     first  ///< in the order in which collide() looks for a hit
 };
 
-/// Calls `visit` with each FloatContact of the two models until `visit` returns false, and then
-/// returns false. No pair in contact is missing. Serves studies of the cost of exactness, and
-/// callers that accept a few pairs that are not in contact.
-/// Reads only the placement of `pair`. Needs Ask::overlap. Costs less than overlaps().
+/// Calls `visit` with each FloatContact of the two models until `visit` returns false. Returns
+/// false if `visit` did; otherwise true. No pair in contact is missing. Serves studies of the cost
+/// of exactness, and callers that accept a few pairs that are not in contact. Reads only the
+/// placement of `pair`. Needs Ask::overlap. Costs less than overlaps().
 CDPREP_API bool visit_float_contacts(const Pair& pair, Workspace& workspace, FloatSearch search,
                                      Visitor<FloatContact> visit);
 

@@ -10,15 +10,15 @@
 #include "cdprep/format/api.h"
 #include "cdprep/format/file_header.h"
 
-// The separate steps from a mesh to the arrays of a model. build_model.h runs them all. Vertices
-// are shared as in the triangles: equal positions are not welded.
+// The separate steps from a mesh to the arrays of a model. build_model() runs them all. Triangles
+// share a vertex only if they use the same vertex number: equal positions are not welded.
 namespace cdprep::build {
 
 /// A mesh rearranged for the BVH.
 struct TreeOrder {
     std::vector<format::Triangle> triangles;  ///< tree order, with new vertex numbers
     std::vector<std::uint32_t> vertices;      ///< the input vertex at each new place
-    std::vector<std::uint32_t> new_vertex;    ///< of each input vertex; kUnused if unused
+    std::vector<std::uint32_t> new_vertex;    ///< of each input vertex; kUnused if not used
     static constexpr std::uint32_t kUnused = 0xffffffffU;
 };
 
@@ -49,9 +49,10 @@ struct Topology {
 };
 
 /// Finds the connected components: triangles connected through shared vertices. Finds whether each
-/// is balanced: every edge is used equally often in both directions. A side between two equal
-/// vertex numbers does not count as an edge. A mesh without triangles is balanced. Volumes are
-/// clamped to the range of double. Takes O(n) time, plus a sort of the edges at each vertex.
+/// component is balanced: every edge is used equally often in both directions. A side between two
+/// equal vertex numbers does not count as an edge. A mesh without triangles is balanced. Volumes of
+/// components are clamped to the range of double. Takes O(n) time, plus a sort of the edges at each
+/// vertex.
 [[nodiscard]] CDPREP_API Topology find_topology(std::span<const format::Double3> positions,
                                                 std::span<const format::Triangle> triangles);
 

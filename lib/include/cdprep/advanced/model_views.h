@@ -19,10 +19,11 @@ namespace cdprep {
 using format::Double3;
 using format::Float3;
 
-// Views of the sections of an open model, as Model returns them. A view has a member for each row
-// of section_table.inc, which describes it. A span is empty and a pointer null if the file lacks
-// the section or it was not opened. Views stay valid while the Model lives. FORMAT.md describes the
-// elements and states which arrays are in tree order, the order in which the BVH stores triangles.
+// Views of the sections of an open model, as Model returns them. section_table.inc describes the
+// members of the views, one per row. A span is empty and a pointer null if the file lacks the
+// section or the section was not opened. Views stay valid while the Model lives. FORMAT.md
+// describes the elements and states which arrays are in tree order, the order in which the BVH
+// stores triangles.
 
 /// The member type for a section: a span of its elements, a pointer to the only one, or text.
 template <class Element>
@@ -46,7 +47,7 @@ namespace views {
 using namespace format;
 
 /// The triangles of a model. A file has positions in one precision only. An open model has
-/// positions if it was opened with its vertices.
+/// positions only if it was opened with them.
 struct MeshView {
 #define CDPREP_MESH_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
 #include "cdprep/format/section_table.inc"
@@ -65,7 +66,7 @@ struct BvhView {
 #include "cdprep/format/section_table.inc"
     BvhShape shape;  ///< levels and counts; always set
     /// For a LiveModel that can tear, one byte per leaf: a bit for each place that has a triangle.
-    /// Empty for all other models, where every place has one.
+    /// Empty for all other models, where every place has a triangle.
     std::span<const std::uint8_t> lanes = {};
 };
 
@@ -75,7 +76,7 @@ struct OctreeView {
 #include "cdprep/format/section_table.inc"
 };
 
-/// The octree whose nodes choose their split points (format/octree.h).
+/// The octree with a split point chosen for each node (format/octree.h).
 struct AdaptiveOctreeView {
 #define CDPREP_ADAPTIVE_OCTREE_SECTION(member, name, id, Element, ...) \
     SectionView<Element> member = {};

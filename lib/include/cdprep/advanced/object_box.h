@@ -15,20 +15,20 @@ struct RootBox {
     std::array<double, 3> middle{};
     std::array<double, 9> axes{};  ///< column k is axis k of the model in the world
     std::array<double, 3> half{};  ///< negative if there are no triangles
-    double size = 0;               ///< at least the sum of all magnitudes that were added
+    double size = 0;               ///< for rounding errors: at least the sum of all terms' sizes
 };
 
-/// Returns a box that contains all points of a moved model, as transform_point() rounds them. It
-/// extends `reach` beyond them, in model units. If two models are at most d apart, their boxes with
-/// a reach of d / 2 each meet. The reach must be finite and at least 0, and the model must be
+/// Returns a box that contains all points of a moved model, as transform_point() rounds them. The
+/// box extends `reach` beyond them, in model units. If two models are at most d apart, their boxes
+/// with a reach of d / 2 each meet. The reach must be finite and at least 0, and the model must be
 /// opened with its BVH. Otherwise, the program is aborted with a message.
 [[nodiscard]] CDPREP_API RootBox root_box(const Model& model, const Pose& world_from_model,
                                           double reach) noexcept;
 
 /// Returns the axis-aligned box around a root box, for BroadPhase; absent if there are no
-/// triangles. It is relative to `origin`, which must be the same for all boxes, finite and at most
-/// 2^1000. Far from the origin, rounding to float widens the boxes: at 10^7 by about a unit on each
-/// side.
+/// triangles. The box is relative to `origin`, which must be the same for all boxes. Its
+/// coordinates must be finite and at most 2^1000 in magnitude. Far from the origin, rounding to
+/// float widens the box: at a distance of 10^7, by about one unit on each side.
 [[nodiscard]] CDPREP_API WorldBox world_box(const RootBox& root,
                                             const Double3& origin = {}) noexcept;
 

@@ -12,13 +12,13 @@ namespace cdprep {
 inline constexpr std::uint32_t kFrontRoom = 512;
 
 /// Separating planes between node pairs of the BVHs over two models' pieces, owned by the caller.
-/// They come from earlier queries, and the node pairs together cover both models. If models move
-/// little from query to query, few planes have to be updated. If there is no room for more pairs,
-/// the search descends from the pairs that are kept. If the room is too small when a front is
-/// started, or if the models jump, the front is emptied. It then stays unused for a number of
+/// They come from earlier queries, and the node pairs together cover both models. If the models
+/// move little from query to query, few planes have to be updated. If there is no room for more
+/// pairs, the search descends from the pairs that are kept. If the room is too small when a front
+/// is started, or if the models jump, the front is emptied. It then stays unused for a number of
 /// queries.
 ///
-/// The members belong to the library; all zero is a new front.
+/// The members belong to the library; a new front is all zero.
 struct PairFront {
     std::array<std::uint64_t, 2> models = {};  ///< content hashes of A and B
     std::uint32_t count = 0;                   ///< pairs; 0: the front is empty
@@ -29,15 +29,15 @@ struct PairFront {
     /// The planes, in pair units: one column for each node pair. Rows 0 to 2: the direction across
     /// the plane, from A to B, in A's axes. Rows 3 to 5: this direction in B's axes when the plane
     /// was set. Rows 6 to 8: the middle of B's node. Row 9: the gap along the direction, without
-    /// the part that is due to B's translation. Row 10: the reach of B's node from its middle. Row
-    /// 11: the reach of A's node along the direction.
+    /// the part that is due to B's translation. Row 10: the radius of B's node around this middle.
+    /// Row 11: how far A's node extends along the direction.
     std::array<std::array<float, kFrontRoom>, 12> row = {};
 };
 
 /// Both caches of one pair of models, for queries through Structure::pieces: Pair::cache and
 /// Pair::front. They change speed, never answers. The first distance query fills the front with
-/// planes. It takes about three times as long as a query without caches. The next ones update a few
-/// planes. About 28 KiB.
+/// planes. This query takes about three times as long as one without caches. Later queries update a
+/// few planes. A PieceCache takes about 28 KiB.
 struct PieceCache {
     PairCache pair;
     PairFront front;

@@ -8,9 +8,9 @@
 
 namespace cdprep {
 
-/// A piece of work in numbered parts, called with each number. It refers to the callable, which may
-/// be a lambda written in the call, and copies nothing. Copying a Task costs as much as copying two
-/// pointers.
+/// A piece of work in numbered parts. Calling it with a number runs that part. A Task refers to the
+/// callable, which may be a lambda written in the call, and copies nothing. Copying a Task costs as
+/// much as copying two pointers.
 class Task {
 public:
     template <class Body>
@@ -34,7 +34,7 @@ private:
 /// tasks never throw; build_bvh() tasks may throw std::bad_alloc.
 ///
 /// Tasks that begin late find little left to do. The best `run` executes tasks on its own thread
-/// too, until all have begun. It then waits for those that other threads have begun. A ParallelFor
+/// too, until all have begun. It then waits for tasks that other threads have begun. A ParallelFor
 /// refers to the callable, a named object such as a lambda, and copies nothing. The callable must
 /// outlive the call, and any options that hold the ParallelFor. `run` runs in the floating-point
 /// environment of the caller; tasks compute in the default one on every thread.

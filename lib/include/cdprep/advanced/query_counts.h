@@ -8,19 +8,20 @@
 namespace cdprep {
 
 /// Returns the name of the instruction set that queries use on this machine: "scalar", "avx2",
-/// "avx512", "neon" or "simd128". The environment variable CDPREP_KERNELS chooses another, if there
-/// is one.
+/// "avx512", "neon" or "simd128". To choose another, set the environment variable CDPREP_KERNELS to
+/// its name before the first call into the library. Sets that the machine or the build lacks are
+/// ignored.
 [[nodiscard]] CDPREP_API const char* kernel_name() noexcept;
 
-/// Work of queries about two models, and of points_inside(). The counts serve tuning and
-/// comparisons on machines that are too noisy for a clock. Workspace::count_into() turns them on.
-/// They are not part of an answer: they depend on the instruction set and on the version of the
+/// Counts of the work of queries about two models, and of points_inside(). The counts serve tuning
+/// and comparisons on machines that are too noisy for a clock. Workspace::count_into() turns them
+/// on. They are not part of an answer: they depend on the instruction set and on the version of the
 /// library.
 struct QueryCounts {
     std::uint64_t box_pairs = 0;       ///< boxes of A's hierarchy against boxes of B's
-    std::uint64_t node_pairs = 0;      ///< pairs of nodes read for them, up to 8 boxes each
+    std::uint64_t node_pairs = 0;      ///< pairs of nodes read for these, up to 8 boxes each
     std::uint64_t leaf_pairs = 0;      ///< pairs of leaves whose triangles were tested
-    std::uint64_t triangle_pairs = 0;  ///< pairs of triangles in those: at most 64 per leaf pair
+    std::uint64_t triangle_pairs = 0;  ///< pairs of triangles in these: at most 64 per leaf pair
 
     // Pairs of triangles that boxes and planes in float did not separate, by the stage that decided
     // about them. The sum of these four counts is the number of such pairs.
@@ -37,7 +38,7 @@ struct QueryCounts {
     std::uint64_t references = 0;    ///< triangles in the lists of leaf cells; repeats count
 
     std::uint64_t measured = 0;        ///< distances of two triangles, in double
-    std::uint64_t measured_again = 0;  ///< the same, computed again for the last digits
+    std::uint64_t measured_again = 0;  ///< distances computed again for the last digits
 
     // Convex hulls.
     std::uint64_t hull_pairs = 0;      ///< pairs of hulls

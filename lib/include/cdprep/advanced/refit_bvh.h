@@ -6,15 +6,17 @@
 
 namespace cdprep::build {
 
-/// Fits a BVH to new positions of its triangles, in the same order. Returns its surface_cost().
+/// Fits a BVH to new positions of its triangles, and keeps their order. Returns the new
+/// surface_cost().
 ///
 /// The result equals that of a build that puts the triangles in the same order. The frame is that
-/// of the new positions, and boxes contain their triangles exactly. Bvh::exact_leaves is set anew.
-/// The result depends neither on the old positions nor on options.parallel_for. Oriented boxes are
-/// fitted anew, or dropped if options.bounds has none. Ignores options.quality.
+/// of the new positions. Boxes are rounded outwards, so they contain their triangles.
+/// Bvh::exact_leaves is set anew. The result depends neither on the old positions nor on
+/// options.parallel_for. Oriented boxes and swept spheres are computed anew if options.bounds
+/// includes them, otherwise dropped. Ignores options.quality.
 ///
 /// `bvh` must come from build_bvh() or rebuild_bvh() over `triangles`. `positions` must meet the
-/// requirements of build_bvh(). The order stays good as long as neighbouring triangles stay
+/// requirements of build_bvh(). The order stays efficient as long as neighbouring triangles stay
 /// neighbours. The returned cost shows when to rebuild:
 ///
 ///     double cost = refit_bvh(bvh, positions, triangles);

@@ -22,8 +22,8 @@ struct SelfPair {
 };
 
 /// A walk of a BVH against itself. It finds every pair of triangles that cross or touch and share
-/// no vertex, each once. It also finds a few pairs that do neither. The caller tests the pairs
-/// exactly (exact/triangles.h).
+/// no vertex, each once. It also finds a few pairs that neither cross nor touch. The caller tests
+/// the pairs exactly (exact/triangles.h).
 class SelfWalk {
     /// Two nodes of one height, a <= b. Nodes of height 0 are leaves.
     struct NodePair {

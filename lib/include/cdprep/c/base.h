@@ -15,41 +15,42 @@ extern "C" {
  *
  * Rules that hold for every function:
  *
- * - Order of arguments: the subject, numbers, the workspace, the answer, the error.
+ * - Arguments come in this order: the object of the call, numbers, the workspace, the answer, the
+ *   error.
  * - The return value is a code. `error` may be null; otherwise it is always filled. On success,
  *   code and why are 0 and both texts are empty.
  * - A struct that starts with cdprep_head is an input that may grow in later versions. Only its
  *   _init() function makes it valid: that function writes size, tag and defaults. A struct that
  *   its _init() did not make, even one of zeros, is refused with CDPREP_WHY_NOT_INITIALISED. The
  *   comment of a field starts with its default. For a parameter named `options`, null gives the
- *   defaults. The options of a build and of a plan are exceptions, because they hold the mesh and
- *   the layers.
- * - Arguments are checked before anything is computed. The order within a struct is: size and tag;
- *   enumerators; numbers; poses; fields without meaning for the query. The next checks are whether
- *   the model serves the query, and whether the workspace is in use. If there are several errors,
- *   one is reported. One invalid entry makes the whole batch fail.
+ *   defaults. Exceptions: builds, plans, live models and windows require options.
+ * - Arguments are checked before anything is computed. A struct is checked in this order: size and
+ *   tag; enumerators; numbers; poses; fields without meaning for the query. The next checks are
+ *   whether the model serves the query, and whether the workspace is in use. If there are several
+ *   errors, only one is reported. One invalid entry makes the whole batch fail.
  * - Numbers are finite and at most 2^1000 in magnitude. NaN is always refused. Infinity is allowed
- *   only for max_distance, max_t and the limits of boxes. No answer holds NaN. None holds infinity,
- *   unless its comment says so.
+ *   only for max_t, the limits of boxes, the radius of a window, and max_distance of a query. No
+ *   answer holds NaN. An answer may hold infinity only if its comment says so.
  * - On failure, answers are unknown: counts and `found` are 0; `hit`, `inside` and similar fields
  *   are CDPREP_UNKNOWN. The items of lists may hold anything. Answers stay unchanged if the call
- *   cannot know how many there are. That is so if the query is null or not initialised, or if a
- *   count is too large for memory. They also stay unchanged if cdprep_pose_move() or
+ *   cannot know their number. This happens if the query is null or not initialised, or if a count
+ *   is too large for memory. They also stay unchanged if cdprep_pose_move() or
  *   cdprep_model_corners() fails.
  * - Lengths are in model units. Limits are inclusive. Triangles and vertices are numbered as in
  *   the imported file, or as in the arrays of a build.
  * - A list stores at most `room` answers; `count` is the number of all answers. Too little room is
  *   not an error: as many as fit are stored. A list without room only counts.
- * - No query allocates. Opening or building a model, compiling a plan, and _make() do.
+ * - No query allocates. Opening or building a model, compiling a plan, and the _make() functions
+ *   do.
  * - Models are read-only and serve any number of threads. A workspace serves one call at a time,
- *   and so does a broad phase. A scene serves one call that changes it, or any number that read it.
- *   Nothing else is shared: there is no global state.
+ *   and so does a broad phase. At any time, a scene serves one call that changes it, or any number
+ *   of calls that only read it. Nothing else is shared: there is no global state.
  * - Callbacks must return: they must not throw or call longjmp(). A visitor may run queries with
- *   another workspace. A visitor runs in the caller's floating-point environment. No floating-point
- *   environment changes an answer.
- * - Null is refused, except where a comment allows it. An invalid pointer can crash a call, such as
- *   one to a closed model. So can a damaged file with CDPREP_MAP_TRUSTED, and a mapped file that is
- *   truncated while open. */
+ *   another workspace. A visitor runs in the caller's floating-point environment. Answers do not
+ *   depend on that environment.
+ * - Null is refused, except where a comment allows it. An invalid pointer, such as one to a closed
+ *   model, can crash a call. So can a damaged file with CDPREP_MAP_TRUSTED, and a mapped file that
+ *   is truncated while open. */
 
 #define CDPREP_VERSION_MAJOR 0
 #define CDPREP_VERSION_MINOR 1
@@ -83,9 +84,9 @@ enum {
     CDPREP_WHY_NOT_RIGID = 6,       /* a pose that scales, shears or mirrors */
     CDPREP_WHY_NO_MEANING = 7,      /* a field is set that this query cannot use */
     CDPREP_WHY_NOT_BAKED = 8,       /* the model lacks what the query needs */
-    CDPREP_WHY_NOT_OPENED = 9,      /* the file has it, but it was not opened */
+    CDPREP_WHY_NOT_OPENED = 9,      /* the file has what the query needs, but it was not opened */
     CDPREP_WHY_TOO_SMALL = 10,      /* memory, or an array of cdprep_marks */
-    CDPREP_WHY_STALE = 11,          /* what no longer exists, or never did, or has changed since */
+    CDPREP_WHY_STALE = 11,          /* an item that is gone, never existed or has since changed */
     CDPREP_WHY_BUSY = 12            /* a workspace, scene or broad phase in use by another call */
 };
 
@@ -110,14 +111,14 @@ typedef struct cdprep_version {
 /* Stores the version of the library in use. Null does nothing. */
 CDPREP_API void cdprep_version_get(cdprep_version* version);
 
-/* Returns the name of a code, such as "CDPREP_UNREADABLE". It is never null: other numbers give
- * "CDPREP_UNKNOWN_CODE". */
+/* Returns the name of a code, such as "CDPREP_UNREADABLE". Never returns null: for any other
+ * number, it returns "CDPREP_UNKNOWN_CODE". */
 CDPREP_API const char* cdprep_code_name(int code);
 
 /* The caller's memory functions. `allocate` returns null if there is no memory. `size` is not 0,
  * and `alignment` is a power of two of at most CDPREP_ALIGNMENT. `release` receives the same size.
- * They are called by the calling thread, only while it makes or ends an object of the library. They
- * must not throw. */
+ * The calling thread calls both functions, and only while it makes or ends an object of the
+ * library. Neither may throw. */
 typedef struct cdprep_allocator {
     void* (*allocate)(void* context, size_t size, size_t alignment);
     void (*release)(void* context, void* memory, size_t size);
@@ -139,7 +140,7 @@ typedef void (*cdprep_task)(const void* work, size_t number);
 
 typedef struct cdprep_workspace_options {
     cdprep_head head;
-    /* 1: the number of tasks that `run` may run at once, at most 256; above 1 needs `run` */
+    /* 1: the number of tasks that `run` may run at once, at most 256; more than 1 requires `run` */
     uint32_t lanes;
     uint32_t counting; /* CDPREP_NO; CDPREP_YES: count the work of queries */
     /* Null; otherwise the caller's function. It calls task(work, 0) ... task(work, count - 1), once
@@ -148,7 +149,7 @@ typedef struct cdprep_workspace_options {
     void (*run)(void* context, size_t count, cdprep_task task, const void* work);
     void* context;                     /* passed to `run` */
     const cdprep_allocator* allocator; /* null: the heap; copied */
-    /* Null. cdprep_cells() for queries through octrees and tetra-trees. */
+    /* Null; set it to cdprep_cells() for queries through octrees and tetra-trees. */
     const cdprep_cell_searches* cells;
 } cdprep_workspace_options;
 
@@ -202,8 +203,8 @@ typedef struct cdprep_counts {
     uint64_t n[32]; /* by CDPREP_COUNT_...; the rest is 0 */
 } cdprep_counts;
 
-/* Stores the work of all queries with this workspace since it was made, for tuning. It is not part
- * of any answer and may differ between processors and versions.
+/* Stores counts of the work of all queries with this workspace since it was made, for tuning. The
+ * counts are not part of any answer, and may differ between processors and versions.
  * Errors: CDPREP_WHY_NO_MEANING if the workspace was made without `counting`. */
 CDPREP_API int cdprep_workspace_counts(cdprep_workspace* workspace, cdprep_counts* counts,
                                        cdprep_error* error);
@@ -212,7 +213,7 @@ CDPREP_API int cdprep_workspace_counts(cdprep_workspace* workspace, cdprep_count
  *
  * A pose is a rigid motion: it moves a point p to R p + T. Every function rejects a pose that is
  * not rigid. Every entry of |R^T R - I| must be at most 1e-12, and R must not mirror. Convert
- * matrices of engines with cdprep_pose_nearest(). */
+ * matrices from a physics or game engine with cdprep_pose_nearest(). */
 
 typedef struct cdprep_pose {
     double rows[12]; /* R row by row, then T in model units */
@@ -221,8 +222,8 @@ typedef struct cdprep_pose {
 enum { CDPREP_ROWS = 0, CDPREP_COLUMNS = 1 };
 
 /* Makes a pose from a quaternion w + xi + yj + zk of any nonzero length. Each entry of R is within
- * 2^-50 of the exact one. On failure, *pose is all 0, which no function accepts as a pose. The same
- * holds for the functions below that make a pose. */
+ * 2^-50 of the exact one. On failure, *pose is all 0, which no function accepts as a pose. The
+ * functions below that store a pose also store 0 if they fail. */
 CDPREP_API int cdprep_pose_from_quaternion(const double wxyz[4], const double translation[3],
                                            cdprep_pose* pose, cdprep_error* error);
 
@@ -231,34 +232,34 @@ CDPREP_API int cdprep_pose_from_quaternion(const double wxyz[4], const double tr
  * is in elements 3, 7, 11. With CDPREP_COLUMNS, it is in elements 12, 13, 14. The matrix may differ
  * from a rigid motion by `tolerance`, which is 0 to 0.25. The limit holds for every entry of
  * |M^T M - I|. It also holds for the deviation of the last row from 0 0 0 1. For matrices of
- * floats, a tolerance of 1e-5 is a good value. The result satisfies |R^T R - I| <= 1e-15. Takes
- * about 100 ns.
+ * floats, a tolerance of 1e-5 is a good value. Every entry of |R^T R - I| of the result is at most
+ * 1e-15. Takes about 100 ns.
  * Errors: CDPREP_WHY_NOT_RIGID with a message that states whether the matrix scales, shears,
  * mirrors or projects. */
 CDPREP_API int cdprep_pose_nearest(const double matrix[16], uint32_t layout, double tolerance,
                                    cdprep_pose* pose, cdprep_error* error);
 
-/* The same for a matrix of floats. */
+/* Does the same for a matrix of floats. */
 CDPREP_API int cdprep_pose_nearest_f32(const float matrix[16], uint32_t layout, double tolerance,
                                        cdprep_pose* pose, cdprep_error* error);
 
-/* Stores the pose that moves by `b_from_c` first and then by `a_from_b`. Each number is rounded. A
- * rotation that has drifted by more than 1e-13 is replaced by the nearest one. So chains of poses
- * stay rigid, whatever their length. `a_from_c` may point to either argument.
+/* Stores the pose that moves by `b_from_c` first and then by `a_from_b`. Each number is rounded. If
+ * an entry of |R^T R - I| exceeds 1e-13, the nearest rotation replaces R. So chains of poses stay
+ * rigid, whatever their length. `a_from_c` may point to either argument.
  * Errors: CDPREP_WHY_OUT_OF_RANGE if the translation exceeds 2^1000. */
 CDPREP_API int cdprep_pose_compose(const cdprep_pose* a_from_b, const cdprep_pose* b_from_c,
                                    cdprep_pose* a_from_c, cdprep_error* error);
 
-/* Stores the inverse pose, R^T and -R^T T. Each number is rounded. If R has drifted by more than
- * 1e-13, the nearest rotation replaces R^T.
+/* Stores the inverse pose, R^T and -R^T T. Each number is rounded. If an entry of |R^T R - I|
+ * exceeds 1e-13, the nearest rotation replaces R^T.
  * Errors: CDPREP_WHY_OUT_OF_RANGE if the translation exceeds 2^1000. */
 CDPREP_API int cdprep_pose_inverse(const cdprep_pose* a_from_b, cdprep_pose* b_from_a,
                                    cdprep_error* error);
 
 /* Stores the pose that moves B's points into A's frame: world_from_a^-1 world_from_b. R is Ra^T Rb
- * and T is Ra^T (Tb - Ta), each sum from left to right. These are the numbers of relative_pose() in
- * C++, and a query with CDPREP_MOVE_B moves by them. Takes some 20 ns. `a_from_b` may point to
- * either argument.
+ * and T is Ra^T (Tb - Ta), each sum from left to right. The result equals that of relative_pose()
+ * in C++, bit for bit. A query with CDPREP_MOVE_B moves B by this pose. Takes about 20 ns.
+ * `a_from_b` may point to either argument.
  * Errors: CDPREP_WHY_OUT_OF_RANGE if the translation exceeds 2^1000. CDPREP_WHY_NOT_RIGID if both
  * rotations deviate so far that the product deviates by more than 1e-12. */
 CDPREP_API int cdprep_pose_relative(const cdprep_pose* world_from_a,
@@ -266,9 +267,9 @@ CDPREP_API int cdprep_pose_relative(const cdprep_pose* world_from_a,
                                     cdprep_error* error);
 
 /* Moves `count` points, 3 numbers each, by the formula that all queries use. x becomes
- * ((R00 x + R01 y) + R02 z) + T0, and y and z likewise. It is computed in double, without fused
- * multiply-add. A query that moves a model is exact for vertices moved in this way. `moved` may be
- * `points`. On failure nothing is stored.
+ * ((R00 x + R01 y) + R02 z) + T0, and y and z likewise. The sum is computed in double, without
+ * fused multiply-add. A query that moves a model is exact for the vertices that result from this
+ * formula. `moved` may be `points`. On failure nothing is stored.
  */
 CDPREP_API int cdprep_pose_move(const cdprep_pose* pose, const double* points, size_t count,
                                 double* moved, cdprep_error* error);

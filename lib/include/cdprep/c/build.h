@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* Models from meshes in memory: no file, no `cdprep bake`. */
+/* Models built from meshes in memory, without a file and without `cdprep bake`. */
 
 /* The precision in which a model keeps positions. */
 enum {
@@ -46,34 +46,37 @@ CDPREP_API void cdprep_build_options_init(cdprep_build_options* options, size_t 
 CDPREP_API int cdprep_model_build_size(const cdprep_build_options* options, size_t* size,
                                        cdprep_error* error);
 
-/* Builds a model. It answers every query that it serves exactly as a bake of the same arrays does.
- * A build can serve CDPREP_ASK_COLLIDE, _OVERLAP, _DISTANCE, _WITHIN, _CONTINUOUS, _SELF, _DEFORM,
- * _TEAR, _HAPTIC, _INSIDE, _RAY, _CLOSEST, _TOUCH, _CORNERS and _SOLID. All other queries are
- * refused with CDPREP_WHY_NOT_BAKED. Close the model with cdprep_model_close(). On failure *model
- * is null.
+/* Builds a model. Its answers are those of a bake of the same arrays. Exception: a bake also merges
+ * vertices with equal positions. A build can serve CDPREP_ASK_COLLIDE, _OVERLAP, _DISTANCE,
+ * _WITHIN, _CONTINUOUS, _SELF, _DEFORM, _TEAR, _HAPTIC, _INSIDE, _RAY, _CLOSEST, _TOUCH, _CORNERS
+ * and _SOLID. All other queries are refused with CDPREP_WHY_NOT_BAKED. Close the model with
+ * cdprep_model_close(). On failure *model is null.
  *
  * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_model_build_size()
  * bytes. The model lives there: do not touch this memory before cdprep_model_close(). Afterwards it
  * is free for any use. After a failure it may hold anything. With null memory of size 0, the
  * allocator makes one allocation of the size that this mesh takes. A closed mesh takes about 85
  * bytes per triangle. In addition, the model takes about 1 KiB of the heap until
- * cdprep_model_close(). The call takes about 120 bytes per triangle while it runs.
+ * cdprep_model_close(). While it runs, the call also takes about 120 bytes of the heap per
+ * triangle.
  *
  * The lanes of `workspace` share the work. The model is the same, byte for byte, on any number of
- * lanes and in any floating-point environment. Takes O(n log n) time in the triangles.
+ * lanes and in any floating-point environment. Takes O(n log n) time for n triangles.
  *
- * Invalid numbers are named by vertex and by triangle: `options.positions[7]` is vertex 7,
- * `options.triangles[12]` is triangle 12. `memory` is checked after the arrays, and the workspace
- * last.
+ * error.argument names an invalid number by its vertex or triangle: `options.positions[7]` is
+ * vertex 7, `options.triangles[12]` is triangle 12. `memory` is checked after the arrays, and the
+ * workspace last.
  * Errors:
  * - CDPREP_WHY_NULL: positions or triangles are missing.
- * - CDPREP_WHY_NO_MEANING: both positions are set, or an allocator in addition to memory.
- * - CDPREP_WHY_NOT_BAKED: a build cannot serve `ask`; the message names the `bake` option for it.
+ * - CDPREP_WHY_NO_MEANING: both arrays of positions are set, or an allocator is set in addition to
+ *   memory.
+ * - CDPREP_WHY_NOT_BAKED: a build cannot serve options.ask; the message names the `bake` option
+ *   for it.
  * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite.
  * - CDPREP_WHY_OUT_OF_RANGE, in four cases: There are more than 2^31 - 1 vertices or triangles. A
  *   position is beyond 2^1000 or, with CDPREP_SINGLE, beyond the largest float. A triangle names a
  *   vertex that does not exist. `memory` is not aligned.
- * - CDPREP_WHY_TOO_SMALL: `size` is less than cdprep_model_build_size() stores.
+ * - CDPREP_WHY_TOO_SMALL: `size` is less than the size from cdprep_model_build_size().
  * - CDPREP_WHY_BUSY: another call uses the workspace.
  * - CDPREP_OVER_BUDGET: there is not enough memory. */
 CDPREP_API int cdprep_model_build(const cdprep_build_options* options, void* memory, size_t size,

@@ -31,7 +31,8 @@ enum {
     /* the hulls have a common point, and either both lie within their solids or the pieces'
      * triangles touch */
     CDPREP_CONTACT_OVERLAP = 1,
-    CDPREP_CONTACT_INTERNAL_EDGE = 2, /* near an edge inside a surface: a face gives the normal */
+    /* the shortest direction snags at an edge inside a surface; the normal is another one */
+    CDPREP_CONTACT_INTERNAL_EDGE = 2,
     /* the contact is on the inner side of a surface; ignore it for contact response */
     CDPREP_CONTACT_FROM_BEHIND = 4,
     /* a component of one model is inside the other; points are on hulls: see cdprep_contacts() */
@@ -42,8 +43,8 @@ enum {
 typedef struct cdprep_contact {
     uint32_t piece_a, piece_b;
     /* Stays the same as long as the two pieces are in contact. The high 32 bits are the source
-     * number of a triangle of A's piece, the low ones of B's. With CDPREP_CONTACT_DEEP, the half of
-     * the enclosing model is CDPREP_NONE. */
+     * number of a triangle of A's piece, the low 32 bits that of B's. With CDPREP_CONTACT_DEEP, the
+     * half of the enclosing model is CDPREP_NONE. */
     uint64_t id;
     cdprep_feature feature_a, feature_b; /* for an edge or face, only vertex[0] is known */
     uint32_t flags;
@@ -64,7 +65,8 @@ typedef struct cdprep_contact_list {
     size_t count;      /* output: contacts or clusters, at most cdprep_contact_options.most */
     uint32_t complete; /* output: CDPREP_NO if `most` or `work` left contacts out */
     uint32_t searched; /* output: CDPREP_NO if `work` ended the search for near triangles */
-    uint64_t found;    /* output: pairs of pieces found within the tolerance */
+    /* output: pairs of pieces found within the tolerance, and enclosed components */
+    uint64_t found;
     uint64_t computed; /* output: those of them whose contact was computed */
     uint64_t work;     /* output: the work done, counted as in cdprep_contact_options.work */
 } cdprep_contact_list;
@@ -76,13 +78,13 @@ typedef struct cdprep_contact_options {
     uint32_t most;     /* 256: the maximum length of a list, 1 to 256 */
     /* 0: no limit; otherwise the maximum work. Each pair of near triangles counts 1. Each contact
      * counts 32 and, between two pieces, 1 for every 8 of their triangles. The search for near
-     * triangles takes at most half of the work. The last contact may exceed the work. If the work
-     * allows all contacts, and `most` fewer than half of them, some depths are bounded more closely
-     * first. Each such bound counts 8. */
+     * triangles takes at most half of the work. The last contact may exceed the work. The work may
+     * allow all contacts, and `most` fewer than half of them. Then some depths are bounded more
+     * closely first, and each such bound counts 8. */
     uint64_t work;
-    /* 0: no clusters. Otherwise joins contacts that are linked by common pieces, if their normals
-     * differ little. The limit is the angle to the normal of the deepest one, in radians. A joined
-     * contact has at most four points. */
+    /* 0: no clusters. Otherwise, contacts that are linked by common pieces are joined if their
+     * normals differ little. The value limits the angle to the normal of the deepest one, in
+     * radians. A joined contact has at most four points. */
     double cluster_angle;
 } cdprep_contact_options;
 
@@ -104,7 +106,7 @@ CDPREP_API void cdprep_contact_options_init(cdprep_contact_options* options, siz
  * Uses body, degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Takes the time of cdprep_pairs_within(), plus 5 to 10 microseconds per contact that is computed.
  * CDPREP_SOLID adds the time of cdprep_containment().
- * Needs: CDPREP_ASK_CONTACTS; CDPREP_SOLID: CDPREP_ASK_SOLID */
+ * Needs: CDPREP_ASK_CONTACTS; CDPREP_SOLID: also CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_options* options,
                                cdprep_workspace* workspace, cdprep_contact_list* list,
                                cdprep_error* error);
@@ -112,7 +114,7 @@ CDPREP_API int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_opt
 /* Calls `visit` with all contacts in the order of (piece_a, piece_b), and then with those of
  * enclosed components. `most` and `cluster_angle` must keep their defaults: the visitor gets each
  * contact, and may end the search.
- * Needs: CDPREP_ASK_CONTACTS; CDPREP_SOLID: CDPREP_ASK_SOLID */
+ * Needs: CDPREP_ASK_CONTACTS; CDPREP_SOLID: also CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_contacts_visit(const cdprep_pair* pair, const cdprep_contact_options* options,
                                      cdprep_workspace* workspace, cdprep_contact_visitor visit,
                                      void* context, cdprep_error* error);
@@ -145,8 +147,8 @@ CDPREP_API int cdprep_hull_find(const cdprep_model* model, uint32_t scope, uint3
 CDPREP_API int cdprep_hull_mesh(const cdprep_hull* hull, cdprep_mesh* mesh, cdprep_error* error);
 
 /* The result of the last query on one pair of hulls. The next query starts there. A zero-filled
- * struct is a new cache; any content is safe. It never changes a yes or a no. Among equally near
- * points, it may change which ones are found. */
+ * struct is a new cache; any content is safe. A cache never changes a yes or a no. Among equally
+ * near points, it may change which ones are found. */
 typedef struct cdprep_hull_cache {
     uint64_t words[8];
 } cdprep_hull_cache;

@@ -19,17 +19,18 @@ enum {
     CDPREP_DRAW_PIECES = 8,  /* hulls of convex pieces. Needs CDPREP_ASK_PIECES, _CORNERS */
     /* for scenes: lines between contact points, and normals. Needs the BVH */
     CDPREP_DRAW_CONTACTS = 16,
-    CDPREP_DRAW_OVERLAPS = 32, /* for scenes: triangles in lists of overlap and self */
+    CDPREP_DRAW_OVERLAPS = 32, /* for scenes: triangles in lists of overlaps and self-overlaps */
     /* The numbers of parts and pieces that are drawn; for scenes, the slots of objects. The number
-     * of a slot stands in the middle of its model's box or, without the BVH, at its origin. */
+     * of a slot stands in the middle of its model's box. Without the BVH, it stands at the model's
+     * origin. */
     CDPREP_DRAW_NUMBERS = 64
 };
 
-/* What to draw, and the caller's functions. Returning 0 ends the drawing. Points have three
- * numbers; a triangle has three points, counter-clockwise from outside. Colours are 0xRRGGBBAA:
- * surfaces grey, boxes green, contacts yellow, overlaps red. Parts and pieces have one of eight
- * colours, by their number. Functions run in the caller's floating-point environment. They may run
- * queries, but must not change the scene. */
+/* What to draw, and the caller's functions. A function ends the drawing by returning 0. Points have
+ * three numbers; a triangle has three points, counter-clockwise from outside. Colours are
+ * 0xRRGGBBAA: surfaces grey, boxes green, contacts yellow, overlaps red. Parts and pieces have one
+ * of eight colours, by their number. The functions run in the caller's floating-point environment.
+ * They may run queries, but must not change the scene. */
 typedef struct cdprep_draw {
     cdprep_head head;
     uint32_t what; /* 0: nothing; otherwise bits CDPREP_DRAW_ */
@@ -49,21 +50,24 @@ typedef struct cdprep_draw {
  * sizeof(cdprep_draw). */
 CDPREP_API void cdprep_draw_init(cdprep_draw* draw, size_t size);
 
-/* Draws a model as `world_from_model` moves it. Triangles come in tree order. Takes O(shapes) time,
+/* Draws a model, moved by `world_from_model`. Triangles come in tree order. Takes O(shapes) time,
  * and does not allocate. Returns CDPREP_OK even if a function of the caller ended the drawing.
- * Errors: CDPREP_WHY_OUT_OF_RANGE for unknown bits. CDPREP_WHY_NO_MEANING for bits of scenes, or a
- * level without boxes. CDPREP_WHY_NULL for a function that is needed. CDPREP_WHY_NOT_RIGID.
- * CDPREP_WHY_NOT_BAKED or _NOT_OPENED if the model lacks what is to be drawn.
- * Needs: as CDPREP_DRAW_ says; of pieces: CDPREP_ASK_PIECES, CDPREP_ASK_CORNERS */
+ * Errors: CDPREP_WHY_OUT_OF_RANGE for unknown bits. CDPREP_WHY_NO_MEANING for bits of scenes, or
+ * for a level if no boxes are drawn. CDPREP_WHY_NULL for a missing function that `what` requires.
+ * CDPREP_WHY_NOT_RIGID. CDPREP_WHY_NOT_BAKED or _NOT_OPENED if the model lacks what is to be drawn.
+ * Needs: the bits that the comment of each CDPREP_DRAW_ bit names; for pieces: CDPREP_ASK_PIECES,
+ * CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_model_draw(const cdprep_model* model, const cdprep_pose* world_from_model,
                                  const cdprep_draw* draw, cdprep_error* error);
 
-/* Draws all objects of a scene where they are now, by slot. Then draws the overlaps and the
- * contacts of the last complete step. Triangles that overlap are drawn once for each pair, where
- * their objects are now. Pairs whose objects or triangles no longer exist are left out. A normal
- * starts at cdprep_contact.on_a, and is as long as an eighth of the box of the smaller model.
- * Every model is checked before anything is drawn: error.argument is "scene", and the message names
- * the slot. Errors: those of cdprep_model_draw(); CDPREP_WHY_BUSY. */
+/* Draws all objects of a scene where they are now, in the order of their slots. Then draws the
+ * overlaps and the contacts of the last complete step. Triangles that overlap are drawn once for
+ * each pair, where their objects are now. Pairs whose objects no longer exist are left out, and so
+ * is each triangle that no longer exists. A normal starts at cdprep_contact.on_a. Its length is an
+ * eighth of the diagonal of the smaller model's box.
+ * Every model is checked before anything is drawn. If one lacks what is to be drawn, error.argument
+ * is "scene", and the message names the slot.
+ * Errors: those of cdprep_model_draw(); CDPREP_WHY_BUSY. */
 CDPREP_API int cdprep_scene_draw(const cdprep_scene* scene, const cdprep_draw* draw,
                                  cdprep_error* error);
 

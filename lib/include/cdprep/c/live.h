@@ -10,17 +10,17 @@ extern "C" {
 
 /* Models whose vertices move and whose triangles come and go: objects that deform and tear. */
 
-/* A live model. It is queried through cdprep_live_model(). While one call changes it, all other
- * calls of this header fail with CDPREP_WHY_BUSY. No query about its model may run then: this is
- * not checked. A scene finds changes if the layers ask for CDPREP_ASK_DEFORM or _TEAR. Otherwise
- * set the pose of each object of the model after a change. */
+/* A live model. It is queried through cdprep_live_model(). While one call changes it, other calls
+ * of this header that use it fail with CDPREP_WHY_BUSY. During a change, no query about its model
+ * may run: this is not checked. A scene finds changes if the layers ask for CDPREP_ASK_DEFORM or
+ * _TEAR. Otherwise, after a change, set the pose of each object that uses the model. */
 typedef struct cdprep_live cdprep_live;
 
 typedef struct cdprep_live_options {
     cdprep_head head;
-    const cdprep_model* model; /* the base, baked or built; read only while making */
+    const cdprep_model* model; /* null: the base, baked or built; unused after making */
     uint32_t max_triangles;    /* 0: no triangles are added or removed; else the maximum */
-    uint32_t max_vertices;     /* 0: that of the base; triangles may use numbers less than this */
+    uint32_t max_vertices;     /* 0: as in the base; triangles may use vertex numbers below this */
     const cdprep_allocator* allocator; /* null: the heap; copied */
 } cdprep_live_options;
 
@@ -41,18 +41,20 @@ CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size
  * With null memory of size 0, the allocator makes one allocation of that size. In addition, the
  * model takes about 1 KiB of the heap. Takes O(n) time, and O(n log n) with max_triangles. No later
  * call but cdprep_live_end() and cdprep_live_image() allocates or frees memory, except to report an
- * error. Do not set max_triangles far above the number in use: triangles are spread over all
- * places, and queries get slower.
+ * error. Triangles are spread over the memory for max_triangles. A limit far above the number in
+ * use therefore makes queries slower.
  *
  * Errors:
  * - CDPREP_WHY_NULL: no base.
- * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: the base does not serve CDPREP_ASK_OVERLAP.
- * - CDPREP_WHY_OUT_OF_RANGE, in three cases: max_triangles or max_vertices is too large, or less
- *   than the base has. The base has vertices that a repair made, or two vertices with the same
- *   number. `memory` is not aligned.
+ * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: the base does not serve CDPREP_ASK_OVERLAP and
+ *   CDPREP_ASK_CORNERS.
+ * - CDPREP_WHY_OUT_OF_RANGE, in four cases: max_triangles or max_vertices is too large, or less
+ *   than the base has. The base has vertices that a repair made, or two vertices or triangles with
+ *   the same number. The base is the model of a live model with max_triangles. `memory` is not
+ *   aligned.
  * - CDPREP_WHY_NO_MEANING: max_vertices without max_triangles, or an allocator in addition to
  *   memory.
- * - CDPREP_WHY_TOO_SMALL: `size` is less than cdprep_live_size() stores.
+ * - CDPREP_WHY_TOO_SMALL: `size` is less than the size from cdprep_live_size().
  * - CDPREP_OVER_BUDGET: there is not enough memory. */
 CDPREP_API int cdprep_live_make(const cdprep_live_options* options, void* memory, size_t size,
                                 cdprep_live** live, cdprep_error* error);
@@ -60,44 +62,46 @@ CDPREP_API int cdprep_live_make(const cdprep_live_options* options, void* memory
 /* Ends a live model, unless another call uses it. Null does nothing. */
 CDPREP_API void cdprep_live_end(cdprep_live* live);
 
-/* Returns the model to query; null of null. It is the same object after each change, and lives as
- * long as the live model: do not close it. It serves CDPREP_ASK_COLLIDE, _OVERLAP, _DISTANCE,
- * _WITHIN, _CONTINUOUS, _SELF, _DEFORM, _TEAR, _HAPTIC, _INSIDE, _RAY, _CLOSEST, _TOUCH, _CORNERS
- * and _SOLID.
+/* Returns the model to query, or null if `live` is null. It is the same object after each change,
+ * and lives as long as the live model: do not close it. It serves CDPREP_ASK_COLLIDE, _OVERLAP,
+ * _DISTANCE, _WITHIN, _CONTINUOUS, _SELF, _DEFORM, _TEAR, _HAPTIC, _INSIDE, _RAY, _CLOSEST, _TOUCH,
+ * _CORNERS and _SOLID.
  *
- * After cdprep_live_append() or cdprep_live_remove(), it counts as open and without components.
- * Queries about solids then store CDPREP_UNKNOWN, unless boxes or surfaces decide. All numbers of
- * triangles are less than cdprep_live_info.number_bound. cdprep_marks needs as many bits. */
+ * After cdprep_live_append() or cdprep_live_remove(), the model counts as open and has no
+ * components. Queries about solids then store CDPREP_UNKNOWN, unless boxes or surfaces decide. All
+ * numbers of triangles are less than cdprep_live_info.number_bound. cdprep_marks needs that many
+ * bits for this model. */
 CDPREP_API const cdprep_model* cdprep_live_model(const cdprep_live* live);
 
 /* New positions of vertices. */
 typedef struct cdprep_live_move {
     cdprep_head head;
-    const uint32_t* vertices;   /* null: 0, 1, 2 and so on: all; otherwise their numbers */
+    const uint32_t* vertices;   /* null: all, in order; otherwise the numbers of those to move */
     const double* positions;    /* null: 3 numbers per vertex, model units */
     const float* positions_f32; /* null: the same as floats; set one of the two */
-    size_t count;               /* 0: of vertices */
+    size_t count;               /* 0: the number of positions */
 } cdprep_live_move;
 
 CDPREP_API void cdprep_live_move_init(cdprep_live_move* moved, size_t size);
 
 /* Moves vertices, which are numbered as in the mesh from which the base was made. Without
- * moved.vertices, all are moved. Then every number up to that of the last vertex with a position
- * needs a position. Query results are then those of a model built from the new positions. They do
- * not depend on the number of lanes, which share the work. If a vertex is listed twice, the last
- * position counts. A pair cache of the model stays valid.
+ * moved.vertices, moves all vertices. Then moved.count must be at least cdprep_live_info.vertices.
+ * After the move, query results are those of a model built from the new positions. The lanes of the
+ * workspace share the work; results do not depend on their number. If a vertex is listed twice, the
+ * last position counts. A pair cache of the model stays valid.
  *
- * With max_triangles, a vertex that no triangle uses may get its first position. Takes O(n) time;
- * with moved.vertices, O(m log n) for m triangles at these vertices. Then it takes O(n) only in
- * three cases:
+ * With max_triangles, a vertex that no triangle uses may get its first position. Takes O(n) time
+ * without moved.vertices. With it, takes O(m log n) time for m triangles at these vertices, but
+ * O(n) time in three cases:
  * - A vertex leaves a cube of about twice the model's size.
  * - The model has become much smaller than that cube.
  * - The first coordinate that is not a float appears, or the last one disappears.
  *
  * On failure, nothing changes. Errors:
  * - CDPREP_WHY_NULL: no positions.
- * - CDPREP_WHY_NO_MEANING: both positions are set.
- * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite: `moved.positions[7]` is the eighth.
+ * - CDPREP_WHY_NO_MEANING: both arrays of positions are set.
+ * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite. error.argument names it:
+ *   `moved.positions[7]` is the eighth.
  * - CDPREP_WHY_OUT_OF_RANGE, in five cases: There are too few positions for all vertices. A vertex
  *   does not exist. A position is beyond 2^1000. Positions are doubles and the model keeps floats.
  *   `moved` points into the model.
@@ -106,8 +110,8 @@ CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* move
                                  cdprep_workspace* workspace, cdprep_error* error);
 
 /* Adds `count` triangles: 3 vertices each, numbered as in cdprep_live_refit(). *first is the number
- * of the first; the others get the next numbers. Answers name a triangle by its number, which is
- * never used again. Takes O(m log^2 n) time for m triangles, amortised.
+ * of the first triangle; the others get the next numbers. Answers name a triangle by its number,
+ * which is never used again. Takes O(m log^2 n) time for m triangles, amortised.
  *
  * On failure, nothing changes and *first is CDPREP_NONE. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.
@@ -123,15 +127,17 @@ CDPREP_API int cdprep_live_append(cdprep_live* live, const uint32_t* triangles, 
  *
  * On failure, nothing changes. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.
- * - CDPREP_WHY_STALE: a triangle was removed before, or was never added: `numbers[5]` is the sixth.
+ * - CDPREP_WHY_STALE: a triangle was removed before, or was never added. error.argument names it:
+ *   `numbers[5]` is the sixth.
  * - CDPREP_WHY_BUSY: another call changes the live model. */
 CDPREP_API int cdprep_live_remove(cdprep_live* live, const uint32_t* numbers, size_t count,
                                   cdprep_error* error);
 
-/* Rebuilds subtrees of the BVH whose boxes have grown, so that queries stay fast. Rebuilds up to
- * `most_triangles` triangles, in groups of about 4,096. *taken is the number rebuilt. Answers stay
- * the same, but caches start anew, and the step of a sweep must be finished after it. See
- * LiveModel::rebuild(). Takes O(nodes) time, and about 100 ns for each triangle rebuilt.
+/* Rebuilds subtrees of the BVH whose boxes have grown, so that queries stay fast. Rebuilds at most
+ * `most_triangles` triangles, in whole subtrees of up to 4,096. *taken is the number rebuilt.
+ * Answers stay the same, but caches start anew. A sweep can be queried only after a later
+ * cdprep_sweep_finish_step(). See LiveModel::rebuild() in cdprep/live_model.h. Takes O(nodes) time,
+ * and about 100 ns for each triangle rebuilt.
  * Errors: CDPREP_WHY_BUSY: another call changes the live model. */
 CDPREP_API int cdprep_live_rebuild(cdprep_live* live, uint32_t most_triangles, uint32_t* taken,
                                    cdprep_error* error);
@@ -141,7 +147,7 @@ typedef struct cdprep_live_info {
     uint32_t number_bound; /* all numbers of triangles are less than this */
     uint32_t vertices;     /* all numbers of vertices with a position are less than this */
     uint32_t is_torn;      /* CDPREP_YES after the first append or remove; else CDPREP_NO */
-    double surface_cost;   /* of the BVH: lower is better; compare it with the first value */
+    double surface_cost;   /* of the BVH: lower is better; compare it with the value at the start */
     uint64_t reserved[4];  /* 0 */
 } cdprep_live_info;
 
@@ -151,7 +157,7 @@ CDPREP_API int cdprep_live_describe(const cdprep_live* live, cdprep_live_info* i
 
 /* A triangle of a live model with max_triangles. */
 typedef struct cdprep_live_triangle {
-    uint32_t number;    /* by which answers name it */
+    uint32_t number;    /* the number that answers use */
     uint32_t vertex[3]; /* numbers as in cdprep_live_refit() */
 } cdprep_live_triangle;
 
@@ -170,9 +176,10 @@ CDPREP_API int cdprep_live_triangles(const cdprep_live* live, cdprep_live_triang
 
 /* Stores the address of the bytes of a live model as it is now, to save or to send. The stride is
  * 1, and the count is the number of bytes. cdprep_model_open_memory() accepts a copy of them. The
- * address is valid as long as the live model, and the bytes are until its next change. They depend
- * only on the base, the positions and the order that cdprep_live_rebuild() made. Takes O(bytes)
- * time. Allocates. The call writes to the model: no query may use it meanwhile.
+ * address stays valid as long as the live model. The bytes stay valid until its next change. They
+ * depend only on the base, the positions and the order that cdprep_live_rebuild() made. Takes
+ * O(bytes) time. Allocates. The call writes to the model, so no query may use the model during the
+ * call.
  * On failure, image->data is null. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made with max_triangles. Build a model of
  *   cdprep_live_triangles() instead.

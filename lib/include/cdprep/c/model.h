@@ -23,13 +23,13 @@ enum {
     CDPREP_ASK_RESPONSE = 1 << 5,   /* contacts, and mass properties */
     CDPREP_ASK_CONTINUOUS = 1 << 6, /* the time of impact of two models that move */
     CDPREP_ASK_SELF = 1 << 7,       /* overlaps of a model with itself */
-    CDPREP_ASK_DEFORM = 1 << 8,     /* to become a live model */
-    CDPREP_ASK_TEAR = 1 << 9,       /* to become a live model that can tear */
+    CDPREP_ASK_DEFORM = 1 << 8,     /* base of a live model */
+    CDPREP_ASK_TEAR = 1 << 9,       /* base of a live model that can tear */
     CDPREP_ASK_HAPTIC = 1 << 10,    /* distances within a limit of work */
     CDPREP_ASK_INSIDE = 1 << 11,
     CDPREP_ASK_RAY = 1 << 12,
     CDPREP_ASK_CLOSEST = 1 << 13,
-    CDPREP_ASK_TOUCH = 1 << 14,        /* boxes, spheres, capsules, triangles */
+    CDPREP_ASK_TOUCH = 1 << 14,        /* queries with boxes, spheres, capsules, triangles */
     CDPREP_ASK_HULLS = 1 << 15,        /* convex hulls */
     CDPREP_ASK_PIECES = 1 << 16,       /* convex pieces of the surface, and queries through them */
     CDPREP_ASK_CORNERS = 1 << 17,      /* geometry: corners, mesh, names, numbers of the file */
@@ -55,33 +55,34 @@ enum {
 
 typedef struct cdprep_open_options {
     cdprep_head head;
-    uint32_t ask;     /* 0: whatever the file serves; else opening fails unless it serves all these
-        bits */
+    /* 0: opens all that the file serves. Otherwise opens what these CDPREP_ASK_ bits need, and
+     * fails if the file does not serve all of them. */
+    uint32_t ask;
     uint32_t mode;    /* CDPREP_MAP */
-    const char* name; /* null: the name of bytes in memory, for messages; UTF-8, copied */
+    const char* name; /* null: a name for bytes in memory, used in messages; UTF-8, copied */
     const cdprep_allocator* allocator; /* null: the heap; copied */
 } cdprep_open_options;
 
 /* Makes default options. Writes `size` bytes, which must be sizeof(cdprep_open_options). */
 CDPREP_API void cdprep_open_options_init(cdprep_open_options* options, size_t size);
 
-/* Opens a baked file and checks everything that is requested. `options` may be null. On failure
- * *model is null. Takes O(bytes of the sections) time, at memory speed. A model that serves
- * CDPREP_ASK_CORNERS also takes 4 bytes of memory per triangle. With several components, it takes 4
- * more per vertex.
+/* Opens a baked file and validates what `ask` requests. CDPREP_MAP_TRUSTED validates only the
+ * header. `options` may be null. On failure *model is null. Takes O(bytes of the sections) time, at
+ * memory speed. A model that serves CDPREP_ASK_CORNERS also takes 4 bytes of memory per triangle.
+ * If the model has several components, it takes 4 more bytes per vertex.
  * A mapped file must not be changed in place or truncated while it is open. Replacing it by
  * a rename is safe: the model keeps the old file mapped.
  * Errors:
  * - CDPREP_UNREADABLE: the file is missing, damaged or of another kind.
- * - CDPREP_WHY_NOT_BAKED: it lacks what `ask` requires; the message names the `bake` option.
- * - CDPREP_WHY_NO_MEANING: a name is set, but the path is the name.
+ * - CDPREP_WHY_NOT_BAKED: the file lacks what `ask` requires; the message names the `bake` option.
+ * - CDPREP_WHY_NO_MEANING: options.name is set, but messages use the path.
  * - CDPREP_OVER_BUDGET: there is not enough memory. */
 CDPREP_API int cdprep_model_open(const char* utf8_path, const cdprep_open_options* options,
                                  cdprep_model** model, cdprep_error* error);
 
-/* The same for bytes in memory. They must start at a multiple of CDPREP_ALIGNMENT and stay
- * unchanged while the model is open; CDPREP_COPY requires neither. CDPREP_MAP_TRUSTED has no
- * meaning. */
+/* Opens the bytes of a baked file in memory in the same way. They must start at a multiple of
+ * CDPREP_ALIGNMENT and stay unchanged while the model is open; CDPREP_COPY requires neither.
+ * CDPREP_MAP_TRUSTED is refused with CDPREP_WHY_NO_MEANING. */
 CDPREP_API int cdprep_model_open_memory(const void* bytes, size_t size,
                                         const cdprep_open_options* options, cdprep_model** model,
                                         cdprep_error* error);
@@ -93,16 +94,16 @@ CDPREP_API void cdprep_model_close(cdprep_model* model);
  * `ask` would: with CDPREP_WHY_NOT_BAKED or CDPREP_WHY_NOT_OPENED. */
 CDPREP_API int cdprep_model_serves(const cdprep_model* model, uint32_t ask, cdprep_error* error);
 
-/* Reads a byte of every page that the queries in `ask` may read. Then the first query does not wait
+/* Reads a byte of every page that the queries in `ask` may read. The first query then does not wait
  * for the disk. Errors: those of cdprep_model_serves(). */
 CDPREP_API int cdprep_model_prefetch(const cdprep_model* model, uint32_t ask, cdprep_error* error);
 
 typedef struct cdprep_model_info {
     uint32_t triangles, vertices;
     uint32_t components; /* connected components; 0 if not listed in the file or not opened */
-    uint32_t instances, groups, materials; /* of the imported file; 0 likewise */
-    uint32_t pieces, hulls;                /* convex pieces and convex hulls; 0 likewise */
-    uint32_t verdicts;         /* for cdprep_model_verdict(): of the mesh and its components */
+    uint32_t instances, groups, materials; /* of the imported file; 0 as above */
+    uint32_t pieces, hulls;                /* convex pieces and convex hulls; 0 as above */
+    uint32_t verdicts;         /* of the mesh and its components; see cdprep_model_verdict() */
     uint32_t serves;           /* CDPREP_ASK_ bits */
     uint32_t closed;           /* CDPREP_YES: solid queries have exact answers; else CDPREP_NO */
     uint32_t stores_f64;       /* CDPREP_YES: coordinates are doubles; CDPREP_NO: floats */
@@ -130,8 +131,8 @@ typedef struct cdprep_corners {
 } cdprep_corners;
 
 /* Stores the facts about `count` triangles. `triangles` are their numbers in the imported file,
- * below cdprep_model_info.triangles. Takes O(log r) time per triangle for r runs of triangles
- * with one instance, group or material.
+ * below cdprep_model_info.triangles. Takes O(log r) time per triangle. Here r is the number of runs
+ * of consecutive triangles with the same instance, group or material.
  * Errors: CDPREP_WHY_OUT_OF_RANGE with the index of the invalid number; then nothing is stored.
  * Needs: CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_model_corners(const cdprep_model* model, const uint32_t* triangles,
@@ -167,7 +168,7 @@ CDPREP_API int cdprep_model_section(const cdprep_model* model, uint32_t section,
 
 /* Stores the address of all bytes of a model, to save or to send. The stride is 1, and the count is
  * the number of bytes. cdprep_model_open_memory() accepts a copy of them. The address is valid as
- * long as the model. Nothing is copied: O(1).
+ * long as the model. Copies nothing; takes O(1) time.
  * Errors: CDPREP_WHY_NO_MEANING for the model of a live model (see cdprep_live_image()) or of a
  * window. */
 CDPREP_API int cdprep_model_bytes(const cdprep_model* model, cdprep_array* bytes,
@@ -176,14 +177,14 @@ CDPREP_API int cdprep_model_bytes(const cdprep_model* model, cdprep_array* bytes
 enum {
     CDPREP_PROVENANCE = 0,    /* JSON: how the file was made */
     CDPREP_FINDINGS = 1,      /* JSON: the defects found in the mesh, and the repairs */
-    CDPREP_INSTANCE_NAME = 2, /* of cdprep_corners.instance: the path of its node */
+    CDPREP_INSTANCE_NAME = 2, /* the path of the scene node cdprep_corners.instance */
     CDPREP_GROUP_NAME = 3,
     CDPREP_MATERIAL_NAME = 4
 };
 
-/* Stores the place of a text in memory: UTF-8, valid as long as the model. It does not end with a
- * zero: use the length. If the file has no such text, *text is null and *length is 0. `number` must
- * be 0 for the first two kinds.
+/* Stores the address and the length of a UTF-8 text, valid as long as the model. It does not end
+ * with a zero: use the length. If the file has no such text, *text is null and *length is 0.
+ * `number` must be 0 for the first two kinds.
  * Errors: CDPREP_WHY_OUT_OF_RANGE for a kind or a number that does not exist. */
 CDPREP_API int cdprep_model_text(const cdprep_model* model, uint32_t kind, uint32_t number,
                                  const char** text, size_t* length, cdprep_error* error);
@@ -195,12 +196,12 @@ typedef struct cdprep_mass {
 } cdprep_mass;
 
 /* Stores the mass properties of a closed model. If the mesh is not closed, its file has none.
- * Of the feature, the mass properties are enough.
+ * Of this feature, the function needs only the mass properties, not the contacts.
  * Needs: CDPREP_ASK_RESPONSE */
 CDPREP_API int cdprep_model_mass(const cdprep_model* model, cdprep_mass* mass, cdprep_error* error);
 
-/* Bits of cdprep_verdict.facts. If a bit is not set, its fact is false. One fact may be unknown
- * instead: without CROSSINGS_EXAMINED, nothing is known of SELF_CROSSING. */
+/* Bits of cdprep_verdict.facts. If a bit is not set, its fact is false. Exception: without
+ * CDPREP_FACT_CROSSINGS_EXAMINED, it is unknown whether the mesh crosses itself. */
 enum {
     CDPREP_FACT_CLOSED = 1,
     CDPREP_FACT_TWO_MANIFOLD = 2,
@@ -215,14 +216,14 @@ enum {
 enum {
     CDPREP_PROMISE_SURFACE = 1,         /* queries about the surface are exact */
     CDPREP_PROMISE_INSIDE_EXACT = 2,    /* inside is decided exactly */
-    CDPREP_PROMISE_SIMPLE_SOLID = 4,    /* also, the winding number is 0 or 1 everywhere */
-    CDPREP_PROMISE_CONTAINED_PIECES = 8 /* hulls of convex pieces may lie within the solid */
+    CDPREP_PROMISE_SIMPLE_SOLID = 4,    /* in addition, the winding number is 0 or 1 everywhere */
+    CDPREP_PROMISE_CONTAINED_PIECES = 8 /* hulls of convex pieces can lie within the solid */
 };
 
 typedef struct cdprep_verdict {
     uint32_t facts, promises;
     uint32_t triangles;
-    uint32_t first_triangle; /* the lowest number */
+    uint32_t first_triangle; /* the lowest triangle number */
     uint32_t boundary_loops;
     int32_t euler;
     int32_t genus; /* -1 unless the mesh is a closed, orientable 2-manifold */
@@ -231,16 +232,18 @@ typedef struct cdprep_verdict {
     double volume; /* cubic model units, signed; 0 unless balanced */
 } cdprep_verdict;
 
-/* Stores the facts about the mesh that the bake recorded. Number 0 is the whole mesh, the others
- * are its components.
+/* Stores the facts about the mesh that the bake recorded. Number 0 is the whole mesh; the other
+ * numbers are its components.
  * Errors: CDPREP_WHY_OUT_OF_RANGE for a number that is not below cdprep_model_info.verdicts. */
 CDPREP_API int cdprep_model_verdict(const cdprep_model* model, uint32_t number,
                                     cdprep_verdict* verdict, cdprep_error* error);
 
-/* Stores the maximum distance between the outer and inner facets of a level of the tetra-tree, in
- * model units. It is the error of cdprep_collide_at_level(). Beyond the deepest level, the error is
- * that of the deepest level. On failure *bound is 0. Takes O(cones of the level) time. The library
- * cdprep_cells has this function. Needs: CDPREP_ASK_TETRA_TREE */
+/* Stores the error of cdprep_collide_at_level() at a level of the tetra-tree, in model units. At
+ * each level, an outer and an inner facet of each cone enclose all triangles of the cone. The error
+ * is the maximum distance between these two facets, along rays from the tree's centre. Beyond the
+ * deepest level, the error is that of the deepest level. On failure *bound is 0. Takes O(cones of
+ * the level) time. The library cdprep_cells contains this function.
+ * Needs: CDPREP_ASK_TETRA_TREE */
 CDPREP_API int cdprep_model_level_error(const cdprep_model* model, uint32_t level, double* bound,
                                         cdprep_error* error);
 

@@ -8,7 +8,8 @@
 extern "C" {
 #endif
 
-/* The time at which two moving models first touch, and what a deforming model passes through. */
+/* The time at which two moving models first touch, and the space through which a deforming model
+ * passes. */
 
 /* The form in which a motion is given. */
 enum {
@@ -17,24 +18,26 @@ enum {
 };
 
 /* The rigid motion of a model during a step, from time 0 to time 1. One point of the model, the
- * centre, moves along a straight line at constant speed. The model turns about it, about a fixed
- * axis at constant speed. A good centre for a free body is its centre of mass. For a part that
- * turns about a joint, it is the joint. A centre far outside the model makes the query slow.
- * cdprep_moving_pair_init() makes motions that stay at the identity, to be filled in. */
+ * centre, moves along a straight line at constant speed. The model turns about the centre, on a
+ * fixed axis, at constant speed. A good centre for a free body is its centre of mass. For a part
+ * that turns about a joint, it is the joint. A centre far outside the model makes the query slow.
+ * cdprep_moving_pair_init() makes motions that stay at the identity; then set their fields. */
 typedef struct cdprep_motion {
     cdprep_pose start;
     cdprep_pose end;  /* used only by CDPREP_MOTION_POSES; otherwise the identity */
     double centre[3]; /* in the model's coordinates; 0 */
     double shift[3];  /* the path of the centre; used only by CDPREP_MOTION_VELOCITY; otherwise 0 */
-    double turn[3];   /* the same; along the axis, as long as the angle: radians, at most 1000 */
+    /* Along the axis, in world coordinates. Its length is the angle in radians, at most 1000. Used
+     * only by CDPREP_MOTION_VELOCITY; otherwise 0. */
+    double turn[3];
     uint32_t given_by; /* CDPREP_MOTION_POSES */
     uint32_t reserved; /* 0 */
 } cdprep_motion;
 
-/* Stores the pose at a time from 0 to 1. At the ends of a CDPREP_MOTION_POSES, it is `start` or
- * `end`, bit for bit. Uses the sine and cosine of the C library, so the last bits may differ
- * between platforms. On failure, *pose is all 0. Errors: CDPREP_WHY_OUT_OF_RANGE for other times,
- * and for places beyond 2^1000. */
+/* Stores the pose at a time from 0 to 1. With CDPREP_MOTION_POSES, the pose at time 0 is `start`
+ * and at time 1 `end`, bit for bit. Uses the sine and cosine of the C library, so the last bits may
+ * differ between platforms. On failure, *pose is all 0. Errors: CDPREP_WHY_OUT_OF_RANGE for other
+ * times, and for coordinates beyond 2^1000. */
 CDPREP_API int cdprep_motion_pose(const cdprep_motion* motion, double time, cdprep_pose* pose,
                                   cdprep_error* error);
 
@@ -64,22 +67,24 @@ enum {
 typedef struct cdprep_impact {
     uint32_t kind;          /* CDPREP_IMPACT_ */
     uint32_t steps;         /* distance queries */
-    double lower;           /* at all times before, the surfaces are apart; 1 for _NONE */
+    double lower;           /* at all times before this, the surfaces are apart; 1 for _NONE */
     double upper;           /* at this time they touch; infinity if no such time was found */
-    cdprep_nearest nearest; /* at `lower`, in world coordinates; nothing for _NONE and time 0 */
+    cdprep_nearest nearest; /* at `lower`, in the world; found is CDPREP_NO for _NONE and time 0 */
 } cdprep_impact;
 
-/* Stores when two moving models first touch: an interval of time that holds the first contact.
- * Placements are those of cdprep_motion_pose() with CDPREP_MOVE_BOTH. At each time before `lower`
+/* Stores when two moving models first touch: an interval of time that holds the first contact. The
+ * models are placed by cdprep_motion_pose(), as with CDPREP_MOVE_BOTH. At each time before `lower`
  * that is a double, the surfaces are apart. At `upper` they touch. So nothing passes through
- * unseen, however fast or thin it is. If the models touch at time 0, both are 0. A solid inside the
- * other also touches it then. On failure, `kind` is CDPREP_IMPACT_UNKNOWN.
+ * unseen, however fast or thin it is. If the models touch at time 0, `lower` and `upper` are 0.
+ * With CDPREP_SOLID, a model inside the other also touches it at time 0. On failure, `kind` is
+ * CDPREP_IMPACT_UNKNOWN.
  *
  * If the search ends at the tolerance without a contact, `kind` is CDPREP_IMPACT_NEAR. The models
- * may then pass each other closely, or touch later. A solver treats it as an impact at `lower`.
+ * may then pass each other closely, or touch later. In a solver, treat this result as an impact at
+ * `lower`.
  *
- * Takes a distance query for each step. Models that pass at a distance take 2 or 3 steps, an impact
- * takes 10 or so. Never allocates.
+ * Takes a distance query for each step. Models that pass at a distance take 2 or 3 steps; an impact
+ * takes about 10. Never allocates.
  * Errors: CDPREP_WHY_OUT_OF_RANGE also for a motion beyond 2^1000, or a turn of more than 1000.
  * Needs: CDPREP_ASK_DISTANCE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_time_of_impact(const cdprep_moving_pair* pair, cdprep_workspace* workspace,
@@ -88,9 +93,9 @@ CDPREP_API int cdprep_time_of_impact(const cdprep_moving_pair* pair, cdprep_work
 /* The space through which a deforming model passes during a step: boxes around the path of each of
  * its triangles. Each vertex moves along a straight line, at constant speed. So a thin object is
  * found even if a triangle jumps over it in one step. Call cdprep_sweep_start_step(), move the
- * model, call cdprep_sweep_finish_step(), then query. While one of these calls runs, the others
- * fail with CDPREP_WHY_BUSY. No query about the sweep may run from the first call until the second
- * returns: this is not checked. */
+ * model, call cdprep_sweep_finish_step(), then query. While one of these two functions runs,
+ * another call of either fails with CDPREP_WHY_BUSY. A query between them fails with
+ * CDPREP_WHY_STALE. No query may run at the same time as one of them: this is not checked. */
 typedef struct cdprep_sweep cdprep_sweep;
 
 /* Stores the number of bytes that cdprep_sweep_make() needs: 24 per vertex and about 4
@@ -101,8 +106,8 @@ CDPREP_API int cdprep_sweep_size(const cdprep_model* model, size_t* size, cdprep
 /* Makes the sweep of a model that deforms in place, such as that of a live model. The model must
  * outlive it. At first, nothing moves. On failure *sweep is null. End it with cdprep_sweep_end().
  * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_sweep_size()
- * bytes. With null memory of size 0, the allocator makes one allocation; null is the heap. No later
- * call allocates.
+ * bytes. With null memory of size 0, the allocator makes one allocation; a null allocator means the
+ * heap. No later call allocates.
  * Errors: CDPREP_WHY_TOO_SMALL, CDPREP_WHY_OUT_OF_RANGE and CDPREP_WHY_NO_MEANING for memory, as in
  * cdprep_live_make(); CDPREP_OVER_BUDGET.
  * Needs of the model: CDPREP_ASK_WITHIN, CDPREP_ASK_CORNERS */
@@ -119,23 +124,24 @@ CDPREP_API int cdprep_sweep_start_step(cdprep_sweep* sweep, cdprep_error* error)
 /* Completes the step: the positions of the model are those at time 1. A triangle that was appended
  * within the step starts at its vertices' positions at time 0. Vertices that had none start where
  * the first vertex of the base was. If the base was empty, they start at the origin. A triangle
- * that was removed within the step is nowhere. Takes O(n) time. */
+ * that was removed within the step is left out. Takes O(n) time. */
 CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Both functions find the pairs of triangles that may touch during the step. Triangle `a` is of the
  * deforming model, whose coordinates are those of the world. `b` is of another model, which
- * `motion` moves. The first function stops at the first pair and stores CDPREP_YES. The list is in
- * the order of (a, b). If there is too little room, it keeps the smallest pairs.
+ * `motion` moves. The first function stops at the first pair and stores CDPREP_YES. The second
+ * function lists all pairs in the order of (a, b). If there is too little room, the list keeps the
+ * smallest pairs.
  *
  * CDPREP_NO is proven: no triangles touch at any time of the step. CDPREP_YES means that the convex
  * hull of a triangle's path comes near a triangle of the other model. The path is relative to that
- * model. It is not known whether they touch, or when. Containment is not tested. Nor is a model
- * against itself, two models that both deform, or triangles that were removed within the step. A
- * step with less motion gives fewer false alarms. If the other model turns by more than a quarter
- * of a radian, the step is tested in parts, at most 64.
+ * model. It is not known whether they touch, or when. Containment is not tested. A model is not
+ * tested against itself, nor against another model that deforms. Triangles that were removed within
+ * the step are left out. A step with less motion gives fewer false alarms. If the other model turns
+ * by more than a quarter of a radian, the step is tested in up to 64 parts.
  *
- * Takes as long as cdprep_within() with a tolerance of half of the motion. Each pair of triangles
- * near each other takes about 1 us more for each part. Never allocates.
+ * Takes as long as cdprep_within() with a tolerance of half of the other model's motion. Each pair
+ * of triangles near each other takes about 1 us more for each part. Never allocates.
  * Errors: CDPREP_WHY_STALE: the step is not finished, or the model has changed since: it was moved,
  * torn or rebuilt.
  * Needs of the other model: CDPREP_ASK_WITHIN */

@@ -10,9 +10,9 @@ extern "C" {
 
 /* Queries about two models, and about one model against itself.
  *
- * All answers are exact, and the same on every machine. They are those of exact arithmetic on the
- * vertices as the poses move them (cdprep_pose_move()). A model without triangles touches
- * nothing. */
+ * Answers are exact: they are those of exact arithmetic on the vertices as the poses move them
+ * (cdprep_pose_move()). Distances have proven bounds. Unless a comment says otherwise, answers are
+ * the same on every machine. A model without triangles touches nothing. */
 
 /* The model whose vertices the query moves: A, B or both. The choice matters in the last bits,
  * because moving rounds coordinates. */
@@ -40,7 +40,7 @@ enum {
 };
 /* The structure through which a query is computed. It changes the time but not the answer.
  * Exception: cdprep_distance() through pieces may name another pair of touching triangles. For a
- * structure other than the BVH, a model must also serve its CDPREP_ASK_ bit. */
+ * structure other than the BVH, a model must also serve the CDPREP_ASK_ bit of the structure. */
 enum {
     CDPREP_THROUGH_BVH = 0,
     CDPREP_THROUGH_OCTREE = 1,
@@ -60,8 +60,9 @@ typedef struct cdprep_cache {
 
 /* Separating planes between parts of two models, from earlier distance queries through pieces. If
  * the models move little from query to query, few planes have to be updated. The first query fills
- * it, and takes about three times as long as one without. A zero-filled struct is a new front. Any
- * content is safe, as in cdprep_cache. Use one for each pair of models and thread. */
+ * the front, and takes about three times as long as a query without a front. A zero-filled struct
+ * is a new front. Any content is safe, as in cdprep_cache. Use one for each pair of models and
+ * thread. */
 typedef struct cdprep_front {
     uint64_t words[3600];
 } cdprep_front;
@@ -91,17 +92,20 @@ typedef struct cdprep_pair {
 CDPREP_API void cdprep_pair_init(cdprep_pair* pair, size_t size);
 
 typedef struct cdprep_collision {
-    uint32_t hit;         /* CDPREP_NO, _YES, _UNKNOWN */
-    uint32_t containment; /* whether one is inside, for solids whose surfaces do not touch */
-    uint32_t a_inside_b;  /* CDPREP_YES: A in B; CDPREP_NO: B in A, or containment is CDPREP_NO */
-    uint32_t reserved;    /* 0 */
-    double winding;       /* the winding number that decided; 0 if containment is CDPREP_NO */
+    uint32_t hit; /* CDPREP_NO, _YES, _UNKNOWN */
+    /* CDPREP_NO, _YES, _UNKNOWN: one is inside the other, for solids whose surfaces do not
+     * touch. */
+    uint32_t containment;
+    uint32_t a_inside_b; /* CDPREP_YES: A in B; CDPREP_NO: B in A, or containment is CDPREP_NO */
+    uint32_t reserved;   /* 0 */
+    double winding;      /* the winding number that decided; 0 if containment is CDPREP_NO */
 } cdprep_collision;
 
 /* Stores whether two models collide. Stops at the first pair of triangles found. Surfaces collide
  * if they have a common point. Nested surfaces that do not touch do not collide. Solids also
- * collide if a component of one is inside the other. A component inside an open surface gives
- * `containment` CDPREP_UNKNOWN with the generalised winding number, and `hit` CDPREP_UNKNOWN.
+ * collide if a component of one is inside the other. An open surface has no defined inside. For a
+ * component that may be inside one, `hit` and `containment` are CDPREP_UNKNOWN, and `winding` is
+ * the generalised winding number.
  * Uses body, overlap, degenerate; through: any, for surfaces and solids.
  * Takes O(log n) time for most poses, O(1) with a cache if little has moved.
  * Needs: CDPREP_ASK_COLLIDE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
@@ -148,8 +152,8 @@ typedef int (*cdprep_overlap_visitor)(void* context, const cdprep_overlap* overl
 CDPREP_API int cdprep_overlaps(const cdprep_pair* pair, cdprep_workspace* workspace,
                                cdprep_overlap_list* list, cdprep_error* error);
 
-/* Stores the same list, computed on all lanes of the workspace. Use it for one query that takes a
- * millisecond or more. Does not use the cache. Uses overlap, degenerate.
+/* Stores the list of cdprep_overlaps(), computed on all lanes of the workspace. Use this function
+ * for a query that takes a millisecond or more. Does not use the cache. Uses overlap, degenerate.
  * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_overlaps_split(const cdprep_pair* pair, cdprep_workspace* workspace,
                                      cdprep_overlap_list* list, cdprep_error* error);
@@ -165,14 +169,16 @@ CDPREP_API int cdprep_overlaps_visit(const cdprep_pair* pair, cdprep_workspace* 
 typedef struct cdprep_marks {
     uint64_t* bits_a; /* null with 0 words: no marks of A */
     uint64_t* bits_b;
-    size_t words_a; /* 0, or at least a word for every 64 triangles; see cdprep/c/live.h */
+    /* 0, or at least a word for every 64 triangles; for live models, see cdprep/c/live.h */
+    size_t words_a;
     size_t words_b;
     size_t count; /* output: pairs that overlap */
 } cdprep_marks;
 
 /* Marks the triangles of each model that overlap any triangle of the other, and clears all other
  * bits. Takes less time than cdprep_overlaps() if few triangles form many pairs. Uses overlap,
- * degenerate. Errors: CDPREP_WHY_TOO_SMALL for too few words. Needs: CDPREP_ASK_OVERLAP */
+ * degenerate. Errors: CDPREP_WHY_TOO_SMALL for too few words.
+ * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_overlaps_mark(const cdprep_pair* pair, cdprep_workspace* workspace,
                                     cdprep_marks* marks, cdprep_error* error);
 
@@ -240,13 +246,14 @@ CDPREP_API int cdprep_distance(const cdprep_pair* pair, const cdprep_distance_op
 
 /* A distance, or bounds of it if the search ended early. */
 typedef struct cdprep_bounded {
-    uint32_t complete; /* CDPREP_YES: `nearest` is the answer of cdprep_distance(); CDPREP_NO: late.
-        CDPREP_UNKNOWN: the call failed */
+    /* CDPREP_YES: `nearest` is the answer of cdprep_distance(). CDPREP_NO: the answer is late.
+     * CDPREP_UNKNOWN: the call failed. */
+    uint32_t complete;
     uint32_t reserved; /* 0 */
-    uint64_t work;     /* done */
+    uint64_t work;     /* the work done */
     double lower;      /* the distance is at least this; at most 2^1000 */
-    /* The nearest pair of triangles found, with bounds of the distance of the models. `found`
-     * CDPREP_NO: none was found, or none is within max_distance. */
+    /* The nearest pair of triangles found, with bounds of the distance of the models. If `found` is
+     * CDPREP_NO, none was found, or none is within max_distance. */
     cdprep_nearest nearest;
 } cdprep_bounded;
 
@@ -271,14 +278,12 @@ CDPREP_API int cdprep_within(const cdprep_pair* pair, double tolerance, cdprep_w
 
 /* Lists all pairs of triangles that are at most `tolerance` apart, sorted by a, then b. Exact.
  * Uses degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
- *
  * Needs: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_pairs_within(const cdprep_pair* pair, double tolerance,
                                    cdprep_workspace* workspace, cdprep_overlap_list* list,
                                    cdprep_error* error);
 
-/* Calls `visit` with each of these pairs, in no particular order. Uses degenerate.
- *
+/* Calls `visit` with each pair of cdprep_pairs_within(), in no particular order. Uses degenerate.
  * Needs: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_pairs_within_visit(const cdprep_pair* pair, double tolerance,
                                          cdprep_workspace* workspace, cdprep_overlap_visitor visit,
@@ -299,17 +304,17 @@ CDPREP_API void cdprep_self_query_init(cdprep_self_query* query, size_t size);
 /* Lists all pairs of triangles of one model that overlap and share no vertex, sorted by a, then b.
  * Both are triangles of the model, a < b. If there are more pairs than `room`, the list keeps the
  * smallest pairs. Exact, for the model's own positions.
- * Triangles share a vertex if they use one vertex number of the model. A bake merges vertices with
- * equal positions. Two vertices of a live model may move to one position later. They remain two
- * vertices, so their triangles then touch. A model built or baked for CDPREP_ASK_OVERLAP alone may
- * lack these numbers.
+ * Triangles share a vertex if they use the same vertex number. A bake merges vertices with equal
+ * positions. Two vertices of a live model may move to one position later. They remain two vertices,
+ * so their triangles then touch. A model built or baked for CDPREP_ASK_OVERLAP alone may lack these
+ * numbers.
  * Takes O(n + pairs) time for typical meshes, O(n^2) in the worst case.
  * Needs: CDPREP_ASK_OVERLAP, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_self_overlaps(const cdprep_self_query* query, cdprep_workspace* workspace,
                                     cdprep_overlap_list* list, cdprep_error* error);
 
-/* Calls `visit` with each of these pairs once, as it is found, in no particular order. Returns
- * CDPREP_OK even if the visitor ended the search.
+/* Calls `visit` with each pair of cdprep_self_overlaps() once, as it is found, in no particular
+ * order. Returns CDPREP_OK even if the visitor ended the search.
  * Needs: CDPREP_ASK_OVERLAP, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_self_overlaps_visit(const cdprep_self_query* query,
                                           cdprep_workspace* workspace, cdprep_overlap_visitor visit,

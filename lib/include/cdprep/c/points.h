@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 /* Queries about one model: points, rays and shapes. The lanes of the workspace share the work on
- * many points or rays. The answers are the same, in the same order. */
+ * many points or rays. The answers are those of one lane, in the order of the points or rays. */
 
 /* --- Points --------------------------------------------------------------------------------- */
 
@@ -35,7 +35,6 @@ typedef struct cdprep_closest_point {
 /* Stores the points of a model's surface that are nearest to `count` points. `answers` must have
  * room for `count` results. The distance is to the surface, also for a point inside a solid. Takes
  * O(log n) time for most points.
- *
  * Needs: CDPREP_ASK_CLOSEST */
 CDPREP_API int cdprep_points_closest(const cdprep_point_query* query, cdprep_workspace* workspace,
                                      cdprep_closest_point* answers, cdprep_error* error);
@@ -71,7 +70,7 @@ typedef struct cdprep_ray_query {
 CDPREP_API void cdprep_ray_query_init(cdprep_ray_query* query, size_t size);
 
 typedef struct cdprep_ray_hit {
-    uint32_t found;    /* CDPREP_NO: then the rest is 0 */
+    uint32_t found;    /* CDPREP_NO: no hit; then the rest is 0 */
     uint32_t triangle; /* among hits with equal t the lowest number */
     double t;          /* in lengths of the direction, rounded */
     double point[3];   /* origin + t * direction, rounded */
@@ -153,15 +152,15 @@ CDPREP_API int cdprep_touch(const cdprep_shape_query* query, cdprep_workspace* w
 CDPREP_API int cdprep_touch_list(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                  cdprep_triangle_list* list, cdprep_error* error);
 
-/* Calls `visit` with each of these triangles, in no particular order.
+/* Calls `visit` with each triangle that the shape touches, in no particular order.
  * Needs: CDPREP_ASK_TOUCH */
 CDPREP_API int cdprep_touch_visit(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                   cdprep_triangle_visitor visit, void* context,
                                   cdprep_error* error);
 
-/* Stores the distance of a shape from the surface. `degenerate` has no meaning. In the answer, `a`
- * is the model and `b` is the shape. For a sphere, on_b is its centre; for a capsule, on_b is on
- * its segment. triangle_b is CDPREP_NONE.
+/* Stores the distance of a shape from the surface. `degenerate` must keep its default. In the
+ * answer, `a` is the model and `b` is the shape. For a sphere, on_b is its centre; for a capsule,
+ * on_b is on its segment. triangle_b is CDPREP_NONE.
  * Needs: CDPREP_ASK_TOUCH */
 CDPREP_API int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                      cdprep_nearest* nearest, cdprep_error* error);

@@ -27,7 +27,7 @@ struct AdaptiveOctreeOptions {
     std::uint32_t level = 3;      ///< no cell is deeper; 0 to format::kOctreeBits
     std::uint32_t threshold = 1;  ///< a cell with fewer triangles is not divided; at least 1
     format::SplitRule rule = format::SplitRule::median;
-    /// The model's frame, if boxes are to be built; they are stored in it.
+    /// The model's frame, if boxes are to be built. They are stored in frame coordinates.
     std::optional<Frame> boxes_in{};
 };
 
@@ -38,24 +38,25 @@ inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
 
 /// Builds the octree with the rules of build_octree(): closed cells and exact membership.
 /// Degenerate triangles count as the segment or point that they are. The result is the same, byte
-/// for byte, for any parallel_for and processor. The root is the box of all corners.
+/// for byte, for any parallel_for and processor. The root is the bounding box of all triangles.
 ///
 /// SplitRule::median: the triangles' boxes are clipped to the cell. Along each axis, the plane is
-/// at the median of their centres. If that is on the cell's boundary, the plane is in the middle of
-/// the cell. That is so if most triangles lie flat on the boundary. SplitRule::surface_area: the
-/// plane is one of the 15 between 16 slices of equal width. It has the least sum, over both sides,
-/// of surface area times number of triangles.
+/// at the median of the clipped boxes' centres. If the median is on the cell's boundary, the plane
+/// is in the middle of the cell. This happens if most triangles lie flat on the boundary.
+/// SplitRule::surface_area: along each axis, the plane is one of the 15 between 16 slices of equal
+/// width. The chosen plane has the least sum, over both sides, of surface area times number of
+/// triangles.
 ///
 /// An axis is not divided if its plane would cut every triangle's box, unless that holds for all
-/// three axes. A cell is a leaf if no plane is inside it, or every child would have all its
-/// triangles. So equal triangles, and triangles that meet in one point, end the division early. A
+/// three axes. A cell is a leaf if no plane is inside it, or every child would list all triangles
+/// of the cell. So equal triangles, and triangles that meet in one point, end the division early. A
 /// level and those below it are not divided if the tree would get more references than
 /// build_octree() allows.
 ///
 /// Takes O(levels * references) time. The memory beside the result is at most the sum of
 /// kAdaptiveScratchPerTriangle, PerReference and PerNode, each times its number. This holds for one
-/// thread. On several threads, the medians being computed take up to 24 bytes per reference. Throws
-/// only std::bad_alloc.
+/// thread. On several threads, medians that are computed at once take up to 24 bytes per reference
+/// more. Throws only std::bad_alloc.
 [[nodiscard]] CDPREP_API AdaptiveOctree build_adaptive_octree(
     std::span<const format::Double3> positions, std::span<const format::Triangle> triangles,
     const AdaptiveOctreeOptions& options = {});

@@ -16,7 +16,8 @@
 namespace cdprep::build {
 
 /// An octree of cells of equal shape (format/octree.h), and the tables that find a cell by its key.
-/// The tables make it a hashed octree, in three forms. Vectors that the options exclude are empty.
+/// The tables make it a hashed octree. They have three forms. Vectors that the options exclude are
+/// empty.
 struct Octree {
     format::OctreeGrid grid{};
     std::vector<format::OctreeNode> nodes;
@@ -34,7 +35,7 @@ struct OctreeOptions {
     std::uint32_t level = 3;      ///< no cell is deeper; 0 to format::kOctreeBits
     std::uint32_t threshold = 1;  ///< a cell with fewer triangles is not divided; at least 1
     bool hashed = true;           ///< also build the tables that find cells by their keys
-    /// The model's frame, if boxes are to be built; they are stored in it.
+    /// The model's frame, if boxes are to be built. They are stored in frame coordinates.
     std::optional<Frame> boxes_in{};
 };
 
@@ -48,15 +49,16 @@ inline constexpr std::size_t kScratchPerVertex = 16;
 inline constexpr std::size_t kScratchPerReference = 10;
 inline constexpr std::size_t kScratchPerNode = 96;
 
-/// Builds the octree over triangles with finite positions of at most format::kMaxCoordinate.
-/// References are their numbers in `triangles` (in a model: tree order). A triangle is listed in
-/// every leaf whose closed cell it touches, exactly. A degenerate one counts as the segment or
-/// point that it is. The result is the same, byte for byte, for any parallel_for and processor.
+/// Builds the octree over triangles. Coordinates must be finite and at most format::kMaxCoordinate
+/// in magnitude. References are triangle numbers in `triangles` (in a model: tree order). A
+/// triangle is listed in exactly those leaves whose closed cell it touches. A degenerate triangle
+/// counts as the segment or point that it is. The result is the same, byte for byte, for any
+/// parallel_for and processor.
 ///
 /// The total number of references is at most kMostFreeReferences plus kMostReferencesPerTriangle
 /// for each triangle. A level whose division would exceed this is not divided, nor is any level
 /// below. For example, a triangle as large as the cube would touch about 2^42 cells of level 21. If
-/// coordinates are NaN, the result is meaningless; the readers of files reject them.
+/// coordinates are NaN, the result is meaningless; mesh readers reject such coordinates.
 ///
 /// Takes O(levels * references) time. Scratch memory is at most kScratchPerVertex * vertices +
 /// kScratchPerReference * references + kScratchPerNode * nodes bytes. Throws only std::bad_alloc.

@@ -31,17 +31,18 @@ struct TetraTreeOptions {
     format::Double3 frame_origin{};   ///< of the model's frame: the origin of boxes
 };
 
-/// Builds the tree over triangles with finite positions of at most format::kMaxCoordinate.
-/// References are their numbers in `triangles` (in a model: tree order). A triangle is listed in
-/// every leaf whose closed cone it touches, exactly. Triangles that contain the centre are listed
-/// in no leaf. The result is the same, byte for byte, for any parallel_for and processor.
+/// Builds the tree over triangles. Coordinates must be finite and at most format::kMaxCoordinate in
+/// magnitude. References are triangle numbers in `triangles` (in a model: tree order). Triangles
+/// that contain the centre are listed in no leaf. Any other triangle is listed in exactly those
+/// leaves whose closed cone it touches. The result is the same, byte for byte, for any parallel_for
+/// and processor.
 ///
 /// The centre is the mean of the vertices that triangles use. It is rounded to float if all their
-/// coordinates are floats, so nearly all differences to it are exact. The radii of a cone are
-/// rounded outwards, so they contain the exact part of its triangles in the cone. Choose a frame
-/// exponent that scales the model to about 1. With a much larger one, radii may be infinite and
-/// exclude nothing. Boxes contain the same parts, in a frame that contains the model.
-/// tetra_centre_inside is computed along one ray from the centre.
+/// coordinates are floats, so nearly all differences between vertices and centre are exact. The
+/// radii of a cone are rounded outwards, so they contain the exact part of its triangles in the
+/// cone. Choose a frame exponent that scales the model to about 1. With a much larger exponent,
+/// radii may be infinite and exclude nothing. Boxes contain the same parts and require a frame that
+/// contains the model. The flag tetra_centre_inside is computed along one ray from the centre.
 ///
 /// The number of references is limited as in build_octree(). A level whose split would exceed the
 /// limit is not split, nor is any below. Takes O(levels * references) time. Uses at most 21 bytes

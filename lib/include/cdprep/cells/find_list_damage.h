@@ -16,10 +16,10 @@ namespace cdprep {
 /// point in its closed cell or cone.
 ///
 /// A reference must be marked as shared if and only if other leaves list the same triangle. An
-/// octree's root must hold every corner, and its tables must find every node. Exact: each triangle
-/// is compared with the cells by signs that no rounding changes. Radii of a tetra-tree are damage
-/// too if they exclude more than rounding can explain. If a cone's planes cut a triangle, the limit
-/// is a millionth of the size of the part inside.
+/// octree's root must contain every corner of a triangle, and its tables must find every node.
+/// These checks are exact: no rounding changes a sign. Radii of a tetra-tree count as damage if
+/// they exclude more of a triangle than rounding can explain. If a cone's planes cut the triangle,
+/// the radii may exclude a millionth of the size of the part inside.
 ///
 /// format::find_deep_damage() must find nothing in `file`. `model` is this file, opened with all
 /// its sections. Takes O(triangles * levels) steps of about a microsecond. Allocates.

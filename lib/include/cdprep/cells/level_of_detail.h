@@ -13,8 +13,8 @@ namespace cdprep {
 
 /// The result of collide_at_level(), and the errors of its level.
 struct CoarseCollision {
-    /// `no`: the solids, and so their surfaces, have no common point. `yes`: they have one.
-    /// `unknown`: the facets of this level cannot tell.
+    /// `no`: the solids, and so their surfaces, have no common point. `yes`: the solids have one.
+    /// `unknown`: the facets of this level do not decide.
     Answer answer = Answer::unknown;
     double error_a = 0;  ///< level_error() of A
     double error_b = 0;
@@ -22,8 +22,8 @@ struct CoarseCollision {
 
 /// Returns the error of a model at a level, in model units. It is the greatest distance between the
 /// outer and the inner facet of a cone. The distance is measured along rays from the tetra-tree's
-/// centre. The error falls as the level rises, down to the error of the leaves. It is 0 for a model
-/// without triangles. Needs Ask::tetra_tree. Takes O(cones of the level) time.
+/// centre. The error falls as the level rises, down to the error of the leaves. The error is 0 for
+/// a model without triangles. Needs Ask::tetra_tree. Takes O(cones of the level) time.
 ///
 /// Level 0 has one outer and one inner facet per octant. Each further level splits every cone of
 /// the tree into four; a leaf stays as it is. The outer facet cuts a cone at its greatest radius,
@@ -31,13 +31,14 @@ struct CoarseCollision {
 /// Beyond the deepest level, the facets are those of the deepest level.
 [[nodiscard]] CDPREP_API double level_error(const Model& model, std::uint32_t level) noexcept;
 
-/// Returns whether two solids collide, if one level of their tetra-trees can prove it. Reads no
-/// options. Needs Ask::tetra_tree of both models.
+/// Returns whether two solids collide, if one level of their tetra-trees can prove it. Ignores
+/// pair.options. Needs Ask::tetra_tree of both models.
 ///
 /// `no`: no two cones meet within their outer facets. This also holds for surfaces and for open
-/// models. `yes`: a point lies below the inner facets of both models, which are closed and contain
-/// their centres. The search tests only the centres and a few points below each inner facet, so it
-/// may miss a `yes`. Never allocates. Takes O(pairs of cones that meet) time.
+/// models. `yes`: a point lies below inner facets of both models. Both models must be balanced and
+/// contain the centre of their tetra-tree. The search tests only the centres and a few points below
+/// each inner facet, so it may miss a `yes`. Never allocates. Takes O(pairs of cones that meet)
+/// time.
 [[nodiscard]] CDPREP_API CoarseCollision collide_at_level(const Pair& pair, std::uint32_t level,
                                                           Workspace& workspace) noexcept;
 

@@ -16,8 +16,8 @@ struct OctreeFigures {
     std::uint64_t triangles = 0;       ///< of the model
     std::uint64_t nodes = 0;           ///< stored cells: those that some triangle touches
     std::uint64_t leaves = 0;          ///< nodes that are not divided
-    std::uint64_t empty_children = 0;  ///< children that divided nodes lack, of eight each
-    std::uint64_t references = 0;      ///< of all leaves
+    std::uint64_t empty_children = 0;  ///< children, of eight per divided node, not stored
+    std::uint64_t references = 0;      ///< in the lists of all leaves
     std::uint64_t shared = 0;          ///< triangles that more than one leaf lists
     std::uint64_t largest_leaf = 0;    ///< references
     std::uint32_t deepest = 0;         ///< level of the deepest node; 0: the root
@@ -28,10 +28,10 @@ struct OctreeFigures {
 };
 
 /// Returns the figures of a model's octree. All but `triangles` are 0 if the model was baked
-/// without one. Takes O(nodes + references) time.
+/// without an octree. Takes O(nodes + references) time.
 [[nodiscard]] CDPREP_API OctreeFigures octree_figures(const Model& model) noexcept;
 
-/// Returns the same figures of a tree over `triangle_count` triangles that is not in a file.
+/// Returns the same figures for an octree in memory that was built over `triangle_count` triangles.
 [[nodiscard]] CDPREP_API OctreeFigures octree_figures(const build::Octree& octree,
                                                       std::uint64_t triangle_count) noexcept;
 
@@ -43,10 +43,10 @@ adaptive_octree_figures(const build::AdaptiveOctree& octree, std::uint64_t trian
 /// The children that have a record in a node: all, or only those that triangles touch.
 enum class EmptyChildren : std::uint8_t { counted, left_out };
 
-/// Returns the size that the published implementation would need, in bytes. The root takes 72, any
-/// other node 80, a reference 4. It is not known which children that implementation stored. Returns
-/// 0 without nodes. The formula is that of "A comparative study of implemented collision detection
-/// strategies".
+/// Returns the size in bytes that the published implementation would need (docs/STUDIES.md). The
+/// root takes 72, any other node 80, and a reference 4. It is not known which children that
+/// implementation stored. Returns 0 without nodes. The formula is that of "A comparative study of
+/// implemented collision detection strategies".
 [[nodiscard]] CDPREP_API std::uint64_t seed_formula_bytes(const OctreeFigures& figures,
                                                           EmptyChildren empty) noexcept;
 

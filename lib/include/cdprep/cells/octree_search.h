@@ -21,12 +21,12 @@ inline constexpr std::uint32_t kNoNode = 0xffffffffU;
 /// The parts of a hashed octree that a search reads. They belong to a model or a builder, which
 /// must outlive the index. A search is safe if find_damage finds nothing. Then the elements of
 /// `top` increase from 0 to the number of leaves. All numbers name nodes, and every chain ends. If
-/// there are nodes, a search also reads the table that it is named after. That table must be
-/// present, but an octree may be baked without it.
+/// there are nodes, a search also reads the table that belongs to its CellSearch. That table must
+/// be present, but an octree may be baked without it.
 struct OctreeIndex {
     std::uint32_t top_level = 0;  ///< as in format::OctreeGrid
     std::uint32_t slot_bits = 0;
-    std::uint32_t deepest = 0;  ///< level of the last node
+    std::uint32_t deepest = 0;  ///< level of the deepest nodes, which come last
     std::span<const format::OctreeNode> nodes;
     std::span<const std::uint64_t> leaf_codes;
     std::span<const std::uint32_t> leaf_nodes;
@@ -35,8 +35,8 @@ struct OctreeIndex {
     std::span<const std::uint32_t> mixed_table;
 };
 
-/// Returns the index of a model that has octree().grid, or of a builder's octree. It is empty
-/// without nodes.
+/// Returns the index of a model that has octree().grid, or of a builder's octree. The index is
+/// empty if there are no nodes.
 [[nodiscard]] CDPREP_API OctreeIndex octree_index(const Model& model) noexcept;
 [[nodiscard]] CDPREP_API OctreeIndex octree_index(const build::Octree& octree) noexcept;
 
@@ -70,9 +70,9 @@ inline std::uint32_t find_chained(const OctreeIndex& index, std::span<const std:
 }
 
 /// Returns the node of a key, or kNoNode, by bisection of the sorted nodes. Reads no table. Takes
-/// O(log nodes) time. Independent searches, which overlap in the processor, take five to nine times
-/// as long as with a table. If each search depends on the one before, they take one to three times
-/// as long (octree_top_bench).
+/// O(log nodes) time. Independent searches overlap in the processor; they take five to nine times
+/// as long as with a table. Searches that each depend on the one before take one to three times as
+/// long (octree_top_bench).
 inline std::uint32_t find_node_in_order(const OctreeIndex& index, std::uint64_t key) noexcept {
     const auto at = std::lower_bound(
         index.nodes.begin(), index.nodes.end(), key,
@@ -81,9 +81,9 @@ inline std::uint32_t find_node_in_order(const OctreeIndex& index, std::uint64_t 
     return static_cast<std::uint32_t>(at - index.nodes.begin());
 }
 
-/// Returns the result of find_leaf(), found by binary search in the sorted leaves. There must be
-/// nodes. Leaves do not overlap. So if a leaf holds `code`, it is the last one that begins at or
-/// before `code`. That leaf may end before `code`, because empty cells are not stored.
+/// Returns the result of find_leaf(), found by binary search in the sorted leaves. The octree must
+/// have nodes. Leaves do not overlap. So if a leaf holds `code`, it is the last one that begins at
+/// or before `code`. That leaf may end before `code`, because empty cells are not stored.
 inline std::uint32_t find_sorted_leaf(const OctreeIndex& index, std::uint64_t code) noexcept {
     const std::uint64_t cell = code >> (3 * (format::kOctreeBits - index.top_level));
     assert(cell + 1 < index.top.size());
@@ -111,8 +111,8 @@ std::uint32_t find_chained_leaf(const OctreeIndex& index, std::span<const std::u
 }
 
 /// Returns the node of a key, which may be an inner node or a leaf, or kNoNode. 0 is not the key of
-/// any node. Uses the table that `search` names. Sorted leaves do not include inner nodes;
-/// find_node_in_order() is then used.
+/// any node. Uses the table that `search` names. With CellSearch::sorted, calls
+/// find_node_in_order(), because sorted leaves do not include inner nodes.
 inline std::uint32_t find_node(const OctreeIndex& index, CellSearch search,
                                std::uint64_t key) noexcept {
     if (index.nodes.empty()) return kNoNode;
@@ -131,9 +131,9 @@ inline std::uint32_t find_node(const OctreeIndex& index, CellSearch search,
 
 /// Returns the leaf whose half-open cell contains the finest cell with Z-order code `code`. `code`
 /// is below 2^63. Returns kNoNode if there is no such leaf, because no triangle touches the space
-/// there. Every search gives the same answer, that of a descent from the root. CellSearch::sorted
-/// takes O(log of the leaves in one cell of top_level) time, for one bisection. The others go up
-/// from the deepest level, and search O(levels between that and the answer) chains.
+/// there. Every CellSearch gives the same answer, that of a descent from the root.
+/// CellSearch::sorted takes O(log n) time for n leaves in one cell of top_level. The others go up
+/// from the deepest level and search one chain at each level, up to the level of the answer.
 inline std::uint32_t find_leaf(const OctreeIndex& index, CellSearch search,
                                std::uint64_t code) noexcept {
     if (index.nodes.empty()) return kNoNode;

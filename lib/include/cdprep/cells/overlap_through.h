@@ -21,7 +21,7 @@ enum class LeafTest : std::uint8_t {
 
 /// The pairs of nodes that replace a pair that may overlap.
 enum class Descent : std::uint8_t {
-    larger,   ///< the children of the larger, by size
+    larger,   ///< the children of the larger node against the other
     a_first,  ///< A's children against B, until A is a leaf
     b_first,  ///< A against B's children, until B is a leaf
     both,     ///< all children of A against all of B
@@ -42,10 +42,10 @@ struct StructureOptions {
     CellSearch search = CellSearch::mixed;
 };
 
-/// Finds the pairs that overlaps() finds, by `through` instead of pair.options.through: the same
-/// pairs in the same order. Slowest if triangles are larger than cells and thousands of pairs
-/// overlap. Then there is no room to remember all pairs found. For each of the others, the search
-/// determines which of its cells reports it.
+/// Finds the same pairs as overlaps(), in the same order, by `through` instead of
+/// pair.options.through. Slowest if triangles are larger than cells and thousands of pairs overlap.
+/// The workspace then has no room to remember all pairs found. For each pair without room, the
+/// search determines which of the cells that list the pair reports it.
 ///
 /// Needs Ask::overlap and ask_of() the structure of both models. Never allocates; takes some 20 KiB
 /// of stack.

@@ -15,7 +15,7 @@ struct TreeLimits {
     std::uint32_t threshold;  ///< a node with fewer triangles is not divided
 };
 
-/// Settings for each structure, chosen together. If a file has a hashed octree, the same cells also
+/// Settings for all structures, chosen together. If a file has a hashed octree, its cells also
 /// serve as the plain octree.
 struct StructurePreset {
     const char* name;
@@ -24,7 +24,7 @@ struct StructurePreset {
     TreeLimits adaptive_octree;
     TreeLimits tetra_tree;
     format::SplitRule split;         ///< of the adaptive octree
-    bool boxes;                      ///< octree cells have boxes around their contents
+    bool boxes;                      ///< whether octree cells have boxes around their contents
     format::TetraBounding bounding;  ///< of the tetra-tree
 };
 
@@ -44,8 +44,8 @@ inline constexpr StructurePreset kPaperPreset = {
 /// The fastest settings for overlaps and collisions. Cells are small enough to be separated by the
 /// boxes around their contents, and no smaller. The lists of two cells that meet are compared in
 /// blocks of 64 triangles. More cells would produce the same blocks again. The table gives times
-/// relative to the BVH: medians of light and of deep poses of twelve pairs (tests/bench/results,
-/// structure_queries.csv):
+/// relative to the BVH, as medians over twelve pairs of models. The first number of an entry is for
+/// light poses, the second for deep ones (tests/bench/results, structure_queries.csv):
 ///
 ///                      octree       adaptive     hashed       tetra-tree
 ///     tuned, collide   2.4, 2.5     2.3, 2.7     5.6, 5.3     3.6, 3.9
@@ -53,8 +53,8 @@ inline constexpr StructurePreset kPaperPreset = {
 ///     paper, collide   7.4, 6.5     12, 6.6      18, 19       18, 11
 ///     paper, overlap   3.2, 2.3     5.7, 4.0     7.0, 8.5     6.4, 4.9
 ///
-/// For containment of points, a deeper tetra-tree is better: the cost grows with the number of
-/// triangles in one cone.
+/// For containment of points, a deeper tetra-tree is better: a query's cost grows with the number
+/// of triangles in one cone.
 inline constexpr StructurePreset kTunedPreset = {
     .name = "tuned",
     .octree = {5, 8},

@@ -11,8 +11,8 @@ namespace cdprep {
 
 /// Figures that describe a tetra-tree (format/tetra_tree.h): its size, and how well its cones
 /// divide the model. Layers are the triangles that a ray from the centre crosses; a star-shaped
-/// model has one. Cones are the wrong tool for more than about four layers, or for a centre outside
-/// or near the surface.
+/// model has one. Avoid a tetra-tree if there are more than about four layers, or if the centre is
+/// outside or near the surface.
 struct TetraFigures {
     std::uint64_t triangles = 0;     ///< of the model
     std::uint64_t nodes = 0;         ///< stored cones: those that some triangle touches
@@ -25,8 +25,8 @@ struct TetraFigures {
     std::uint64_t largest_leaf = 0;  ///< references
     std::uint32_t deepest = 0;       ///< splits above the deepest node
     /// The mean over the leaves of the number of triangles that a ray crosses. The ray runs from
-    /// the centre through the middle of the leaf's generators. Triangles are counted exactly, and
-    /// at an edge on one side only.
+    /// the centre through the middle of the leaf's generators. The count is exact. If the ray hits
+    /// an edge, only the triangle on one side counts.
     double mean_layers = 0;
     std::uint64_t most_layers = 0;
     bool centre_inside = false;
@@ -36,8 +36,9 @@ struct TetraFigures {
 };
 
 /// Returns the figures of a model's tetra-tree. All but `triangles` are 0 if the model was baked
-/// without one. Layers are 0 if the model was opened without positions and triangles. Takes O(nodes
-/// + references) time, tens of nanoseconds per reference. Allocates four bytes per triangle.
+/// without a tetra-tree. Layers are 0 if the model was opened without positions and triangles.
+/// Takes O(nodes + references) time, tens of nanoseconds per reference. Allocates four bytes per
+/// triangle.
 [[nodiscard]] CDPREP_API TetraFigures tetra_figures(const Model& model);
 
 /// Returns the same figures for a tetra-tree in memory that was built over these triangles.
@@ -45,9 +46,10 @@ struct TetraFigures {
                                                     std::span<const format::Double3> positions,
                                                     std::span<const format::Triangle> triangles);
 
-/// Returns the size in bytes that the published implementation would need. The root takes 340, any
-/// other node 88, even an empty one, and a reference 4. Returns 0 without nodes. The formula is
-/// that of "A comparative study of implemented collision detection strategies".
+/// Returns the size in bytes that the published implementation would need (docs/STUDIES.md). The
+/// root takes 340, any other node 88, even an empty one, and a reference 4. Returns 0 without
+/// nodes. The formula is that of "A comparative study of implemented collision detection
+/// strategies".
 [[nodiscard]] CDPREP_API std::uint64_t seed_formula_bytes(const TetraFigures& figures) noexcept;
 
 }  // namespace cdprep

@@ -15,15 +15,15 @@ struct Double2 {
     double x, y;
 };
 
-/// The three corners of a triangle. Collinear and equal ones are allowed: the triangle is then the
-/// segment or the point that they span.
+/// The three corners of a triangle. Collinear and equal corners are allowed: the triangle is then
+/// the segment or the point that they span.
 using Corners = std::array<Double3, 3>;
 
 }  // namespace cdprep
 
 /// Exact geometric tests for offline programs: hulls, repair, studies. The signs and answers are
-/// those of real arithmetic on the given doubles. All coordinates are finite. Each function sets
-/// the default floating-point environment for its duration and restores the caller's, and none
+/// those of real arithmetic on the given doubles. All coordinates must be finite. Each function
+/// sets the default floating-point environment for its duration and restores the caller's. None
 /// allocates.
 namespace cdprep::exact {
 
@@ -35,9 +35,9 @@ namespace cdprep::exact {
 [[nodiscard]] CDPREP_API int orient2d(const Double2& a, const Double2& b,
                                       const Double2& c) noexcept;
 
-/// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]. It is positive when d lies behind the
-/// plane, seen from the side where a, b, c turn counter-clockwise. Cost and stages are those of
-/// orient2d().
+/// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]. It is positive when d lies behind the plane
+/// of a, b and c. The front is the side from which a, b, c turn counter-clockwise. Cost and stages
+/// are those of orient2d().
 [[nodiscard]] CDPREP_API int orient3d(const Double3& a, const Double3& b, const Double3& c,
                                       const Double3& d) noexcept;
 

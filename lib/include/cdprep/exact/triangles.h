@@ -25,7 +25,7 @@ struct PiercingEdge {
     bool of_a;  ///< an edge of A, else of B
 };
 
-/// The edges that hold the two ends of a common segment.
+/// The edges that contain the two ends of the common segment of two triangles.
 struct CrossingEnds {
     PiercingEdge first;
     PiercingEdge second;
@@ -36,8 +36,8 @@ struct CrossingEnds {
 struct PointTriangleDistance {
     Double3 nearest;  ///< on the triangle, up to rounding
     double computed;  ///< the rounded distance to `nearest`
-    double lower;     ///< proven: the exact distance is at least this, >= 0
-    double upper;     ///< proven: and at most this
+    double lower;     ///< proven: the exact distance is at least this; >= 0
+    double upper;     ///< proven: the exact distance is at most this
 };
 
 }  // namespace cdprep
@@ -48,13 +48,13 @@ namespace cdprep::exact {
 /// double decides; microseconds at worst (Guigue and Devillers 2003, with exact signs).
 [[nodiscard]] CDPREP_API bool triangles_touch(const Corners& a, const Corners& b) noexcept;
 
-/// Returns how two triangles meet. Exact. A triangle without area has no inside: it can only
+/// Returns how two triangles meet. Exact. A triangle without area has no interior: it can only
 /// touch. Costs as much as triangles_touch().
 [[nodiscard]] CDPREP_API TriangleContact classify_contact(const Corners& a,
                                                           const Corners& b) noexcept;
 
-/// Returns the result of classify_contact(), without its filter: for studies of the filter's
-/// benefit. Exact.
+/// Returns the result of classify_contact(), but does not use its filter. Serves studies of the
+/// filter's benefit. Exact.
 [[nodiscard]] CDPREP_API TriangleContact contact_without_filter(const Corners& a,
                                                                 const Corners& b) noexcept;
 
@@ -68,16 +68,17 @@ namespace cdprep::exact {
 
 /// Returns the distance of `q` from a triangle, with or without area, as a proven interval.
 ///
-/// The width of the interval is at most 32 u times the distance of the farthest corner, u = 2^-53.
-/// If the triangle is much nearer than that corner, the width is up to 200 u times that distance.
-/// For slivers, the interval is wider. Works for all sizes from subnormal numbers to
-/// format::kMaxCoordinate. Takes some 50 ns.
+/// Let u = 2^-53, and let M be the distance from `q` to the farthest corner. The width of the
+/// interval is usually at most 32 u M. If the triangle is much nearer than that corner, the width
+/// is up to 200 u M. For slivers, the interval is wider. Works for all sizes from subnormal numbers
+/// to format::kMaxCoordinate. Takes some 50 ns.
 [[nodiscard]] CDPREP_API PointTriangleDistance point_triangle_distance(const Double3& q,
                                                                        const Corners& t) noexcept;
 
-/// Returns whether a point, segment or triangle is at most `distance` from a triangle; inclusive.
-/// `corners` are the 1 to 3 corners of the former. Exact. False for a negative distance or NaN.
-/// Takes microseconds where double does not decide, and some 20 KiB of stack.
+/// Returns whether a point, segment or triangle is at most `distance` from the triangle `t`;
+/// inclusive. `corners` are the 1 to 3 corners of the point, segment or triangle. Exact. Returns
+/// false for a negative distance or NaN. Takes microseconds where double does not decide, and some
+/// 20 KiB of stack.
 [[nodiscard]] CDPREP_API bool is_within(std::span<const Double3> corners, const Corners& t,
                                         double distance) noexcept;
 

@@ -16,19 +16,19 @@ struct WindingTerm {
 
 namespace cdprep::exact {
 
-/// Returns the contribution of triangle `t` to the winding number around q. It is the crossing of
-/// `t` with the ray that starts at q and runs away from o. Exact. `o` must differ from q.
+/// Returns the contribution of triangle `t` to the winding number around q. It counts the crossing
+/// of `t` by the ray that starts at q and runs away from o. Exact. `o` must differ from q.
 ///
-/// Over a closed surface the contributions add up to the winding number, whatever o is. `o` is
+/// Over a balanced surface, the contributions add up to the winding number, whatever o is. `o` is
 /// perturbed symbolically to o + (e, e^2, e^3) with e infinitely small. So no ray meets an edge or
 /// a vertex. A triangle without area adds nothing. (Feito and Torres 1997, with another rule for
 /// vertices.)
 [[nodiscard]] CDPREP_API WindingTerm winding_term(const Double3& o, const Double3& q,
                                                   const Corners& t) noexcept;
 
-/// Returns an `o` for winding_term() whose ray runs from q along +x: a point at least `reach`
-/// before q. `reach` should be about the model's size: with a much smaller one, the filter decides
-/// few triangles. The result differs from q unless |q.x| is near the largest double.
+/// Returns an `o` for winding_term() whose ray runs from q along +x: a point with smaller x, at
+/// least `reach` away. `reach` should be about the model's size: with a much smaller value, the
+/// filter decides few triangles. The result differs from q unless |q.x| is near the largest double.
 [[nodiscard]] CDPREP_API Double3 before_along_x(const Double3& q, double reach) noexcept;
 
 }  // namespace cdprep::exact
