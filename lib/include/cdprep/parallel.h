@@ -33,8 +33,8 @@ namespace cdprep {
 /// There must be at least one workspace. The batch uses one thread per workspace. Calls
 /// `parallel_for` at most once. Processes min(pairs.size(), answers.size()) pairs. Never allocates.
 /// Starting a batch takes a few microseconds, so a batch pays off from about ten pairs. The rules
-/// of this comment up to here also hold for the batches below. Both models of each pair must serve
-/// the bits of Ask that collide() needs.
+/// of this comment up to here also hold for the batches below. Needs Ask::collide of both models of
+/// each pair, Ask::solid with Body::solid, and ask_of(options.through).
 ///
 ///     std::vector<cdprep::Workspace> workspaces(4);
 ///     std::vector<cdprep::Collision> answers(pairs.size());
@@ -42,20 +42,20 @@ namespace cdprep {
 CDPREP_API void collide_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                              ParallelFor parallel_for, std::span<Collision> answers) noexcept;
 
-/// Runs distance() for many pairs. Both models of each pair must serve the bits of Ask that
-/// distance() needs.
+/// Runs distance() for many pairs. Needs Ask::distance of both models of each pair, Ask::solid with
+/// Body::solid, and ask_of(options.through).
 CDPREP_API void distance_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                               ParallelFor parallel_for, std::span<std::optional<Distance>> answers,
                               const DistanceOptions& options = {}) noexcept;
 
-/// Runs within() for many pairs. Both models of each pair must serve the bits of Ask that within()
-/// needs.
+/// Runs within() for many pairs. Needs Ask::within and ask_of(options.through) of both models of
+/// each pair.
 CDPREP_API void within_many(std::span<const Pair> pairs, double tolerance,
                             std::span<Workspace> workspaces, ParallelFor parallel_for,
                             std::span<bool> answers) noexcept;
 
 /// Runs overlaps() with an empty room for many pairs, and stores the numbers of triangle pairs.
-/// Both models of each pair must serve the bits of Ask that overlaps() needs.
+/// Needs Ask::overlap and ask_of(options.through) of both models of each pair.
 CDPREP_API void count_overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                                     ParallelFor parallel_for,
                                     std::span<std::size_t> counts) noexcept;
@@ -66,8 +66,8 @@ struct OverlapList {
     std::size_t count = 0;         ///< output: number of pairs found, even if the room is too short
 };
 
-/// Runs overlaps() for many pairs. Both models of each pair must serve the bits of Ask that
-/// overlaps() needs.
+/// Runs overlaps() for many pairs. Needs Ask::overlap and ask_of(options.through) of both models of
+/// each pair.
 CDPREP_API void overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                               ParallelFor parallel_for, std::span<OverlapList> answers) noexcept;
 

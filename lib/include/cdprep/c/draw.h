@@ -55,8 +55,7 @@ CDPREP_API void cdprep_draw_init(cdprep_draw* draw, size_t size);
  * Errors: CDPREP_WHY_OUT_OF_RANGE for unknown bits. CDPREP_WHY_NO_MEANING for bits of scenes, or
  * for a level if no boxes are drawn. CDPREP_WHY_NULL for a missing function that `what` requires.
  * CDPREP_WHY_NOT_RIGID. CDPREP_WHY_NOT_BAKED or _NOT_OPENED if the model lacks what is to be drawn.
- * Needs: the bits that the comment of each CDPREP_DRAW_ bit names; for pieces: CDPREP_ASK_PIECES,
- * CDPREP_ASK_CORNERS */
+ * Needs: what each CDPREP_DRAW_ bit needs; for pieces: CDPREP_ASK_PIECES, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_model_draw(const cdprep_model* model, const cdprep_pose* world_from_model,
                                  const cdprep_draw* draw, cdprep_error* error);
 
