@@ -6,12 +6,17 @@
 // oriented boxes and spheres (OBBRSS) inside. The numbers of pairs found are printed: they must
 // agree.
 //
-// Usage: scene_bench BODIES FRAMES MODEL...
+// Usage: scene_bench BODIES FRAMES MODEL... [all MODEL...]
 // Models are bakes with --effects collide,within,distance, normalised to a diagonal of 1. Body i is
-// of model i mod the number of models.
+// of model i mod the number of models. Models behind `all` are the same meshes baked with
+// everything: `cdprep_all` shows what the other sections cost a scene that does not ask for them.
 //
 // Prints a CSV table: milliseconds of the thread's time for each frame, poses included, and for
-// each candidate microseconds. `times` is relative to ours.
+// each candidate microseconds. `times` is relative to ours. Contenders take turns at each frame.
+// Pairs found must be equal, or the program stops.
+//
+// A line follows about candidates that do not touch, each asked alone: how many their root boxes
+// rule out, and the median time of all and of the others.
 //
 // A second table is of the bodies as they are at first: which pairs are within a distance (0.5 % of
 // the scene's size, and the tolerance above), and how far apart those are. Each contender begins
@@ -173,39 +178,45 @@ private:
 };
 #endif
 
-void compare(const std::vector<Model>& models, std::size_t bodies, int frames,
-             const LayerPair& pair) {
+/// `whole` are the models baked with everything, or empty.
+void compare(const std::vector<Model>& models, const std::vector<Model>& whole, std::size_t bodies,
+             int frames, const LayerPair& pair) {
     Bodies start(bodies, 1);
     std::vector<std::pair<const char*, std::unique_ptr<Contender>>> contenders;
     contenders.emplace_back("cdprep", std::make_unique<Ours>(models, start.poses(), pair));
+    if (!whole.empty()) {
+        contenders.emplace_back("cdprep_all", std::make_unique<Ours>(whole, start.poses(), pair));
+    }
 #ifdef CDPREP_HAVE_FCL
     if (pair.effects == Ask::collide) {
         contenders.emplace_back("fcl_obbrss", std::make_unique<Fcl>(models, start.poses()));
     }
 #endif
-    std::vector<double> ours;
-    for (auto& [name, contender] : contenders) {
-        Bodies moving(bodies, 1);
-        std::vector<double> ms;
-        std::size_t pairs = 0;
-        constexpr int kWarm = 3;
-        for (int frame = -kWarm; frame < frames; ++frame) {
-            moving.step();
+    Bodies moving(bodies, 1);
+    std::vector<std::vector<double>> ms(contenders.size());
+    std::vector<std::size_t> pairs(contenders.size());
+    constexpr int kWarm = 3;
+    for (int frame = -kWarm; frame < frames; ++frame) {
+        moving.step();
+        for (std::size_t i = 0; i < contenders.size(); ++i) {
             const double begun = thread_us();
-            pairs = contender->frame(moving.poses());
-            if (frame >= 0) ms.push_back((thread_us() - begun) / 1000);
+            pairs[i] = contenders[i].second->frame(moving.poses());
+            if (frame >= 0) ms[i].push_back((thread_us() - begun) / 1000);
+            if (pairs[i] != pairs[0])
+                stop(std::string(contenders[i].first) + " finds other pairs.");
         }
-        if (ours.empty()) ours = ms;
-        const double middle = median(ms);
-        const auto candidates = static_cast<double>(contenders[0].second->candidates());
-        std::printf("%s,%s,%zu,%.0f,%zu,%.3f,%.3f,%.3f,%.2f\n", find_needs(pair.effects)->name,
-                    name, bodies, candidates, pairs, middle, median(ms, 0.95),
-                    1000 * middle / candidates, middle / median(ours));
-        std::fflush(stdout);
     }
+    const auto candidates = static_cast<double>(contenders[0].second->candidates());
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+        const double middle = median(ms[i]);
+        std::printf("%s,%s,%zu,%.0f,%zu,%.3f,%.3f,%.3f,%.3f\n", find_needs(pair.effects)->name,
+                    contenders[i].first, bodies, candidates, pairs[i], middle, median(ms[i], 0.95),
+                    1000 * middle / candidates, middle / median(ms[0]));
+    }
+    std::fflush(stdout);
 }
 
-// --- Clashes: a scene without motion -------------------------------------------------------
+// --- A scene without motion ----------------------------------------------------------------
 
 constexpr double kShareOfScene = 0.005;
 
@@ -238,9 +249,9 @@ double diagonal(const std::vector<Model>& models, const std::vector<Pose>& poses
     return std::hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]);
 }
 
-/// As `cdprep query within --scene` and `query distance --scene` do it.
-template <class Near>
-Clashes our_clashes(const Still& still, const Near& is_near) {
+/// Calls visit(bodies, whether their root boxes may meet, the pair) for all pairs whose boxes meet.
+template <class Visit>
+void visit_candidates(const Still& still, const Visit& visit) {
     std::vector<RootBox> roots;
     std::vector<WorldBox> boxes;
     for (std::size_t i = 0; i < still.poses.size(); ++i) {
@@ -251,16 +262,46 @@ Clashes our_clashes(const Still& still, const Near& is_near) {
     BroadPhase broad_phase({.boxes = count, .pairs = 64 * count});
     const BroadPhaseUpdate update = broad_phase.update(boxes);
     if (!update.complete) stop("There is too little room for pairs.");
-    Clashes clashes;
     for (const BoxPair& pair : update.pairs) {
-        if (!may_meet(roots[pair.a], roots[pair.b])) continue;
-        ++clashes.asked;
-        if (is_near(Pair{still.model(pair.a), still.model(pair.b),
-                         Placement::world(still.poses[pair.a], still.poses[pair.b])})) {
-            clashes.found.push_back(pair);
-        }
+        visit(pair, roots[pair.a], roots[pair.b],
+              Pair{still.model(pair.a), still.model(pair.b),
+                   Placement::world(still.poses[pair.a], still.poses[pair.b])});
     }
+}
+
+/// As `cdprep query within --scene` and `query distance --scene` do it.
+template <class Near>
+Clashes our_clashes(const Still& still, const Near& is_near) {
+    Clashes clashes;
+    visit_candidates(
+        still, [&](const BoxPair& bodies, const RootBox& a, const RootBox& b, const Pair& pair) {
+            if (!may_meet(a, b)) return;
+            ++clashes.asked;
+            if (is_near(pair)) clashes.found.push_back(bodies);
+        });
     return clashes;
+}
+
+/// Times candidates that do not touch, each alone.
+void time_misses(const Still& still) {
+    constexpr int kRepeats = 32;
+    Workspace workspace;
+    std::vector<double> all, asked;
+    visit_candidates(still,
+                     [&](const BoxPair&, const RootBox& a, const RootBox& b, const Pair& pair) {
+                         if (collide(pair, workspace).hit == Answer::yes) return;
+                         std::size_t queries = 0;
+                         const double begun = thread_us();
+                         for (int i = 0; i < kRepeats; ++i) {
+                             if (!may_meet(a, b)) continue;
+                             ++queries;
+                             static_cast<void>(collide(pair, workspace));
+                         }
+                         all.push_back((thread_us() - begun) / kRepeats);
+                         if (queries > 0) asked.push_back(all.back());
+                     });
+    std::printf("\nmisses %zu, apart by root boxes %zu; median us: all %.3f, the others %.3f\n",
+                all.size(), all.size() - asked.size(), median(all), median(asked));
 }
 
 #ifdef CDPREP_HAVE_FCL
@@ -368,16 +409,24 @@ void compare_clashes(const Still& still, int rounds) {
 }
 
 void run(std::size_t bodies, int frames, const std::vector<std::string>& paths) {
-    std::vector<Model> models;
-    for (const std::string& path : paths) models.push_back(open_or_stop(path));
+    std::vector<Model> models, whole;
+    bool is_whole = false;
+    for (const std::string& path : paths) {
+        if (path == "all") {
+            is_whole = true;
+        } else {
+            (is_whole ? whole : models).push_back(open_or_stop(path));
+        }
+    }
     std::printf("effect,contender,bodies,candidates,found,ms,ms_95,us_candidate,times\n");
-    compare(models, bodies, frames, {.effects = Ask::collide});
-    compare(models, bodies, frames, {.effects = Ask::within, .tolerance = kTolerance});
-    compare(models, bodies, frames, {.effects = Ask::distance, .max_distance = kTolerance});
+    compare(models, whole, bodies, frames, {.effects = Ask::collide});
+    compare(models, whole, bodies, frames, {.effects = Ask::within, .tolerance = kTolerance});
+    compare(models, whole, bodies, frames, {.effects = Ask::distance, .max_distance = kTolerance});
+    const Bodies still(bodies, 1);
+    time_misses({models, still.poses(), 0});
     std::printf(
         "\ntolerance,contender,bodies,asked,found,ms,ms_95,us_pair,times_within,"
         "times_distance\n");
-    const Bodies still(bodies, 1);
     for (const double tolerance : {kShareOfScene * diagonal(models, still.poses()), kTolerance}) {
         compare_clashes({models, still.poses(), tolerance}, std::max(3, frames / 8));
     }
@@ -387,7 +436,7 @@ void run(std::size_t bodies, int frames, const std::vector<std::string>& paths) 
 }  // namespace cdprep
 
 int main(int count, char** arguments) {
-    if (count < 4) cdprep::stop("Usage: scene_bench BODIES FRAMES MODEL...");
+    if (count < 4) cdprep::stop("Usage: scene_bench BODIES FRAMES MODEL... [all MODEL...]");
     cdprep::run(std::strtoull(arguments[1], nullptr, 10), std::atoi(arguments[2]),
                 {arguments + 3, arguments + count});
 }
