@@ -9,6 +9,7 @@
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
+#include "support/scene_plans.h"
 
 namespace cdprep {
 namespace {
@@ -46,6 +47,31 @@ TEST(SceneMemory, NothingIsAllocatedAfterConstruction) {
     }
     EXPECT_EQ(test::most, before);
     EXPECT_GT(events, 100U);
+}
+
+// No set of effects allocates, of surfaces or of solids.
+TEST(SceneMemory, NothingIsAllocatedByAnyPlan) {
+    const test::TestMesh mesh = test::icosphere(1);
+    const test::OpenModel ball = test::open_tiny(
+        test::with_contacts(test::with_one_piece(test::bake_tiny(mesh.positions, mesh.triangles))));
+    std::vector<Workspace> workspaces(1);
+    int plans = 0;
+    test::for_each_plan([&](const Plan& plan) {
+        Scene scene(plan);
+        std::mt19937 random(5);
+        std::vector<ObjectId> objects;
+        for (int i = 0; i < 5; ++i) objects.push_back(*scene.add({&ball.model, 0, Pose()}));
+        const std::size_t before = test::most = test::used;
+        for (int step = 0; step < 2; ++step) {
+            for (const ObjectId object : objects) {
+                static_cast<void>(scene.set_pose(object, test::random_pose(random, 3)));
+            }
+            if (!scene.step(workspaces).complete) FAIL();
+        }
+        ASSERT_EQ(test::most, before) << plan.describe();
+        ++plans;
+    });
+    EXPECT_GT(plans, 300);
 }
 
 TEST(SceneMemory, NothingIsAllocatedForMotions) {

@@ -11,6 +11,7 @@
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 #include "support/rounds.h"
+#include "support/scene_plans.h"
 
 namespace cdprep {
 namespace {
@@ -46,35 +47,12 @@ std::uint64_t hash_of_steps(const Plan& plan, const Model& model, int steps) {
     return hash;
 }
 
-/// Calls `visit` with a plan for each set of effects, of surfaces and of solids.
-template <class Visit>
-void for_each_plan(const Visit& visit) {
-    for (std::uint32_t set = 1; set < 1U << kSceneEffects.size(); ++set) {
-        LayerPair pair;
-        for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
-            if ((set >> i & 1) != 0) pair.effects = pair.effects | kSceneEffects[i];
-        }
-        if (contains(pair.effects, Ask::within)) pair.tolerance = 0.1;
-        if ((pair.effects & (Ask::distance | Ask::haptic)) != Ask::nothing) pair.max_distance = 0.5;
-        if (contains(pair.effects, Ask::haptic)) pair.work = 300;
-        if (contains(pair.effects, Ask::continuous)) pair.impact.tolerance = 0.05;
-        for (const Body body : {Body::surface, Body::solid}) {
-            pair.body = body;
-            const std::vector<LayerPair> pairs = {pair};
-            const auto compiled = Plan::compile(
-                {.pairs = pairs,
-                 .limits = {.objects = 8, .pairs = 40, .triangle_pairs = 30000, .contacts = 600}});
-            if (compiled.plan) visit(*compiled.plan);
-        }
-    }
-}
-
 // A scene reads no section that its plan does not name: all others are closed to every access.
 TEST(ScenePages, EachPlanReadsOnlyWhatItNeeds) {
     const AlignedBytes file = whole_file(test::icosphere(1));
     const test::OpenModel whole = test::open_tiny(AlignedBytes(file.span()));
     int plans = 0;
-    for_each_plan([&](const Plan& plan) {
+    test::for_each_plan([&](const Plan& plan) {
         const format::SectionSet wanted = sections_for(plan.asks_of(0));
         const test::GuardedPages pages(file.span(), wanted);
         EXPECT_GE(pages.guarded(), 3);
