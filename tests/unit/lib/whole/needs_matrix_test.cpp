@@ -223,7 +223,7 @@ std::vector<std::uint32_t> builds() {
 TEST_F(NeedsMatrix, EveryBuildGivesTheAnswerOfAWholeBakeOrRefuses) {
     const TestMesh outer = cube_of(0, 1), inner = cube_of(0.375, 0.25);
     const std::vector<std::uint32_t> all = builds();
-    EXPECT_EQ(all.size(), 1u + 10u * 11u / 2u);
+    EXPECT_EQ(all.size(), 1u + 15u * 16u / 2u);
     Counts counts;
     for (const std::uint32_t ask : all) {
         cdprep_build_options a = build_options_of(outer), b = build_options_of(inner);

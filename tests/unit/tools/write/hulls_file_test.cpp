@@ -176,7 +176,9 @@ TEST(HullsFile, SmallHullsMayBeStoredLarger) {
     options.stores_hulls_large = false;
     options.hulls_node = "colliders";
     ASSERT_TRUE(write_hulls(path, HullsFormat::glb, small, options).ok());
-    for (const auto& node : document_of(test::content_of(path.string()))["nodes"]) {
+    const nlohmann::json document = document_of(test::content_of(path.string()));
+    ASSERT_FALSE(document["nodes"].empty());
+    for (const auto& node : document["nodes"]) {
         EXPECT_FALSE(node.contains("scale"));
     }
 }
