@@ -179,8 +179,8 @@ struct ContactsVerdict {
 ///
 /// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
 /// are the corners of one face, clipped by the other. ManifoldPoint::distance is the distance of
-/// the two faces there, along the normal. The clipping face may be up to 0.03 radians from
-/// perpendicular to the normal. This happens where edges of nearly parallel faces cross. The
+/// the two faces there, along the normal. The normal of the clipping face may deviate from that of
+/// the contact by up to 0.03 radians. This happens where edges of nearly parallel faces cross. The
 /// deepest point is first, then those that span the largest area.
 ///
 /// The answer is the same on every processor. With Body::surface, a piece inside another's hull

@@ -49,9 +49,9 @@ struct LiveTriangle {
 /// order have no triangle. model().triangle_count() counts places, but is 0 without triangles. The
 /// mesh() and source() views have an element for each place.
 ///
-/// A scene finds changes itself if the object's layer has Ask::deform or Ask::tear. Otherwise call
-/// set_pose() for each object of the model after a change. Caches stay valid: after a change,
-/// queries ignore the gaps proven before it.
+/// A scene finds changes itself if a LayerPair of the object's layer has Ask::deform or
+/// Ask::tear. Otherwise call set_pose() for each object of the model after a change. Caches stay
+/// valid: after a change, queries ignore the gaps proven before it.
 ///
 /// Move-only; a move leaves the model's bytes in place. A live model that was moved from may only
 /// be destroyed or assigned to. Const members, and queries about model(), may run on any number of
@@ -139,8 +139,8 @@ public:
     /// length. Numbers in `vertices` must be less than position_count() or, in a model that can
     /// tear, LiveLimits::vertices.
     ///
-    /// Takes O(m log n) time for m triangles at these vertices, and looks at a bit for each leaf.
-    /// Takes O(n) in three cases:
+    /// Takes O(m log n) time for m triangles at these vertices, of n in all. Also reads one bit per
+    /// leaf. Takes O(n) in three cases:
     /// - A vertex leaves the frame of the boxes, a cube that was at least twice the model's size
     ///   when chosen.
     /// - The model has become much smaller than this cube.

@@ -31,8 +31,9 @@ struct ObjectId {
 };
 
 /// An object to add. The model must outlive the object, and serve Plan::asks_of(layer). The next
-/// step finds a change of a LiveModel if the object's layer has Ask::deform or Ask::tear. In other
-/// layers, call set_pose() for each object of the model after a change, even with the same pose.
+/// step finds a change of a LiveModel if a LayerPair with `layer` has Ask::deform or Ask::tear. In
+/// other layers, call set_pose() for each object of the model after a change, even with the same
+/// pose.
 struct SceneObject {
     const Model* model = nullptr;
     std::uint32_t layer = 0;

@@ -33,7 +33,7 @@ public:
     /// the workspace serves the same queries as Workspace().
     [[nodiscard]] CDPREP_API static std::optional<Workspace> in_memory(
         std::span<std::byte> memory, const CellSearches* cells = nullptr) noexcept;
-    /// Returns the number of bytes that a workspace needs in in_memory().
+    /// Returns the least size of the memory for in_memory(), in bytes.
     [[nodiscard]] CDPREP_API static std::size_t size(const CellSearches* cells = nullptr) noexcept;
     [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two
 

@@ -25,8 +25,8 @@ struct FeatureHull {
     std::span<const format::PieceAdjacency> adjacency;  ///< per facet
 };
 
-/// A feature of a hull's surface. A face is a maximal set of coplanar facets; an edge separates two
-/// faces.
+/// A feature of a hull's surface. A face is a maximal set of coplanar facets. An edge separates two
+/// faces, or is a whole segment.
 struct HullFeature {
     FeatureKind kind;
     /// For a vertex, the number of its point. For a face, the number of its first facet. For an

@@ -31,7 +31,7 @@ struct ConvexPoints {
     /// the exact hull, including the diagonals between coplanar facets. A point that is farther
     /// along a direction than all its neighbours must be the farthest of all points.
     std::span<const std::uint32_t> neighbours;
-    /// For each direction_cell(), a point that is far along the directions in that cell; or empty.
+    /// Empty, or for each direction_cell() the number of a point that is far along its directions.
     /// Any point gives the correct result. A point near the farthest one saves steps.
     std::span<const std::uint32_t> starts;
     /// An alternative to `blocks`, for hulls of few points without neighbours. Point i is
@@ -61,9 +61,10 @@ inline constexpr std::uint32_t kDirectionStarts = 6 * kDirectionCells * kDirecti
 /// Returns the number of the cell that a direction hits, less than kDirectionStarts. The cells
 /// divide the faces of a cube around the origin. They are numbered face by face (+x, -x, +y, -y,
 /// +z, -z), and within a face row by row. On the faces +x and -x, the cells of a row are in
-/// ascending order of y. The rows are in ascending order of z. The other faces are numbered
-/// likewise, with the axes in cyclic order. The coordinate of largest magnitude selects the face;
-/// of several, the first does. The direction must be finite. The zero vector has a cell too.
+/// ascending order of y. The rows are in ascending order of z. The cells of the other faces are
+/// numbered likewise, with the axes in cyclic order. The coordinate of largest magnitude selects
+/// the face; of several, the first does. The direction must be finite. The zero vector has a cell
+/// too.
 [[nodiscard]] CDPREP_API std::uint32_t direction_cell(const Double3& direction) noexcept;
 
 }  // namespace cdprep

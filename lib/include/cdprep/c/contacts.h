@@ -147,8 +147,8 @@ CDPREP_API int cdprep_hull_find(const cdprep_model* model, uint32_t scope, uint3
 CDPREP_API int cdprep_hull_mesh(const cdprep_hull* hull, cdprep_mesh* mesh, cdprep_error* error);
 
 /* The result of the last query on one pair of hulls. The next query starts there. A zero-filled
- * struct is a new cache; any content is safe. A cache never changes a yes or a no. Among equally
- * near points, it may change which ones are found. */
+ * struct is a new cache; any content is safe. A cache never changes whether hulls collide or are
+ * within a distance. Among equally near points, it may change which ones are found. */
 typedef struct cdprep_hull_cache {
     uint64_t words[8];
 } cdprep_hull_cache;

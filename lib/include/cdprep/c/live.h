@@ -12,8 +12,9 @@ extern "C" {
 
 /* A live model. It is queried through cdprep_live_model(). While one call changes it, other calls
  * of this header that use it fail with CDPREP_WHY_BUSY. During a change, no query about its model
- * may run: this is not checked. A scene finds changes if the layers ask for CDPREP_ASK_DEFORM or
- * _TEAR. Otherwise, after a change, set the pose of each object that uses the model. */
+ * may run: this is not checked. A scene finds changes if pairs of the object's layer have
+ * CDPREP_ASK_DEFORM or _TEAR. Otherwise, after a change, set the pose of each object that uses the
+ * model. */
 typedef struct cdprep_live cdprep_live;
 
 typedef struct cdprep_live_options {
@@ -48,10 +49,11 @@ CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size
  * - CDPREP_WHY_NULL: no base.
  * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: the base does not serve CDPREP_ASK_OVERLAP and
  *   CDPREP_ASK_CORNERS.
- * - CDPREP_WHY_OUT_OF_RANGE, in four cases: max_triangles or max_vertices is too large, or less
- *   than the base has. The base has vertices that a repair made, or two vertices or triangles with
- *   the same number. The base is the model of a live model with max_triangles. `memory` is not
- *   aligned.
+ * - CDPREP_WHY_OUT_OF_RANGE: max_triangles or max_vertices is too large, or less than the base has.
+ * - CDPREP_WHY_OUT_OF_RANGE: the base has vertices that a repair made, or equal numbers for two
+ *   vertices or two triangles.
+ * - CDPREP_WHY_OUT_OF_RANGE: the base is the model of a live model made with max_triangles.
+ * - CDPREP_WHY_OUT_OF_RANGE: `memory` is not aligned.
  * - CDPREP_WHY_NO_MEANING: max_vertices without max_triangles, or an allocator in addition to
  *   memory.
  * - CDPREP_WHY_TOO_SMALL: `size` is less than the size from cdprep_live_size().

@@ -73,7 +73,7 @@ typedef struct cdprep_pair {
     cdprep_head head;
     const cdprep_model* a;
     const cdprep_model* b;
-    /* Null; used only if `through` is CDPREP_THROUGH_BVH, or with a front. */
+    /* Null; used through CDPREP_THROUGH_BVH, or together with a front. */
     cdprep_cache* cache;
     uint32_t moving;            /* CDPREP_MOVE_B */
     uint32_t body;              /* CDPREP_SURFACE */

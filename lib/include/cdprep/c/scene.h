@@ -335,8 +335,8 @@ typedef struct cdprep_scene_impact {
     cdprep_impact impact; /* times from 0 to 1; points are in the world */
 } cdprep_scene_impact;
 
-/* The distance of two objects that are not proven to be farther apart than max_distance: a.slot <
- * b.slot. */
+/* The distance of two objects for CDPREP_ASK_HAPTIC: a.slot < b.slot. Objects that are proven to be
+ * farther apart than max_distance are left out. */
 typedef struct cdprep_scene_bounded {
     cdprep_object a, b;
     uint32_t layer_pair;
