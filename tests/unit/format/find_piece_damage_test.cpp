@@ -79,7 +79,9 @@ void expect(DamageKind kind, SectionId section, Change change) {
     ASSERT_TRUE(damage) << section_name(section);
     EXPECT_EQ(damage->kind, kind) << section_name(damage->section);
     EXPECT_EQ(damage->section, section);
-    if (kind == DamageKind::bad_index) EXPECT_GT(damage->found, damage->limit);
+    if (kind == DamageKind::bad_index) {
+        EXPECT_GT(damage->found, damage->limit);
+    }
 }
 
 TEST(FindPieceDamage, AcceptsSoundPieces) {

@@ -41,7 +41,9 @@ void expect(DamageKind kind, SectionId id, std::size_t index, Change change) {
     ASSERT_TRUE(damage) << section_name(id);
     EXPECT_EQ(damage->kind, kind) << section_name(damage->section);
     EXPECT_EQ(damage->section, id);
-    if (kind == DamageKind::bad_index) EXPECT_GT(damage->found, damage->limit);
+    if (kind == DamageKind::bad_index) {
+        EXPECT_GT(damage->found, damage->limit);
+    }
 }
 
 TEST(FindPieceTreeDamage, AcceptsASoundHierarchy) {
