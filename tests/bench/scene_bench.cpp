@@ -15,8 +15,8 @@
 // each candidate microseconds. `times` is relative to ours. Contenders take turns at each frame.
 // Pairs found must be equal, or the program stops.
 //
-// A line follows about candidates that do not touch, each asked alone: how many their root boxes
-// rule out, and the median time of all and of the others.
+// A line follows about candidates that do not touch, each asked alone. It states how many of them
+// their root boxes rule out, and the median time of all and of the others.
 //
 // A second table is of the bodies as they are at first: which pairs are within a distance (0.5 % of
 // the scene's size, and the tolerance above), and how far apart those are. Each contender begins
@@ -202,8 +202,9 @@ void compare(const std::vector<Model>& models, const std::vector<Model>& whole, 
             const double begun = thread_us();
             pairs[i] = contenders[i].second->frame(moving.poses());
             if (frame >= 0) ms[i].push_back((thread_us() - begun) / 1000);
-            if (pairs[i] != pairs[0])
+            if (pairs[i] != pairs[0]) {
                 stop(std::string(contenders[i].first) + " finds other pairs.");
+            }
         }
     }
     const auto candidates = static_cast<double>(contenders[0].second->candidates());

@@ -28,7 +28,7 @@ RECORD = ROOT / "tests/data/recorded_outputs.txt"
 UNSTABLE = re.compile(r"_s(_|$)|_[mn]s$|seconds|time|machine|self_check|version|touched_bytes|"
                       "stages|dominated|next_digit|checks|errata|explained")
 TIME = re.compile(rb" *\b[0-9.e-]+ [mu]?s\b")
-SUM = re.compile(rb" *the rows add up to [0-9.]+ % of it")  # told of frames that are long enough
+SUM = re.compile(rb" *the rows add up to [0-9.]+ % of it")  # printed of frames of more than 10 us
 PASSED = re.compile(rb", \d+ s(, \d+ %)?$")  # behind a step that takes a second
 
 SHIFTED = "1 0 0 0 1 0 0 0 1 {} {} {}"

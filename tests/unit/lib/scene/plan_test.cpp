@@ -143,8 +143,8 @@ Sentences refusals_of(const LayerPair& pair) {
     return sentences;
 }
 
-// All sets of the ten effects that a scene knows and of the two that it refuses, of one layer and
-// of two, of surfaces and solids.
+// All sets of the ten effects that a scene knows and of the two that it refuses. Each is asked for
+// one layer and for two, of surfaces and of solids.
 TEST(Plan, DecidesEverySetOfEffects) {
     constexpr std::array kKnown = {Ask::collide,  Ask::overlap,    Ask::within,   Ask::distance,
                                    Ask::contacts, Ask::continuous, Ask::self,     Ask::haptic,
