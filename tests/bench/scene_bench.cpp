@@ -16,7 +16,9 @@
 // Pairs found must be equal, or the program stops.
 //
 // A line follows about candidates that do not touch, each asked alone. It states how many of them
-// their root boxes rule out, and the median time of all and of the others.
+// their root boxes rule out, and the median time of all and of the others. Where models behind
+// `all` have hulls, a second line states how many of the others their hulls rule out, and in what
+// time.
 //
 // A second table is of the bodies as they are at first: which pairs are within a distance (0.5 % of
 // the scene's size, and the tolerance above), and how far apart those are. Each contender begins
@@ -35,7 +37,9 @@
 #include <vector>
 
 #include "bench_input.h"
+#include "cdprep/advanced/convex_distance.h"
 #include "cdprep/advanced/object_box.h"
+#include "cdprep/hulls.h"
 #include "cdprep/scene.h"
 
 #ifdef CDPREP_HAVE_FCL
@@ -283,26 +287,63 @@ Clashes our_clashes(const Still& still, const Near& is_near) {
     return clashes;
 }
 
-/// Times candidates that do not touch, each alone.
+/// Times what decides candidates that do not touch, each alone.
+struct Misses {
+    std::vector<double> all;    ///< root boxes, then the walk of those that they leave
+    std::vector<double> asked;  ///< those that root boxes leave
+    std::vector<double> hulls;  ///< the hulls of the same, each from the simplex of the last query
+    std::size_t apart = 0;      ///< of these, pairs of hulls that do not touch
+    double walks = 0;           ///< sum of what hulls were asked of, by the walk alone
+    double hulls_first = 0;     ///< sum by hulls, and by the walk where hulls touch
+};
+
+constexpr int kRepeats = 32;
+
+/// Returns microseconds of one call.
+template <class Query>
+double time_repeated(const Query& query) {
+    const double begun = thread_us();
+    for (int i = 0; i < kRepeats; ++i) query();
+    return (thread_us() - begun) / kRepeats;
+}
+
+/// Asks the hulls of a pair, if both models have one. A walk takes `walk` microseconds.
+void time_hulls(const Pair& pair, double walk, Misses& misses) {
+    const auto a = find_hull(pair.a, format::HullScope::whole);
+    const auto b = find_hull(pair.b, format::HullScope::whole);
+    if (!a || !b) return;
+    const ConvexPoints points_a = convex_points(pair.a, *a), points_b = convex_points(pair.b, *b);
+    ConvexCache cache;
+    bool touch = convex_collide(points_a, points_b, pair.placement, &cache);
+    const double hulls =
+        time_repeated([&] { touch = convex_collide(points_a, points_b, pair.placement, &cache); });
+    misses.hulls.push_back(hulls);
+    misses.apart += touch ? 0 : 1;
+    misses.walks += walk;
+    misses.hulls_first += hulls + (touch ? walk : 0);
+}
+
 void time_misses(const Still& still) {
-    constexpr int kRepeats = 32;
     Workspace workspace;
-    std::vector<double> all, asked;
+    Misses misses;
     visit_candidates(still,
                      [&](const BoxPair&, const RootBox& a, const RootBox& b, const Pair& pair) {
                          if (collide(pair, workspace).hit == Answer::yes) return;
-                         std::size_t queries = 0;
-                         const double begun = thread_us();
-                         for (int i = 0; i < kRepeats; ++i) {
-                             if (!may_meet(a, b)) continue;
-                             ++queries;
-                             static_cast<void>(collide(pair, workspace));
-                         }
-                         all.push_back((thread_us() - begun) / kRepeats);
-                         if (queries > 0) asked.push_back(all.back());
+                         misses.all.push_back(time_repeated([&] {
+                             if (may_meet(a, b)) static_cast<void>(collide(pair, workspace));
+                         }));
+                         if (!may_meet(a, b)) return;
+                         misses.asked.push_back(misses.all.back());
+                         time_hulls(pair, misses.asked.back(), misses);
                      });
     std::printf("\nmisses %zu, apart by root boxes %zu; median us: all %.3f, the others %.3f\n",
-                all.size(), all.size() - asked.size(), median(all), median(asked));
+                misses.all.size(), misses.all.size() - misses.asked.size(), median(misses.all),
+                median(misses.asked));
+    if (misses.hulls.empty()) return;
+    std::printf(
+        "hulls of the others: %zu of %zu apart, median us %.3f; hulls first take %.2f of the "
+        "walks' time\n",
+        misses.apart, misses.hulls.size(), median(misses.hulls), misses.hulls_first / misses.walks);
 }
 
 #ifdef CDPREP_HAVE_FCL
@@ -424,7 +465,7 @@ void run(std::size_t bodies, int frames, const std::vector<std::string>& paths) 
     compare(models, whole, bodies, frames, {.effects = Ask::within, .tolerance = kTolerance});
     compare(models, whole, bodies, frames, {.effects = Ask::distance, .max_distance = kTolerance});
     const Bodies still(bodies, 1);
-    time_misses({models, still.poses(), 0});
+    time_misses({whole.empty() ? models : whole, still.poses(), 0});
     std::printf(
         "\ntolerance,contender,bodies,asked,found,ms,ms_95,us_pair,times_within,"
         "times_distance\n");
