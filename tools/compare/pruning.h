@@ -48,6 +48,21 @@ struct Pruning {
 [[nodiscard]] Pruning prune(const Model& a, const Model& b, const Pose& a_from_b, CellSearch search,
                             Workspace& workspace, std::vector<TrianglePair>& missed);
 
+/// The steps that see models as wholes, in the order of their cost. 1 if what represents the models
+/// meets, otherwise 0; shares where several poses were added up.
+struct ObjectPruning {
+    double boxes = 0;     ///< boxes along the axes of the world
+    double oriented = 0;  ///< boxes along the axes of each model
+    double hulls = 0;     ///< convex hulls; exact
+
+    ObjectPruning& operator+=(const ObjectPruning& other) noexcept;
+    /// Divides every number by `count`.
+    ObjectPruning& operator/=(double count) noexcept;
+};
+
+/// Returns those steps for one placement. Both models have the hull of the whole.
+[[nodiscard]] ObjectPruning prune_objects(const Model& a, const Model& b, const Pose& a_from_b);
+
 /// Returns the figures of some pairs of models: a row per pair and stratum. `forms` are those of
 /// the meshes, by index.
 [[nodiscard]] Table pruning_table(const std::vector<StudyMesh>& meshes,

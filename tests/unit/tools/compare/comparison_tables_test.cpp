@@ -216,6 +216,25 @@ TEST(Pruning, ACornerSearchMissesALargeTriangle) {
     EXPECT_EQ(pruning.cs_b, 1);
 }
 
+// Two balls beside each other on a diagonal: their boxes along the axes of the world meet, their
+// hulls do not. Turned, one has its own axes.
+TEST(Pruning, WholeModelsAreRuledOutByTheTighterSteps) {
+    MemoryParts parts;
+    parts.hulls = true;
+    const MemoryModel ball = make_memory_model(test::mesh_of(test::icosphere(3)), parts).value();
+    const auto steps_at = [&](const Double3& shift) {
+        return prune_objects(ball.model, ball.model,
+                             Pose::from_quaternion(1, 0.3, 0.2, 0.1, shift).value());
+    };
+    const ObjectPruning deep = steps_at({0.5, 0, 0});
+    EXPECT_EQ(deep.boxes + deep.oriented + deep.hulls, 3);
+    const ObjectPruning diagonal = steps_at({1.5, 1.5, 1.5});
+    EXPECT_EQ(diagonal.boxes, 1);
+    EXPECT_EQ(diagonal.hulls, 0);
+    const ObjectPruning far = steps_at({9, 0, 0});
+    EXPECT_EQ(far.boxes + far.oriented + far.hulls, 0);
+}
+
 TEST(Pruning, EachStepKeepsWhatOverlaps) {
     const Compared& all = compared();
     const std::vector<const ModelForms*> forms = {&all.forms[0], &all.forms[1]};
@@ -226,6 +245,13 @@ TEST(Pruning, EachStepKeepsWhatOverlaps) {
     ASSERT_EQ(table.rows.size(), strata.size());
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const auto at = [&](const char* key) { return *cell_of(table, r, key).value; };
+        // Where triangles overlap, no step about whole models says that nothing meets.
+        EXPECT_GE(at("boxes"), at("oriented"));
+        EXPECT_GE(at("oriented"), at("hulls"));
+        const std::vector<std::size_t> poses = study.poses.of(strata[r]);
+        const auto touching = std::ranges::count_if(
+            poses, [&](std::size_t pose) { return study.exact.pairs[pose] > 0; });
+        EXPECT_GE(at("hulls"), static_cast<double>(touching) / static_cast<double>(poses.size()));
         EXPECT_GE(at("all_b"), at("cluster_b"));
         EXPECT_GE(at("cluster_b"), at("slab_b"));
         EXPECT_GE(at("slab_b"), at("cs_b"));
@@ -233,7 +259,6 @@ TEST(Pruning, EachStepKeepsWhatOverlaps) {
         EXPECT_GE(at("leaf_b"), at("pcs_b"));
         EXPECT_GE(at("pcs_b"), at("cs_b"));
         EXPECT_GE(at("cs_a"), at("literal_cs_a"));
-        const std::vector<std::size_t> poses = study.poses.of(strata[r]);
         double pairs = 0;
         for (const std::size_t pose : poses) pairs += static_cast<double>(study.exact.pairs[pose]);
         EXPECT_DOUBLE_EQ(at("pairs"), pairs / static_cast<double>(poses.size())) << r;
