@@ -14,6 +14,11 @@
 namespace cdprep::scenes {
 namespace {
 
+// At most so many triangles of a model are rebuilt in a frame: then rebuilding takes about as long
+// as the refit. LiveModel::rebuild() may do nothing with fewer than 4,096.
+constexpr std::uint32_t kLeastRebuilt = 4096;
+constexpr std::uint32_t kShareRebuilt = 8;
+
 /// The nearest float; infinity for numbers beyond all floats, which a refit refuses.
 float as_float(double x) {
     constexpr double kLargest = std::numeric_limits<float>::max();
@@ -60,6 +65,7 @@ LiveLimits limits_for(const Model& base, std::size_t vertices, const Cut& cut) {
 
 void ChangeWork::add(const ChangeWork& other) noexcept {
     refits += other.refits;
+    rebuilt += other.rebuilt;
     torn += other.torn;
     parts += other.parts;
     seconds += other.seconds;
@@ -221,6 +227,7 @@ Result<ChangeWork> ChangingModel::update(std::span<const Position> positions, bo
     }
     if (const auto fitted = live_->refit(positions, parallel_for); !fitted) return fitted.error();
     work.refits = 1;
+    work.rebuilt = live_->rebuild(std::max(kLeastRebuilt, live_->triangle_count() / kShareRebuilt));
     return work;
 }
 

@@ -178,6 +178,7 @@ std::string changes_text(const RunSummary& summary) {
     std::string text = counted(changing.deform, "object deforms", "objects deform") + ", " +
                        counted(changing.tear, "tears", "tear") + ": " +
                        counted(work.refits, "refit", "refits") + ", " +
+                       counted(work.rebuilt, "triangle", "triangles") + " rebuilt, " +
                        counted(work.torn, "triangle", "triangles") + " torn into " +
                        counted(work.parts, "part", "parts") + "; the refits of a frame took " +
                        time_text(summary.table.refit_times().at(0.5)) + " (median)\n";
@@ -279,7 +280,8 @@ void add_changes(Json& json, const RunSummary& summary) {
     const scenes::ChangeWork& work = summary.table.change_work();
     json["changes"] = {{"deform", changing.deform}, {"tear", changing.tear},
                        {"missed", changing.missed}, {"refits", work.refits},
-                       {"torn", work.torn},         {"parts", work.parts}};
+                       {"rebuilt", work.rebuilt},   {"torn", work.torn},
+                       {"parts", work.parts}};
     json["refit_ms"] = times_json(summary.table.refit_times());
 }
 

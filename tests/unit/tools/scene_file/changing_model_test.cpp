@@ -120,6 +120,19 @@ TEST(ChangingModel, AnswersAsANewModel) {
     EXPECT_GT(pairs, 100u);
 }
 
+// A strong twist makes boxes large. They are built anew as far as a frame allows, and answers stay.
+TEST(ChangingModel, RebuildsWhereBoxesGrow) {
+    constexpr Twist kStrong = {.axis = 2, .angle_rad = 12, .period_s = 4};
+    Ball ball({.deform = kStrong});
+    const auto work = ball.model().set_time(1, serial_for);
+    expect_work(work, 1);
+    EXPECT_EQ(work->rebuilt, ball.mesh().triangles.size());
+    std::vector<Double3> twisted(ball.rest().size());
+    twist(kStrong, kStrong.angle(1), ball.model().rest_box(), ball.rest(), twisted);
+    EXPECT_GT(ball.expect_shape(twisted), 20u);
+    EXPECT_EQ(ball.model().set_time(1.01, serial_for)->rebuilt, 0u);
+}
+
 // Equal shapes need no refit.
 TEST(ChangingModel, StaysAsItIs) {
     Ball ball({.deform = kShear});
