@@ -26,7 +26,8 @@ struct Corner {
     std::uint64_t side;  ///< of the side to the next corner
 };
 
-/// Corners of a convex polygon, counter-clockwise as seen from the tip of `normal`.
+/// Corners of a convex polygon, counter-clockwise as seen from the tip of `normal`. It has room for
+/// many, so it is filled in place: a copy takes longer than what is done with few corners.
 struct Polygon {
     std::array<Corner, 2 * kMostOutline> corner;
     std::size_t count = 0;
@@ -47,28 +48,23 @@ struct Polygon {
     }
 };
 
-Polygon triangle_polygon(const ContactSide& side, std::uint32_t triangle,
-                         const Double3& direction) {
-    const Corners t = side.model().corners(triangle);
-    Polygon polygon;
-    polygon.normal = unit_normal(t);
+/// Puts the corners of a triangle into an empty polygon. `normal` is its front or its back.
+void add_triangle(const ContactSide& side, std::uint32_t triangle, const Corners& t,
+                  const Double3& normal, Polygon& polygon) {
     const auto& vertex = side.model().model->mesh().triangles[triangle].vertex;
     for (std::size_t k = 0; k < 3; ++k) polygon.add({t[k], side.source_vertex(vertex[k]), 0});
-    if (dot(polygon.normal, direction) < 0) {
-        polygon.normal = -polygon.normal;
-        std::swap(polygon.corner[1], polygon.corner[2]);
-    }
+    if (dot(unit_normal(t), normal) < 0) std::swap(polygon.corner[1], polygon.corner[2]);
+    polygon.normal = normal;
     polygon.name_sides();
-    return polygon;
 }
 
-/// Returns the corners of a face or, if there are too many, an even selection of them: a part of
-/// the face. `normal` may be that of its back.
-Polygon face_polygon(const ContactSide& side, std::uint32_t first, const Double3& normal) {
+/// Puts the corners of a face into an empty polygon or, if there are too many, an even selection of
+/// them: a part of the face. `normal` is its front or its back.
+void add_face(const ContactSide& side, std::uint32_t first, const Double3& normal,
+              Polygon& polygon) {
     const HullEdges edges(side.facets(), side.adjacency());
     std::size_t all = 0;
     edges.each_around_face(first, [&](const FacetPlace&) { ++all; });
-    Polygon polygon;
     polygon.normal = normal;
     const std::size_t kept = std::min(all, kMostOutline);
     std::size_t i = 0;
@@ -87,16 +83,18 @@ Polygon face_polygon(const ContactSide& side, std::uint32_t first, const Double3
                      polygon.corner.begin() + static_cast<std::ptrdiff_t>(polygon.count));
     }
     polygon.name_sides();
-    return polygon;
 }
 
-/// Returns the face that faces a direction most: a face of the hull if triangles cover it,
-/// otherwise the feature's own triangle.
-Polygon facing(const ContactSide& side, const PieceFeature& feature, const Double3& direction) {
-    const Polygon own = triangle_polygon(side, feature.triangle, direction);
+/// Puts the face that faces a direction most into an empty polygon: a face of the hull if triangles
+/// cover it, otherwise the feature's own triangle.
+void add_facing(const ContactSide& side, const PieceFeature& feature, const Double3& direction,
+                Polygon& polygon) {
+    const Corners own = side.model().corners(feature.triangle);
+    Double3 own_normal = unit_normal(own);
+    if (dot(own_normal, direction) < 0) own_normal = -own_normal;
     std::optional<std::uint32_t> best;
-    double most = dot(own.normal, direction) - 1e-12;  // prefers the whole face to its part
-    Double3 normal = own.normal;
+    double most = dot(own_normal, direction) - 1e-12;  // prefers the whole face to its part
+    Double3 normal{};
     const auto facets = side.facets();
     std::array<float, PlacedHull::kMostFacets> room;
     const std::span<const float> cosines = side.face_cosines(direction, room);
@@ -117,39 +115,43 @@ Polygon facing(const ContactSide& side, const PieceFeature& feature, const Doubl
         const double along = dot(n, direction), faces = facing(along);
         if (faces > most) most = faces, best = f, normal = along < 0 ? -n : n;
     }
-    if (!best) return own;
-    const Polygon whole = face_polygon(side, *best, normal);
-    return whole.count < 3 ? own : whole;  // flags of a damaged file may leave no outline
+    if (best) add_face(side, *best, normal, polygon);
+    if (polygon.count >= 3) return;  // flags of a damaged file may leave no outline
+    polygon.count = 0;
+    add_triangle(side, feature.triangle, own, own_normal, polygon);
 }
 
-/// Returns the part of a polygon where dot(inward, p - on) >= 0. The new side has the number
-/// `side`.
-Polygon clipped(const Polygon& polygon, const Double3& on, const Double3& inward,
-                std::uint64_t side) {
-    Polygon result;
-    result.normal = polygon.normal;
+/// Puts the part of a polygon where dot(inward, p - on) >= 0 into an empty one. The new side has
+/// the number `side`.
+void add_clipped(const Polygon& polygon, const Double3& on, const Double3& inward,
+                 std::uint64_t side, Polygon& part) {
+    part.normal = polygon.normal;
     for (std::size_t i = 0; i < polygon.count; ++i) {
         const Corner &p = polygon.corner[i], &q = polygon.next(i);
         const double at_p = dot(inward, p.at - on), at_q = dot(inward, q.at - on);
         const bool leaves = at_p >= 0 && at_q < 0;
         // Where the polygon leaves at a corner, the new side begins there.
-        if (at_p >= 0) result.add({p.at, p.id, leaves && at_p == 0 ? side : p.side});
+        if (at_p >= 0) part.add({p.at, p.id, leaves && at_p == 0 ? side : p.side});
         if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) {
             const Double3 cut = p.at + at_p / (at_p - at_q) * (q.at - p.at);
-            result.add({cut, mixed_ids(p.side, side), leaves ? side : p.side});
+            part.add({cut, mixed_ids(p.side, side), leaves ? side : p.side});
         }
     }
-    return result;
 }
 
 /// Returns the part of a polygon that is over another one, seen along a direction near the other's
-/// normal.
-Polygon over(const Polygon& base, Polygon polygon, const Double3& way) {
-    for (std::size_t i = 0; i < base.count && polygon.count > 0; ++i) {
+/// normal. It is the polygon itself, or in `room`.
+const Polygon& over(const Polygon& base, const Polygon& polygon, const Double3& way,
+                    std::array<Polygon, 2>& room) {
+    const Polygon* part = &polygon;
+    for (std::size_t i = 0; i < base.count && part->count > 0; ++i) {
         const Corner& p = base.corner[i];
-        polygon = clipped(polygon, p.at, cross(way, base.next(i).at - p.at), p.side);
+        Polygon& next = room[i % 2];
+        next.count = 0;
+        add_clipped(*part, p.at, cross(way, base.next(i).at - p.at), p.side, next);
+        part = &next;
     }
-    return polygon;
+    return *part;
 }
 
 /// Points of a contact before the choice of four.
@@ -180,7 +182,9 @@ private:
 void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature& feature_a,
                   const PieceFeature& feature_b, double tolerance, Contact& contact) noexcept {
     const Double3 n = contact.normal;
-    const Polygon of_a = facing(a, feature_a, n), of_b = facing(b, feature_b, -n);
+    Polygon of_a, of_b;
+    add_facing(a, feature_a, n, of_a);
+    add_facing(b, feature_b, -n, of_b);
     const double across_a = dot(of_a.normal, n), across_b = -dot(of_b.normal, n);
     Candidates candidates;
     const bool a_is_base = across_a >= across_b;
@@ -190,7 +194,8 @@ void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature
         // Along the contact's normal, so that no point is deeper than the contact.
         const bool leans = across < kAcross;
         const Double3 way = !leans ? base.normal : a_is_base ? n : -n;
-        const Polygon part = over(base, a_is_base ? of_b : of_a, way);
+        std::array<Polygon, 2> room;
+        const Polygon& part = over(base, a_is_base ? of_b : of_a, way, room);
         for (std::size_t i = 0; i < part.count; ++i) {
             const Corner& p = part.corner[i];
             double height = dot(base.normal, p.at - base.corner[0].at);
