@@ -95,6 +95,11 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> triangles() const noexcept {
         return triangles_;
     }
+    /// Returns the corners of a triangle as moved; `i` is its place in triangles().
+    [[nodiscard]] Corners corners_of(std::size_t i) const noexcept {
+        return i < placed_triangles_count_ ? placed_triangle_[i].at
+                                           : model_->corners(triangles_[i]);
+    }
     [[nodiscard]] std::span<const format::PieceFacet> facets() const noexcept {
         return hull_.facets;
     }

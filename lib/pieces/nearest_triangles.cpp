@@ -2,6 +2,7 @@
 #include "pieces/contact_steps.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/triangle_facts.h"
 #include "exact/triangle_distance.h"
@@ -22,12 +23,37 @@ bool is_beyond(const Box3& x, const Box3& y, double distance) {
 }
 
 Box3 box_of(const ContactSide& side) {
-    Box3 box = box_around(side.model().corners(side.triangles()[0]));
-    for (const std::uint32_t t : side.triangles()) {
-        box = around_both(box, box_around(side.model().corners(t)));
+    Box3 box = box_around(side.corners_of(0));
+    for (std::size_t i = 1; i < side.triangles().size(); ++i) {
+        box = around_both(box, box_around(side.corners_of(i)));
     }
     return box;
 }
+
+/// The direction across the gap of two triangles. Others are at least as far apart as their heights
+/// along it differ.
+class Gap {
+public:
+    explicit Gap(const TriangleDistance& nearest)
+        : from_(nearest.on_a), way_(unit(nearest.on_b - nearest.on_a)) {}
+
+    /// Returns whether a triangle of A and one of B are certainly farther apart than `distance`.
+    [[nodiscard]] bool parts(const Corners& a, const Corners& b, double distance) const {
+        double most = -std::numeric_limits<double>::infinity(), least = -most, size = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Double3 p = a[i] - from_, q = b[i] - from_;
+            most = std::max(most, dot(p, way_));
+            least = std::min(least, dot(q, way_));
+            size = std::max({size, largest_of(p), largest_of(q)});
+        }
+        // Each height is off by at most 15 u of the size.
+        return least - most - 0x1p-48 * size > distance * (1 + 0x1p-50);
+    }
+
+private:
+    Double3 from_;
+    Double3 way_;
+};
 
 }  // namespace
 
@@ -38,28 +64,36 @@ TreePair nearest_triangles(const ContactSide& a, const ContactSide& b, const Tre
                is_marked_degenerate(*side.model().model, triangle);
     };
     TreePair best = start;
-    double least =
-        triangle_distance(a.model().corners(start.a), b.model().corners(start.b), false).upper;
+    const TriangleDistance first =
+        triangle_distance(a.model().corners(start.a), b.model().corners(start.b), false);
+    double least = first.upper;
+    Gap gap(first);
     // Most triangles of a large piece are far from all of a small one.
     const bool b_is_large = b.triangles().size() > a.triangles().size();
     const ContactSide &large = b_is_large ? b : a, &small = b_is_large ? a : b;
     const Box3 around_small = box_of(small);
-    for (const std::uint32_t of_large : large.triangles()) {
-        const Corners at_large = large.model().corners(of_large);
+    for (std::size_t i = 0; i < large.triangles().size(); ++i) {
+        const std::uint32_t of_large = large.triangles()[i];
+        const Corners at_large = large.corners_of(i);
         const Box3 box = box_around(at_large);
         if (is_beyond(box, around_small, least) || is_left_out(large, of_large)) continue;
-        for (const std::uint32_t of_small : small.triangles()) {
-            const Corners at_small = small.model().corners(of_small);
+        for (std::size_t j = 0; j < small.triangles().size(); ++j) {
+            const std::uint32_t of_small = small.triangles()[j];
+            const Corners at_small = small.corners_of(j);
             if (is_beyond(box, box_around(at_small), least) || is_left_out(small, of_small)) {
                 continue;
             }
             const TreePair pair =
                 b_is_large ? TreePair{of_small, of_large} : TreePair{of_large, of_small};
-            const double upper = triangle_distance(b_is_large ? at_small : at_large,
-                                                   b_is_large ? at_large : at_small, false)
-                                     .upper;
+            const Corners &at_a = b_is_large ? at_small : at_large,
+                          &at_b = b_is_large ? at_large : at_small;
+            if (gap.parts(at_a, at_b, least)) continue;
+            const TriangleDistance found = triangle_distance(at_a, at_b, false);
             const bool is_first = pair.a != best.a ? pair.a < best.a : pair.b < best.b;
-            if (upper < least || (upper == least && is_first)) least = upper, best = pair;
+            if (found.upper > least || (found.upper == least && !is_first)) continue;
+            least = found.upper;
+            best = pair;
+            gap = Gap(found);
         }
     }
     return best;
