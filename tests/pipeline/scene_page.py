@@ -79,7 +79,7 @@ def check_events(browser, page, events):
             go(browser, frame)
             pairs = text_of(browser, "pairs")
             row = re.search(re.escape(f"{event['a']} \u2013 {event['b']}: ")
-                            + "((?:collide|within|overlap|distance|contacts|, )*)", pairs)
+                            + "((?:collide|within|overlap|distance|contacts|haptic|, )*)", pairs)
             holds.append(row is not None and event["effect"] in row[1])
         begins = event["event"] == "begins"
         must(holds == [not begins, begins], f"{event}: holds {holds}")
@@ -408,6 +408,9 @@ def main():
         must(not told, told)
         with Browser(WIDTH, HEIGHT) as browser:
             check_events(browser, page, events)
+            probe, sensed, told = simulate(program, SCENES / "probe.json", folder)
+            must(not told and len(sensed) > 20, f"the probe: {told} {len(sensed)}")
+            check_events(browser, probe, sensed)
             check_tints(browser, page, events)
             check_pushes(browser, program, folder)
             check_playback(browser, page)
