@@ -12,6 +12,7 @@ import json
 import math
 import pathlib
 import random
+import re
 import signal
 import struct
 import subprocess
@@ -501,6 +502,21 @@ def the_thousand(program, folder):
                  line["lower"] - 1e-12 <= exact <= line["upper"] + 1e-12, f"{line} is not {exact}")
 
 
+def the_progress(program, _folder):
+    """It counts pairs up to their number, the same on one thread as on two."""
+    counts = []
+    for threads in (1, 2):
+        done = run(program, "query", "within", "--scene", SCENES / "thousand.json", "--tolerance",
+                   0.25, "-j", threads, "--progress", "plain")
+        told = re.findall(r"^(\d+)/(\d+) pairs$", done.stderr, re.MULTILINE)
+        must(done.returncode == 0 and len(told) > 2, f"-j {threads}: {done.stderr}")
+        steps, totals = zip(*((int(step), int(total)) for step, total in told))
+        must(list(steps) == sorted(set(steps)) and steps[0] == 0, f"-j {threads}: {steps}")
+        must(set(totals) == {steps[-1]}, f"-j {threads}: {told}")
+        counts.append(steps[-1])
+    must(counts[0] == counts[1] > 50, f"{counts} pairs")
+
+
 def mistakes(program, folder):
     good = write_gltf(folder / "good.glb", [cube()], [{"mesh": 0}, {"mesh": 0}])
     crate = folder / "crate.cdp.h5"
@@ -586,8 +602,8 @@ def an_interrupt(program, folder):
 def main():
     program = sys.argv[1]
     for check in (the_heap, the_distant_heap, the_default_distance, the_forms, the_transforms,
-                  the_names, the_touching, the_pairs, the_crates, the_thousand, mistakes,
-                  an_interrupt):
+                  the_names, the_touching, the_pairs, the_crates, the_thousand,
+                  the_progress, mistakes, an_interrupt):
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))
 
