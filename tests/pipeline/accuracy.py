@@ -232,7 +232,7 @@ def check_refusals(folder):
             ([BOLT, folder / "missing.obj"], 3, "missing.obj"),
             ([BOLT, BRACKET, "--quick", "--ladder", "stairs"], 2, "stairs"),
             ([BOLT, BRACKET, "--quick", "--save", BOLT], 2, "the extension must be .txt"),
-            ([BOLT, BRACKET, "--quick", "-o", BOLT], 2, "is the input and would be replaced"),
+            ([BOLT, BRACKET, "--quick", "-o", BOLT], 2, "is an input or another output"),
             ([folder / "bolt.cdp.h5", BRACKET, "--normalize"], 2, "is a baked file"),
             ([BOLT, BRACKET, "--progress", "loud"], 2, "must be auto"),
             ([BOLT, BRACKET, "--quick", "--ladder", "predicates", "-o", folder / "no" / "x"], 4,

@@ -32,6 +32,11 @@ def main():
     (folder / "text.cdp.h5").write_text("not a bake " * 1000)
     (folder / "a folder").mkdir()
     (folder / "notes.xyz").write_text("1 2 3\n")
+    (folder / "link.off").symlink_to(folder / "sheet.off")
+    (folder / "same").symlink_to(folder)
+    (folder / "list").write_text(f"{folder / 'sheet.off'}\n")
+    links = [folder / "link.off", folder / "same" / "sheet.off"]
+    sheet, text_of_list = digest(folder / "sheet.off"), (folder / "list").read_text()
     (folder / "poses").write_text(IDENTITY + "\n1 0 0 0 1 0 0 0 -1 0 0 0\n")
     (folder / "words").write_text(IDENTITY + "\n1 0 0 0 1 0 0 0 x 0 0 0\n")
     (folder / "empty poses").write_text("# none\n")
@@ -148,6 +153,14 @@ def main():
         (["validate", folder / "sheet.off", "--progress", "loud"], 2, ["loud"]),
         (["validate", folder / "sheet.off", "-o", folder / "sheet.off"], 2, ["sheet.off"]),
         (["validate", folder / "sheet.off", "-o", folder / "no" / "report"], 4, ["report"]),
+        (["validate", "--files-from", folder / "list", "-o", folder / "list"], 2, ["list"]),
+        *(([*command, "-o", link], 2, [str(link), "replaced"]) for link in links for command in (
+            ["bake", folder / "sheet.off"], ["validate", folder / "sheet.off"],
+            ["hull", folder / "sheet.off"], ["repair", folder / "sheet.off"],
+            ["decompose", folder / "sheet.off"], ["compare", folder / "sheet.off", "--quick"],
+            ["accuracy", folder / "sheet.off", folder / "sheet.off", "--quick"])),
+        (["accuracy", folder / "sheet.off", folder / "sheet.off", "--quick", "-o", folder / "x.csv",
+          "--save", folder / "same" / "x.csv"], 2, ["same/x.csv", "another output"]),
         (["repair", folder / "sheet.off", "-o", folder / "sheet.off"], 2, ["sheet.off", "input"]),
         (["repair", folder / "sheet.off", "-o", folder / "x.pdf"], 2, ["x.pdf", ".ply"]),
         (["bake", folder / "sheet.off", "-o", "/dev/full"], 4, ["/dev/full", "device"]),

@@ -86,29 +86,23 @@ Result<std::string> format_of(const fs::path& path) {
                  path.string() + ": the extension must be .txt, .json, .csv, .svg or .html."};
 }
 
-/// Opens the file, so that an unwritable path fails before the work.
-Result<Output> open_output(const Arguments& arguments, const fs::path& path,
-                           const std::string& format) {
-    for (const fs::path* input : {&arguments.a, &arguments.b}) {
-        if (path.empty()) break;
-        if (auto error = find_replaced_input(*input, path)) return *error;
-    }
-    Result<ReportOutput> opened = ReportOutput::open(path);
-    if (!opened) return opened.error();
-    return Output{format, std::move(opened).value()};
-}
-
+/// Opens all files, so that an unwritable path fails before the work.
 Result<std::vector<Output>> open_outputs(const Arguments& arguments) {
-    std::vector<Output> outputs;
-    Result<Output> first = open_output(arguments, arguments.output, arguments.format);
-    if (!first) return first.error();
-    outputs.push_back(std::move(first).value());
+    std::vector<std::pair<std::string, fs::path>> wanted = {{arguments.format, arguments.output}};
     for (const fs::path& path : arguments.saves) {
         const Result<std::string> format = format_of(path);
         if (!format) return format.error();
-        Result<Output> opened = open_output(arguments, path, format.value());
+        wanted.emplace_back(format.value(), path);
+    }
+    UsedFiles used;
+    used.add_input(arguments.a);
+    used.add_input(arguments.b);
+    std::vector<Output> outputs;
+    for (const auto& [format, path] : wanted) {
+        if (const Result<Done> added = used.add_output(path); !added) return added.error();
+        Result<ReportOutput> opened = ReportOutput::open(path);
         if (!opened) return opened.error();
-        outputs.push_back(std::move(opened).value());
+        outputs.push_back({format, std::move(opened).value()});
     }
     return outputs;
 }

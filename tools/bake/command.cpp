@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <new>
-#include <set>
 
 #include "bake/pipeline.h"
 #include "cli/colliders.h"
@@ -54,8 +53,8 @@ fs::path output_for(const Arguments& arguments, const fs::path& input) {
 /// would replace an input.
 Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
     std::map<fs::path, fs::path> input_of;
-    std::set<fs::path> inputs;
-    for (const fs::path& input : arguments.inputs) inputs.insert(spelled_out(input));
+    UsedFiles used;
+    for (const fs::path& input : arguments.inputs) used.add_input(input);
     std::vector<fs::path> outputs;
     if (arguments.output == "-") {
         return Error{
@@ -65,18 +64,13 @@ Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
     }
     for (const fs::path& input : arguments.inputs) {
         const fs::path output = output_for(arguments, input);
-        const auto [at, is_new] = input_of.try_emplace(spelled_out(output), input);
+        const auto [at, is_new] = input_of.try_emplace(named_file(output), input);
         if (!is_new) {
             return Error{ErrorCode::bad_argument,
                          at->second.string() + " and " + input.string() + " would both become " +
                              output.string() + ". Bake them in two calls, into different folders."};
         }
-        if (inputs.contains(spelled_out(output))) {
-            return Error{ErrorCode::bad_argument,
-                         output.string() +
-                             " is an input and would be replaced. Choose another "
-                             "output."};
-        }
+        if (const Result<Done> added = used.add_output(output); !added) return added.error();
         outputs.push_back(output);
     }
     return outputs;

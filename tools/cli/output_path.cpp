@@ -9,8 +9,22 @@
 
 namespace cdprep::cli {
 
-std::filesystem::path spelled_out(const std::filesystem::path& path) {
-    return std::filesystem::absolute(path).lexically_normal();
+std::filesystem::path named_file(const std::filesystem::path& path) {
+    const std::filesystem::path whole = std::filesystem::absolute(path);
+    std::error_code unknown;
+    const std::filesystem::path file = std::filesystem::weakly_canonical(whole, unknown);
+    return unknown ? whole.lexically_normal() : file;
+}
+
+void UsedFiles::add_input(const std::filesystem::path& path) {
+    files_.insert(named_file(path));
+}
+
+Result<Done> UsedFiles::add_output(const std::filesystem::path& path) {
+    if (path.empty() || files_.insert(named_file(path)).second) return Done{};
+    return Error{ErrorCode::bad_argument,
+                 path.string() +
+                     " is an input or another output, and would be replaced. Choose another name."};
 }
 
 std::optional<Error> find_replaced_input(const std::filesystem::path& input,

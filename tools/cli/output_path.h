@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "cdprep/result.h"
@@ -11,8 +12,21 @@
 
 namespace cdprep::cli {
 
-/// Returns the same spelling for every way to write a path. Does not resolve links.
-[[nodiscard]] std::filesystem::path spelled_out(const std::filesystem::path& path);
+/// Returns one spelling for all paths that name the same file. Links are followed; the file need
+/// not exist.
+[[nodiscard]] std::filesystem::path named_file(const std::filesystem::path& path);
+
+/// The files that a command reads and writes.
+class UsedFiles {
+public:
+    void add_input(const std::filesystem::path& path);
+    /// Adds a file that will be written; an empty path is none. Fails with bad_argument if it is an
+    /// input or another output, however the paths are spelled.
+    [[nodiscard]] Result<Done> add_output(const std::filesystem::path& path);
+
+private:
+    std::set<std::filesystem::path> files_;
+};
 
 /// Returns an error if `output` is the same file as `input`, however the two paths are spelled.
 [[nodiscard]] std::optional<Error> find_replaced_input(const std::filesystem::path& input,

@@ -81,12 +81,10 @@ Exit failed_with(const Arguments& arguments, const Error& error) {
 Exit run(Arguments& arguments) {
     const Result<ProgressStyle> style = parse_progress(arguments.progress);
     if (!style) return fail("compare", style.error());
-    for (const fs::path& input : arguments.inputs) {
-        if (arguments.output.empty()) break;
-        if (auto error = find_replaced_input(input, arguments.output)) {
-            return fail("compare", *error);
-        }
-    }
+    UsedFiles used;
+    for (const fs::path& input : arguments.inputs) used.add_input(input);
+    const Result<Done> added = used.add_output(arguments.output);
+    if (!added) return fail("compare", added.error());
     Result<ReportOutput> output = ReportOutput::open(arguments.output);
     if (!output) return fail("compare", output.error());
 

@@ -10,7 +10,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "cli/colliders.h"
@@ -79,19 +78,15 @@ Result<std::vector<Input>> inputs_for(const ValidateArguments& arguments) {
     return inputs;
 }
 
-/// Fails if an output would replace an input, the baseline or another output.
+/// Fails if an output would replace a file that is read, or another output.
 Result<Done> check_output(const ValidateArguments& arguments, const std::vector<Input>& inputs) {
-    std::set<fs::path> taken;
-    for (const Input& input : inputs) taken.insert(spelled_out(input.path));
-    if (!arguments.baseline.empty()) taken.insert(spelled_out(arguments.baseline));
-    for (const fs::path& output : {arguments.output, arguments.html}) {
-        if (output.empty() || taken.insert(spelled_out(output)).second) continue;
-        return Error{ErrorCode::bad_argument,
-                     output.string() +
-                         " is an input, the baseline or another output and would be replaced. "
-                         "Choose another name."};
+    UsedFiles used;
+    for (const Input& input : inputs) used.add_input(input.path);
+    for (const fs::path& path : std::array<fs::path, 2>{arguments.baseline, arguments.files_from}) {
+        if (!path.empty() && path != "-") used.add_input(path);
     }
-    return Done{};
+    if (const Result<Done> added = used.add_output(arguments.output); !added) return added;
+    return used.add_output(arguments.html);
 }
 
 Result<report::Baseline> read_baseline(const fs::path& path) {

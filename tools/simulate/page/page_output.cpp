@@ -1,32 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulate/page/page_output.h"
 
-#include <algorithm>
 #include <iostream>
 #include <utility>
 
+#include "cli/output_path.h"
 #include "simulate/page/scene_chart.h"
 
 namespace cdprep::cli {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Returns whether two paths name one file, which need not exist yet.
-bool are_same_file(const fs::path& one, const fs::path& other) {
-    std::error_code unknown;
-    if (fs::equivalent(one, other, unknown)) return true;
-    const auto followed = [&](const fs::path& path) {
-        const fs::path found = fs::weakly_canonical(path, unknown);
-        return unknown ? fs::absolute(path).lexically_normal() : found;
-    };
-    return followed(one) == followed(other);
-}
-
-bool is_among(const fs::path& path, const std::vector<fs::path>& taken) {
-    return std::ranges::any_of(
-        taken, [&](const fs::path& other) { return !other.empty() && are_same_file(other, path); });
-}
 
 Result<Done> open_file(std::optional<ReportOutput>& output, const std::filesystem::path& path) {
     if (path.empty()) return Done{};
@@ -40,21 +22,17 @@ Result<Done> open_file(std::optional<ReportOutput>& output, const std::filesyste
 
 Result<Done> check_outputs(const std::vector<std::filesystem::path>& inputs,
                            const std::vector<std::filesystem::path>& outputs) {
-    std::vector<std::filesystem::path> taken = inputs;
+    UsedFiles used;
+    for (const std::filesystem::path& path : inputs) {
+        if (!path.empty()) used.add_input(path);
+    }
     for (const std::filesystem::path& path : outputs) {
-        if (path.empty()) continue;
         if (path == "-") {
             return Error{ErrorCode::bad_argument,
                          "An output is named '-'. The report alone goes to standard output, "
                          "without -o. Choose a file."};
         }
-        if (is_among(path, taken)) {
-            return Error{ErrorCode::bad_argument,
-                         path.string() +
-                             " is read or is another output, and would be replaced. Choose "
-                             "another name."};
-        }
-        taken.push_back(path);
+        if (const Result<Done> added = used.add_output(path); !added) return added;
     }
     return Done{};
 }

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+
+#include "support/scratch_folder.h"
 
 namespace cdprep::cli {
 namespace {
@@ -14,6 +18,35 @@ TEST(ReportStream, IsStandardErrorForAMeshOnStandardOutput) {
     for (const char* file : {"mesh.obj", "./-", "-.obj", ""}) {
         EXPECT_EQ(&report_stream(file), &std::cout) << file;
     }
+}
+
+// A file has many paths, of which all that follow links lead to its bytes.
+TEST(UsedFiles, RefusesAnOutputThatIsUsedByAnyPath) {
+    namespace fs = std::filesystem;
+    const test::ScratchFolder scratch;
+    const fs::path folder = scratch.path(), input = folder / "in.obj";
+    std::ofstream(input) << "v 0 0 0\n";
+    fs::create_symlink(input, folder / "link.obj");
+    fs::create_directory_symlink(folder, folder / "same");
+    const auto fails = [&](const fs::path& output) {
+        UsedFiles used;
+        used.add_input(input);
+        const Result<Done> added = used.add_output(output);
+        EXPECT_TRUE(added || added.error().code == ErrorCode::bad_argument);
+        EXPECT_TRUE(added || added.error().message.starts_with(output.string() + " is an input"));
+        return !added;
+    };
+    for (const char* path : {"in.obj", "./in.obj", "link.obj", "same/in.obj", "same/link.obj"}) {
+        EXPECT_TRUE(fails(folder / path)) << path;
+    }
+    EXPECT_TRUE(fails(fs::relative(input)));
+    for (const char* path : {"out.obj", "same/out.obj", "no/in.obj"}) {
+        EXPECT_FALSE(fails(folder / path)) << path;
+    }
+    EXPECT_FALSE(fails({}));
+    UsedFiles used;
+    EXPECT_TRUE(used.add_output(folder / "out.obj"));
+    EXPECT_FALSE(used.add_output(folder / "same/out.obj"));
 }
 
 }  // namespace
