@@ -200,15 +200,15 @@ def names(program, folder):
     for arguments in (["--record", scene], ["-o", scene], ["-o", folder / "x", "--record",
                                                            folder / "a/../x"]):
         wrong = simulate(program, scene, *arguments, code=2)
-        must("is read or is another output" in wrong.stderr, wrong.stderr)
+        must("is an input or another output" in wrong.stderr, wrong.stderr)
     must(scene.read_bytes() == before, "the scene was replaced")
     # What the scene reads is kept too, by whatever name.
     (folder / "link.html").symlink_to(folder / "crate.obj")
     for arguments in (["--html", folder / "link.html"], ["--svg", folder / "crate.obj"]):
         wrong = simulate(program, scene, *arguments, code=2)
-        must("is read or is another output" in wrong.stderr, wrong.stderr)
+        must("is an input or another output" in wrong.stderr, wrong.stderr)
     wrong = simulate(program, folder / "cloth.json", "-o", folder / "loop.pc2", code=2)
-    must("loop.pc2 is read" in wrong.stderr, wrong.stderr)
+    must("loop.pc2 is an input" in wrong.stderr, wrong.stderr)
 
 
 def an_interrupt(program, folder):
