@@ -112,12 +112,10 @@ Result<study::AccuracyStudy> study_pair(const Arguments& arguments, Progress& pr
     LoadOptions load = arguments.load;
     load.import = arguments.import.options();
     load.import.parallel_for = threads.parallel_for();
-    progress.show(0, arguments.a.filename().string() + ": read");
-    const Result<mesh::Mesh> a = load_for_study(arguments.a, load);
+    const Result<mesh::Mesh> a = load_for_study(arguments.a, load, progress);
     if (!a) return a.error();
     if (is_interrupted()) return interrupted(arguments.a);
-    progress.show(0, arguments.b.filename().string() + ": read");
-    const Result<mesh::Mesh> b = load_for_study(arguments.b, load);
+    const Result<mesh::Mesh> b = load_for_study(arguments.b, load, progress);
     if (!b) return b.error();
     if (is_interrupted()) return interrupted(arguments.b);
 
@@ -146,7 +144,8 @@ std::string written_as(const std::string& format, const report::AccuracyReport& 
 /// Writes the report to all outputs. Prints an error for each output that fails.
 Exit write(const report::AccuracyReport& report, std::vector<Output>& outputs) {
     for (Output& output : outputs) {
-        Result<Done> written = output.to.append(written_as(output.format, report));
+        const std::string text = written_as(output.format, report);
+        Result<Done> written = output.to.append(text);
         if (written) written = output.to.finish();
         if (!written) return fail("accuracy", written.error());
     }
@@ -159,9 +158,9 @@ Exit write(const report::AccuracyReport& report, std::vector<Output>& outputs) {
 Exit run(const Arguments& arguments) {
     const Result<ProgressStyle> style = parse_progress(arguments.progress);
     if (!style) return fail("accuracy", style.error());
+    Progress progress(style.value(), 100);
     Result<std::vector<Output>> outputs = open_outputs(arguments);
     if (!outputs) return fail("accuracy", outputs.error());
-    Progress progress(style.value(), 100);
     Result<study::AccuracyStudy> studied = study_pair(arguments, progress);
     progress.clear();
     report::AccuracyReport report;

@@ -20,8 +20,11 @@ bool is_baked(const std::filesystem::path& input) {
 
 }  // namespace
 
-Result<mesh::Mesh> load_for_study(const std::filesystem::path& input, const LoadOptions& options) {
-    if (!is_baked(input)) return load_mesh(input, options);
+Result<mesh::Mesh> load_for_study(const std::filesystem::path& input, const LoadOptions& options,
+                                  Progress& progress) {
+    const bool is_mesh_file = !is_baked(input);
+    progress.show(0, input.filename().string() + ": read");
+    if (is_mesh_file) return load_mesh(input, options);
     if (options.normalize || options.weld_distance > 0) {
         return Error{ErrorCode::bad_argument,
                      input.string() +
