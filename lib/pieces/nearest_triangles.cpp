@@ -30,8 +30,8 @@ Box3 box_of(const ContactSide& side) {
     return box;
 }
 
-/// The direction across the gap of two triangles. Others are at least as far apart as their heights
-/// along it differ.
+/// The direction across the gap of two triangles. The difference of two other triangles' heights
+/// along it is a lower bound of their distance.
 class Gap {
 public:
     explicit Gap(const TriangleDistance& nearest)
@@ -46,8 +46,10 @@ public:
             least = std::min(least, dot(q, way_));
             size = std::max({size, largest_of(p), largest_of(q)});
         }
-        // Each height is off by at most 15 u of the size.
-        return least - most - 0x1p-48 * size > distance * (1 + 0x1p-50);
+        // Each height is off by at most 15 u of the size. Products below the range of double round
+        // by more.
+        constexpr double kSubnormal = 0x1p-1070;
+        return least - most - 0x1p-48 * size - kSubnormal > distance * (1 + 0x1p-50);
     }
 
 private:

@@ -11,8 +11,8 @@
 // mean far above their median. Pairs are of all steps; `others` are how many more, or fewer, a peer
 // counts. FCL and ODE round boxes. Bullet's sweep and prune loses pairs where few boxes move.
 //
-// A second table has the fastest peer of each scene by its median, relative to ours, and our 95th
-// percentile relative to our median, with what is asked of both.
+// A second table has the fastest peer of each scene that loses no pair, by its median, relative to
+// ours, and our 95th percentile relative to our median, with what is asked of both.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -277,7 +277,8 @@ double mean_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// How many times as fast as the fastest peer an update shall be.
+/// How many times as fast as the fastest peer an update shall be. Less is asked where peers have
+/// little to do.
 double goal_of(test::BoxScene scene, std::size_t count) {
     if (count > 10'000) return 10;
     if (count > 1000) return 4;
@@ -290,7 +291,10 @@ void print_goal(test::BoxScene scene, std::size_t count, const std::vector<Named
     constexpr double kMostUneven = 2;
     std::size_t best = 0;
     for (std::size_t c = 1; c < all.size(); ++c) {
-        if (times[c].ms.empty()) continue;
+        constexpr double kAll = 0.999;  // but for rounding
+        if (static_cast<double>(times[c].pairs) < kAll * static_cast<double>(times[0].pairs)) {
+            continue;
+        }
         if (best == 0 || median(times[c].ms) < median(times[best].ms)) best = c;
     }
     if (best == 0) return;

@@ -15,10 +15,10 @@
 // each candidate microseconds. `times` is relative to ours. Contenders take turns at each frame.
 // Pairs found must be equal, or the program stops.
 //
-// A line follows about candidates that do not touch, each asked alone. It states how many of them
-// their root boxes rule out, and the median time of all and of the others. Where models behind
-// `all` have hulls, a second line states how many of the others their hulls rule out, and in what
-// time.
+// A line follows about candidates that do not touch, each asked alone, of the models behind `all`
+// if there are any. It states how many of them their root boxes rule out, and the median time of
+// all and of the others. Where models behind `all` have hulls, a second line states how many of the
+// others their hulls rule out, and in what time.
 //
 // A second table is of the bodies as they are at first: which pairs are within a distance (0.5 % of
 // the scene's size, and the tolerance above), and how far apart those are. Each contender begins
@@ -309,6 +309,7 @@ double time_repeated(const Query& query) {
 
 /// Asks the hulls of a pair, if both models have one. A walk takes `walk` microseconds.
 void time_hulls(const Pair& pair, double walk, Misses& misses) {
+    if (!pair.a.get().serves(Ask::hulls) || !pair.b.get().serves(Ask::hulls)) return;
     const auto a = find_hull(pair.a, format::HullScope::whole);
     const auto b = find_hull(pair.b, format::HullScope::whole);
     if (!a || !b) return;

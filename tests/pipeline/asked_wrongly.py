@@ -35,8 +35,11 @@ def main():
     (folder / "link.off").symlink_to(folder / "sheet.off")
     (folder / "same").symlink_to(folder)
     (folder / "list").write_text(f"{folder / 'sheet.off'}\n")
-    links = [folder / "link.off", folder / "same" / "sheet.off"]
-    sheet, text_of_list = digest(folder / "sheet.off"), (folder / "list").read_text()
+    links = [folder / "link.off", folder / "same" / "sheet.off", folder / "hard.off"]
+    (folder / "latest").symlink_to(folder / "new")
+    os.link(folder / "sheet.off", folder / "hard.off")
+    read = [folder / "sheet.off", folder / "list"]
+    known = [digest(path) for path in read]
     (folder / "poses").write_text(IDENTITY + "\n1 0 0 0 1 0 0 0 -1 0 0 0\n")
     (folder / "words").write_text(IDENTITY + "\n1 0 0 0 1 0 0 0 x 0 0 0\n")
     (folder / "empty poses").write_text("# none\n")
@@ -154,6 +157,11 @@ def main():
         (["validate", folder / "sheet.off", "-o", folder / "sheet.off"], 2, ["sheet.off"]),
         (["validate", folder / "sheet.off", "-o", folder / "no" / "report"], 4, ["report"]),
         (["validate", "--files-from", folder / "list", "-o", folder / "list"], 2, ["list"]),
+        (["validate", folder / "sheet.off", "-o", folder / "new", "--html", folder / "latest"], 2,
+         ["latest is an input or another output"]),
+        (["compare", ""], 3, ["cannot be"]),
+        (["accuracy", "", folder / "sheet.off"], 3, ["cannot be"]),
+        (["bake", ""], 3, ["cannot be"]),
         *(([*command, "-o", link], 2, [str(link), "replaced"]) for link in links for command in (
             ["bake", folder / "sheet.off"], ["validate", folder / "sheet.off"],
             ["hull", folder / "sheet.off"], ["repair", folder / "sheet.off"],
@@ -190,6 +198,7 @@ def main():
         must(not done.stdout, f"{arguments} fails but prints {done.stdout}")
         must(done.stderr.strip() and all(word in done.stderr for word in words),
              f"{arguments}: {done.stderr}")
+        must([digest(path) for path in read] == known, f"{arguments}: an input was changed")
         must(done.stderr.count("\n") == 1 and len(done.stderr) < 1000
              and done.stderr.rstrip()[-1] in ".?", f"{arguments}: not one sentence: {done.stderr}")
         must(digest(model) == before, f"{arguments} changed the model")

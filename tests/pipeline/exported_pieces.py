@@ -465,10 +465,10 @@ def check_asked_wrongly(program, folder):
         refused(2, option, bolt, "--parts", 3, option, word)
     refused(2, "--max-vertices", bolt, "--parts", 3, "--max-vertices", 3)
     refused(2, ".obj, .glb, .urdf", bolt, "--parts", 3, "-o", folder / "x.stl")
-    refused(2, "Choose another output", bolt, "--parts", 3, "-o", bolt)
+    refused(2, "Choose another name", bolt, "--parts", 3, "-o", bolt)
     source = folder / "robot_piece_0.obj"
     source.write_text(bolt.read_text())
-    refused(2, "Choose another output", source, "--parts", 3, "-o", folder / "robot.urdf")
+    refused(2, "Choose another name", source, "--parts", 3, "-o", folder / "robot.urdf")
     refused(3, "missing.obj", folder / "missing.obj", "--parts", 3)
     for kind in FORMATS:
         refused(4, "no folder", bolt, "--parts", 3, *LITTLE_WORK, "-o",

@@ -525,7 +525,7 @@ def check_refusals(program, folder, model):
     refused(3, "missing.cdp.h5", folder / "missing.cdp.h5", "--for", "json")
     refused(3, "Bake it first", SAMPLES / "bolt.obj", "--for", "json", "-o", folder / "x.json")
     refused(2, ".glb", model, "--for", "unity", "-o", folder / "x.fbx")
-    refused(2, "is the input", model, "--for", "json", "-o", model)
+    refused(2, "is an input", model, "--for", "json", "-o", model)
     for option, engine in (("--floating", "gazebo"), ("--no-visual", "unreal"),
                            ("--no-visual", "json"), ("--strict", "json")):
         refused(2, option, model, "--for", engine, option)

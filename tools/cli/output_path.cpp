@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/output_path.h"
 
+#include <sys/stat.h>
+
 #include <cstdio>
 #include <iostream>
 #include <system_error>
@@ -10,18 +12,26 @@
 namespace cdprep::cli {
 
 std::filesystem::path named_file(const std::filesystem::path& path) {
-    const std::filesystem::path whole = std::filesystem::absolute(path);
     std::error_code unknown;
+    const std::filesystem::path whole = std::filesystem::absolute(write::followed(path), unknown);
+    if (unknown) return path;
     const std::filesystem::path file = std::filesystem::weakly_canonical(whole, unknown);
     return unknown ? whole.lexically_normal() : file;
 }
 
+bool UsedFiles::add(const std::filesystem::path& path) {
+    struct stat known = {};
+    const bool is_there = ::stat(path.c_str(), &known) == 0;
+    const bool is_new_name = names_.insert(named_file(path)).second;
+    return (!is_there || files_.emplace(known.st_dev, known.st_ino).second) && is_new_name;
+}
+
 void UsedFiles::add_input(const std::filesystem::path& path) {
-    files_.insert(named_file(path));
+    if (!path.empty()) add(path);
 }
 
 Result<Done> UsedFiles::add_output(const std::filesystem::path& path) {
-    if (path.empty() || files_.insert(named_file(path)).second) return Done{};
+    if (path.empty() || add(path)) return Done{};
     return Error{ErrorCode::bad_argument,
                  path.string() +
                      " is an input or another output, and would be replaced. Choose another name."};
@@ -29,10 +39,10 @@ Result<Done> UsedFiles::add_output(const std::filesystem::path& path) {
 
 std::optional<Error> find_replaced_input(const std::filesystem::path& input,
                                          const std::filesystem::path& output) {
-    std::error_code unknown;  // a missing file is a different file
-    if (!std::filesystem::equivalent(input, output, unknown)) return std::nullopt;
-    return Error{ErrorCode::bad_argument,
-                 output.string() + ": is the input and would be replaced. Choose another output."};
+    UsedFiles used;
+    used.add_input(input);
+    const Result<Done> added = used.add_output(output);
+    return added ? std::nullopt : std::optional(added.error());
 }
 
 Result<write::MeshFormat> mesh_output(const std::filesystem::path& input,

@@ -1,34 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "cdprep/result.h"
 #include "write/mesh_file.h"
 
 namespace cdprep::cli {
 
-/// Returns one spelling for all paths that name the same file. Links are followed; the file need
+/// Returns one spelling for the paths that lead to a file through folders and links. The file need
 /// not exist.
 [[nodiscard]] std::filesystem::path named_file(const std::filesystem::path& path);
 
-/// The files that a command reads and writes.
+/// The files that a command reads and writes. An empty path is none.
 class UsedFiles {
 public:
     void add_input(const std::filesystem::path& path);
-    /// Adds a file that will be written; an empty path is none. Fails with bad_argument if it is an
-    /// input or another output, however the paths are spelled.
+    /// Adds a file that will be written. Fails with bad_argument if it is an input or another
+    /// output, whatever name it has there.
     [[nodiscard]] Result<Done> add_output(const std::filesystem::path& path);
 
 private:
-    std::set<std::filesystem::path> files_;
+    /// Returns false for a file that is known.
+    bool add(const std::filesystem::path& path);
+
+    std::set<std::filesystem::path> names_;
+    std::set<std::pair<std::uint64_t, std::uint64_t>> files_;  ///< device and number, if it exists
 };
 
-/// Returns an error if `output` is the same file as `input`, however the two paths are spelled.
+/// Returns the error of UsedFiles if an output is the input.
 [[nodiscard]] std::optional<Error> find_replaced_input(const std::filesystem::path& input,
                                                        const std::filesystem::path& output);
 

@@ -83,6 +83,10 @@ Exit run(Arguments& arguments) {
     if (!style) return fail("compare", style.error());
     UsedFiles used;
     for (const fs::path& input : arguments.inputs) used.add_input(input);
+    std::error_code unreadable;
+    for (const auto& entry : fs::directory_iterator(arguments.options.poses, unreadable)) {
+        used.add_input(entry.path());
+    }
     const Result<Done> added = used.add_output(arguments.output);
     if (!added) return fail("compare", added.error());
     Result<ReportOutput> output = ReportOutput::open(arguments.output);

@@ -116,6 +116,9 @@ std::size_t lost_pairs(const Model& a, const Model& b, const std::vector<Triangl
 
 constexpr const char* kLostKey = "lost";
 
+/// More than rounding moves the points of models with a diagonal of 1 that are near each other.
+constexpr double kMovedRounding = 0x1p-40;
+
 /// A column of the table about whole models, and its number.
 struct ObjectColumn {
     const char* key;
@@ -183,7 +186,13 @@ ObjectPruning prune_objects(const Model& a, const Model& b, const Pose& a_from_b
     const auto share = [](bool meets) { return meets ? 1.0 : 0.0; };
     return {.boxes = share(meet(world_box(root_a), world_box(root_b))),
             .oriented = share(may_meet(root_a, root_b)),
-            .hulls = share(convex_collide(hull_of(a), hull_of(b), Placement::b_moves(a_from_b)))};
+            .hulls = share(convex_within(hull_of(a), hull_of(b), Placement::b_moves(a_from_b),
+                                         kMovedRounding))};
+}
+
+bool keeps_models(const ObjectPruning& pruning) noexcept {
+    return std::ranges::all_of(
+        kObjectColumns, [&](const ObjectColumn& column) { return pruning.*column.member > 0; });
 }
 
 Pruning prune(const Model& a, const Model& b, const Pose& a_from_b, CellSearch search,
@@ -220,7 +229,7 @@ Pruning prune(const Model& a, const Model& b, const Pose& a_from_b, CellSearch s
 
 namespace {
 
-/// What the steps leave of a pair at some poses, as means.
+/// What the steps leave of a pair, as means of some poses.
 struct MeanPruning {
     ObjectPruning objects;
     Pruning triangles;
@@ -237,17 +246,12 @@ MeanPruning prune_at(const PairStudy& study, const std::vector<std::size_t>& pos
         const Pose& pose = study.poses.poses[number].a_from_b;
         const ObjectPruning objects = prune_objects(plain_a, plain_b, pose);
         Pruning triangles = prune(a, b, pose, CellSearch::modulus, workspace, missed);
-        // Models that a step rules out keep no triangle.
-        for (const ObjectColumn& column : kObjectColumns) {
-            if (objects.*column.member == 0) triangles.lost = triangles.pairs;
-        }
+        if (!keeps_models(objects)) triangles.lost = triangles.pairs;
         sum.objects += objects;
         sum.triangles += triangles;
     }
-    if (!poses.empty()) {
-        sum.objects /= as_double(poses.size());
-        sum.triangles /= as_double(poses.size());
-    }
+    sum.objects /= as_double(poses.size());
+    sum.triangles /= as_double(poses.size());
     return sum;
 }
 
@@ -280,7 +284,7 @@ Table pruning_table(const std::vector<StudyMesh>& meshes, const std::vector<Pair
          "In slabs: along each of 13 directions, a cluster's extent meets that of some "
          "cluster of A. CS: triangles in overlapping pairs. Literal: cells are sought "
          "at the corners of B's triangles alone, so that pairs are missed. Lost: pairs "
-         "of which a step rules out a triangle.",
+         "with a triangle that a step rules out.",
          "Hashed octrees as tuned: 6 levels, cells of fewer than 32 triangles whole; "
          "cells found by the key's last bits, as the talk has it."}};
     for (const ObjectColumn& column : kObjectColumns) {

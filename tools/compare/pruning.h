@@ -53,15 +53,19 @@ struct Pruning {
 struct ObjectPruning {
     double boxes = 0;     ///< boxes along the axes of the world
     double oriented = 0;  ///< boxes along the axes of each model
-    double hulls = 0;     ///< convex hulls; exact
+    double hulls = 0;     ///< convex hulls, which may also be apart by the rounding of moved points
 
     ObjectPruning& operator+=(const ObjectPruning& other) noexcept;
     /// Divides every number by `count`.
     ObjectPruning& operator/=(double count) noexcept;
 };
 
-/// Returns those steps for one placement. Both models have the hull of the whole.
+/// Returns those steps for one placement. Both models have the hull of the whole and a diagonal of
+/// about 1, and are near each other.
 [[nodiscard]] ObjectPruning prune_objects(const Model& a, const Model& b, const Pose& a_from_b);
+
+/// Returns whether no step rules the models out.
+[[nodiscard]] bool keeps_models(const ObjectPruning& pruning) noexcept;
 
 /// Returns the figures of some pairs of models: a row per pair and stratum. `forms` are those of
 /// the meshes, by index.

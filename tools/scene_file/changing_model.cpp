@@ -14,8 +14,8 @@
 namespace cdprep::scenes {
 namespace {
 
-// At most so many triangles of a model are rebuilt in a frame: then rebuilding takes about as long
-// as the refit. LiveModel::rebuild() may do nothing with fewer than 4,096.
+// At most so many triangles of a model are rebuilt in a frame. For large models, rebuilding then
+// takes about as long as the refit. LiveModel::rebuild() may do nothing with fewer than 4,096.
 constexpr std::uint32_t kLeastRebuilt = 4096;
 constexpr std::uint32_t kShareRebuilt = 8;
 

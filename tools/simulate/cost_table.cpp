@@ -169,7 +169,7 @@ std::vector<PartRow> CostTable::parts() const {
     std::vector<PartRow> rows = {{"boxes and broad phase", counts_.box_ticks},
                                  {"rest of pairs", rest_nanoseconds_},
                                  {"lists and events", counts_.list_ticks}};
-    if (refit_times_.sum() > 0) rows.push_back({"refits", refit_times_.sum()});
+    if (refit_times_.sum() > 0) rows.push_back({"changes of models", refit_times_.sum()});
     return rows;
 }
 

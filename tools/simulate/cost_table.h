@@ -43,7 +43,7 @@ public:
 
     /// Returns a row for each effect that some pair of layers asks for.
     [[nodiscard]] std::vector<EffectRow> effects(const scenes::Simulation& simulation) const;
-    /// Returns boxes, the rest of the pairs, lists and, if models change, refits.
+    /// Returns boxes, the rest of the pairs, lists and, if models change, the time of that.
     [[nodiscard]] std::vector<PartRow> parts() const;
     /// Returns the share of the frames' time that the rows add up to.
     [[nodiscard]] double explained() const;

@@ -180,7 +180,7 @@ std::string changes_text(const RunSummary& summary) {
                        counted(work.refits, "refit", "refits") + ", " +
                        counted(work.rebuilt, "triangle", "triangles") + " rebuilt, " +
                        counted(work.torn, "triangle", "triangles") + " torn into " +
-                       counted(work.parts, "part", "parts") + "; the refits of a frame took " +
+                       counted(work.parts, "part", "parts") + "; the changes of a frame took " +
                        time_text(summary.table.refit_times().at(0.5)) + " (median)\n";
     for (const std::string& name : changing.missed) {
         text += "object '" + printable(name) + "' is not torn, for the plane misses its model\n";

@@ -2,7 +2,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -81,11 +80,11 @@ Result<std::vector<Input>> inputs_for(const ValidateArguments& arguments) {
 
 /// Fails if an output would replace a file that is read, or another output.
 Result<Done> check_output(const ValidateArguments& arguments, const std::vector<Input>& inputs) {
+    if (arguments.output.empty() && arguments.html.empty()) return Done{};
     UsedFiles used;
     for (const Input& input : inputs) used.add_input(input.path);
-    for (const fs::path& path : std::array<fs::path, 2>{arguments.baseline, arguments.files_from}) {
-        if (!path.empty() && path != "-") used.add_input(path);
-    }
+    used.add_input(arguments.baseline);
+    if (arguments.files_from != "-") used.add_input(arguments.files_from);
     if (const Result<Done> added = used.add_output(arguments.output); !added) return added;
     return used.add_output(arguments.html);
 }

@@ -35,18 +35,6 @@ Error unwritable(const std::filesystem::path& target, const std::string& why) {
                 (was_there ? ". What was there before is unchanged." : ". Nothing was written.")};
 }
 
-/// Returns the end of a chain of symbolic links. A link stays, and its target is replaced.
-std::filesystem::path followed(std::filesystem::path target) {
-    constexpr int kMostLinks = 40;  // the limit of the kernel
-    std::error_code error;
-    for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i) {
-        const std::filesystem::path next = std::filesystem::read_symlink(target, error);
-        if (error) break;
-        target = target.parent_path() / next;  // an absolute path replaces all
-    }
-    return target;
-}
-
 /// Returns false for a device or a pipe, which a rename would replace by a file.
 bool is_replaceable(const std::filesystem::path& target) {
     std::error_code error;
@@ -132,6 +120,17 @@ void allow_open_files(std::size_t count) {
 }
 
 }  // namespace
+
+std::filesystem::path followed(std::filesystem::path target) {
+    constexpr int kMostLinks = 40;  // the limit of the kernel
+    std::error_code error;
+    for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i) {
+        const std::filesystem::path next = std::filesystem::read_symlink(target, error);
+        if (error) break;
+        target = target.parent_path() / next;  // an absolute path replaces all
+    }
+    return target;
+}
 
 OutputFile::OutputFile(std::filesystem::path target, std::filesystem::path temporary,
                        int descriptor)

@@ -12,6 +12,10 @@
 
 namespace cdprep::write {
 
+/// Returns the end of a chain of symbolic links, which need not exist. A file that is written there
+/// replaces it, and the links stay.
+[[nodiscard]] std::filesystem::path followed(std::filesystem::path target);
+
 /// A file that appears under its name only when it is complete.
 ///
 /// The file has no name until commit(), so a killed process leaves nothing behind. Where the file

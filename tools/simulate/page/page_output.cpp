@@ -23,9 +23,7 @@ Result<Done> open_file(std::optional<ReportOutput>& output, const std::filesyste
 Result<Done> check_outputs(const std::vector<std::filesystem::path>& inputs,
                            const std::vector<std::filesystem::path>& outputs) {
     UsedFiles used;
-    for (const std::filesystem::path& path : inputs) {
-        if (!path.empty()) used.add_input(path);
-    }
+    for (const std::filesystem::path& path : inputs) used.add_input(path);
     for (const std::filesystem::path& path : outputs) {
         if (path == "-") {
             return Error{ErrorCode::bad_argument,

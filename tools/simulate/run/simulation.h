@@ -89,7 +89,7 @@ public:
         return changing_;
     }
     /// What the live models of the last frame took. Work that was repeated for more room is left
-    /// out.
+    /// out, but after it other subtrees may be rebuilt than without it.
     [[nodiscard]] const ChangeWork& change_work() const noexcept {
         return work_;
     }

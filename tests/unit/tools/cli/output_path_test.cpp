@@ -20,7 +20,7 @@ TEST(ReportStream, IsStandardErrorForAMeshOnStandardOutput) {
     }
 }
 
-// A file has many paths, of which all that follow links lead to its bytes.
+// A file has many paths, and links may lead to one that does not exist yet.
 TEST(UsedFiles, RefusesAnOutputThatIsUsedByAnyPath) {
     namespace fs = std::filesystem;
     const test::ScratchFolder scratch;
@@ -28,6 +28,8 @@ TEST(UsedFiles, RefusesAnOutputThatIsUsedByAnyPath) {
     std::ofstream(input) << "v 0 0 0\n";
     fs::create_symlink(input, folder / "link.obj");
     fs::create_directory_symlink(folder, folder / "same");
+    fs::create_hard_link(input, folder / "hard.obj");
+    fs::create_symlink(folder / "out.obj", folder / "latest.obj");
     const auto fails = [&](const fs::path& output) {
         UsedFiles used;
         used.add_input(input);
@@ -36,7 +38,8 @@ TEST(UsedFiles, RefusesAnOutputThatIsUsedByAnyPath) {
         EXPECT_TRUE(added || added.error().message.starts_with(output.string() + " is an input"));
         return !added;
     };
-    for (const char* path : {"in.obj", "./in.obj", "link.obj", "same/in.obj", "same/link.obj"}) {
+    for (const char* path :
+         {"in.obj", "./in.obj", "link.obj", "same/in.obj", "same/link.obj", "hard.obj"}) {
         EXPECT_TRUE(fails(folder / path)) << path;
     }
     EXPECT_TRUE(fails(fs::relative(input)));
@@ -44,9 +47,11 @@ TEST(UsedFiles, RefusesAnOutputThatIsUsedByAnyPath) {
         EXPECT_FALSE(fails(folder / path)) << path;
     }
     EXPECT_FALSE(fails({}));
-    UsedFiles used;
-    EXPECT_TRUE(used.add_output(folder / "out.obj"));
-    EXPECT_FALSE(used.add_output(folder / "same/out.obj"));
+    for (const char* path : {"same/out.obj", "latest.obj"}) {
+        UsedFiles used;
+        EXPECT_TRUE(used.add_output(folder / "out.obj"));
+        EXPECT_FALSE(used.add_output(folder / path)) << path;
+    }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "cdprep/cells.h"
@@ -216,8 +217,8 @@ TEST(Pruning, ACornerSearchMissesALargeTriangle) {
     EXPECT_EQ(pruning.cs_b, 1);
 }
 
-// Two balls beside each other on a diagonal: their boxes along the axes of the world meet, their
-// hulls do not. Turned, one has its own axes.
+// By hand. Two balls of radius 1 are beside each other on a diagonal: their boxes meet, and their
+// hulls do not. A cube is turned by 45 degrees about z: along x, it reaches the root of 2.
 TEST(Pruning, WholeModelsAreRuledOutByTheTighterSteps) {
     MemoryParts parts;
     parts.hulls = true;
@@ -233,6 +234,23 @@ TEST(Pruning, WholeModelsAreRuledOutByTheTighterSteps) {
     EXPECT_EQ(diagonal.hulls, 0);
     const ObjectPruning far = steps_at({9, 0, 0});
     EXPECT_EQ(far.boxes + far.oriented + far.hulls, 0);
+
+    const test::TestMesh both = test::moved_by(test::unit_cube(), 2, {-1, -1, -1});
+    const MemoryModel cube = make_memory_model(test::mesh_of(both), parts).value();
+    const Pose turned = Pose::from_quaternion(std::cos(std::numbers::pi / 8), 0, 0,
+                                              std::sin(std::numbers::pi / 8), {1.75, 1.75, 0})
+                            .value();
+    const ObjectPruning corner = prune_objects(cube.model, cube.model, turned);
+    EXPECT_EQ(corner.boxes, 1);
+    EXPECT_EQ(corner.oriented, 0);
+    EXPECT_EQ(corner.hulls, 0);
+}
+
+TEST(Pruning, ModelsAreLostByAnyStep) {
+    EXPECT_TRUE(keeps_models({.boxes = 1, .oriented = 1, .hulls = 1}));
+    EXPECT_FALSE(keeps_models({.boxes = 0, .oriented = 1, .hulls = 1}));
+    EXPECT_FALSE(keeps_models({.boxes = 1, .oriented = 0, .hulls = 1}));
+    EXPECT_FALSE(keeps_models({.boxes = 1, .oriented = 1, .hulls = 0}));
 }
 
 TEST(Pruning, EachStepKeepsWhatOverlaps) {

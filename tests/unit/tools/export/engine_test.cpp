@@ -82,7 +82,7 @@ TEST(Engine, OutputsEndAsTheEngineReads) {
     expect_refused(output_for(form_of("unity"), input, "bolt.fbx"), ".glb");
     expect_refused(output_for(form_of("mujoco"), input, "bolt.urdf"), ".xml or .mjcf");
     expect_refused(output_for(form_of("unity"), input, "-"), ".glb");
-    expect_refused(output_for(form_of("json"), input, input), "is the input");
+    expect_refused(output_for(form_of("json"), input, input), "is an input");
 }
 
 }  // namespace

@@ -31,8 +31,8 @@ const Tear kTear = {.point = {0.1, 0, 0}, .normal = {1, 0.5, 0}, .time_s = 1, .o
 /// A ball that changes, and its triangles as they should be.
 class Ball {
 public:
-    explicit Ball(const Change& change, bool has_doubles = true)
-        : mesh_(has_doubles ? test::icosphere(2) : test::in_floats(test::icosphere(2))),
+    explicit Ball(const Change& change, bool has_doubles = true, int level = 2)
+        : mesh_(has_doubles ? test::icosphere(level) : test::in_floats(test::icosphere(level))),
           base_(test::open_tiny(mesh_, {.double_precision = has_doubles})),
           made_(ChangingModel::make(base_.model, change, "ball.obj")) {
         EXPECT_TRUE(made_);
@@ -131,6 +131,13 @@ TEST(ChangingModel, RebuildsWhereBoxesGrow) {
     twist(kStrong, kStrong.angle(1), ball.model().rest_box(), ball.rest(), twisted);
     EXPECT_GT(ball.expect_shape(twisted), 20u);
     EXPECT_EQ(ball.model().set_time(1.01, serial_for)->rebuilt, 0u);
+
+    Ball large({.deform = kStrong}, true, 5);
+    for (const double time : {1.0, 1.01}) {
+        const std::uint64_t rebuilt = large.model().set_time(time, serial_for)->rebuilt;
+        EXPECT_GT(rebuilt, 0u);
+        EXPECT_LE(rebuilt, 4096u);
+    }
 }
 
 // Equal shapes need no refit.
