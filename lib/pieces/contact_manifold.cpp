@@ -26,8 +26,8 @@ struct Corner {
     std::uint64_t side;  ///< of the side to the next corner
 };
 
-/// Corners of a convex polygon, counter-clockwise as seen from the tip of `normal`. It has room for
-/// many, so it is filled in place: a copy takes longer than what is done with few corners.
+/// Corners of a convex polygon, counter-clockwise as seen from the tip of `normal`. It is filled in
+/// place. A copy of its room takes longer than what is done with few corners.
 struct Polygon {
     std::array<Corner, 2 * kMostOutline> corner;
     std::size_t count = 0;
@@ -58,8 +58,8 @@ void add_triangle(const ContactSide& side, std::uint32_t triangle, const Corners
     polygon.name_sides();
 }
 
-/// Puts the corners of a face into an empty polygon or, if there are too many, an even selection of
-/// them: a part of the face. `normal` is its front or its back.
+/// Puts the corners of a face into an empty polygon. If they are too many, it takes an even
+/// selection of them: a part of the face. `normal` is its front or its back.
 void add_face(const ContactSide& side, std::uint32_t first, const Double3& normal,
               Polygon& polygon) {
     const HullEdges edges(side.facets(), side.adjacency());
@@ -85,8 +85,8 @@ void add_face(const ContactSide& side, std::uint32_t first, const Double3& norma
     polygon.name_sides();
 }
 
-/// Puts the face that faces a direction most into an empty polygon: a face of the hull if triangles
-/// cover it, otherwise the feature's own triangle.
+/// Puts the face that faces a direction most into an empty polygon. It is a face of the hull if
+/// triangles cover it, otherwise the feature's own triangle.
 void add_facing(const ContactSide& side, const PieceFeature& feature, const Double3& direction,
                 Polygon& polygon) {
     const Corners own = side.model().corners(feature.triangle);
