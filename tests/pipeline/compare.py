@@ -76,7 +76,7 @@ def check_all_formats(program, meshes):
     claims = [c["claim"] for c in report["checks"]]
     for word, count in (("Table 1", 1), ("Table 2", 2), ("exact answers", 1),
                         ("against itself", 1), ("at least as long as", 1), ("corners of", 1),
-                        ("Clusters, slabs", 1),
+                        ("Every step of pruning", 1),
                         ("talk's hashed octree", 4)):
         assert sum(word in claim for claim in claims) == count, (word, count, claims)
     poses = report["pairs"][0]["poses"]
