@@ -468,7 +468,7 @@ def check_asked_wrongly(program, folder):
     refused(2, "Choose another name", bolt, "--parts", 3, "-o", bolt)
     source = folder / "robot_piece_0.obj"
     source.write_text(bolt.read_text())
-    refused(2, "Choose another name", source, "--parts", 3, "-o", folder / "robot.urdf")
+    refused(2, "Choose another output", source, "--parts", 3, "-o", folder / "robot.urdf")
     refused(3, "missing.obj", folder / "missing.obj", "--parts", 3)
     for kind in FORMATS:
         refused(4, "no folder", bolt, "--parts", 3, *LITTLE_WORK, "-o",

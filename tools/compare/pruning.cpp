@@ -257,6 +257,7 @@ MeanPruning prune_at(const PairStudy& study, const std::vector<std::size_t>& pos
 
 std::vector<Cell> pruning_cells(const MeanPruning& mean) {
     std::vector<Cell> cells;
+    cells.reserve(kObjectColumns.size() + kColumns.size() + 1);
     for (const ObjectColumn& column : kObjectColumns) {
         cells.push_back(number(mean.objects.*column.member));
     }

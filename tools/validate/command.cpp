@@ -85,7 +85,7 @@ Result<Done> check_output(const ValidateArguments& arguments, const std::vector<
     for (const Input& input : inputs) used.add_input(input.path);
     used.add_input(arguments.baseline);
     if (arguments.files_from != "-") used.add_input(arguments.files_from);
-    if (const Result<Done> added = used.add_output(arguments.output); !added) return added;
+    if (Result<Done> added = used.add_output(arguments.output); !added) return added;
     return used.add_output(arguments.html);
 }
 

@@ -30,7 +30,7 @@ Result<Done> check_outputs(const std::vector<std::filesystem::path>& inputs,
                          "An output is named '-'. The report alone goes to standard output, "
                          "without -o. Choose a file."};
         }
-        if (const Result<Done> added = used.add_output(path); !added) return added;
+        if (Result<Done> added = used.add_output(path); !added) return added;
     }
     return Done{};
 }
