@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -21,8 +22,11 @@ struct Close {
     }
 };
 
+/// CDPREP_EMULATOR runs programs of another processor (tests/full/cross).
 std::string output_of(const std::string& command) {
-    const std::unique_ptr<std::FILE, Close> pipe(popen((command + " 2>&1").c_str(), "r"));
+    const char* const emulator = std::getenv("CDPREP_EMULATOR");
+    const std::string prefix = emulator != nullptr ? std::string(emulator) + " " : "";
+    const std::unique_ptr<std::FILE, Close> pipe(popen((prefix + command + " 2>&1").c_str(), "r"));
     std::string output;
     std::array<char, 256> line{};
     while (std::fgets(line.data(), line.size(), pipe.get()) != nullptr) output += line.data();
