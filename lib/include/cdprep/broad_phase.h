@@ -59,8 +59,8 @@ struct BroadPhaseUpdate {
     std::span<const BoxPair> pairs = {};
     bool complete = true;      ///< false: `pairs` is empty; see `needed` and `refused`
     std::uint64_t needed = 0;  ///< a sufficient limits.pairs, if there are too many pairs
-    /// The first box with a NaN, in the order of `moved` if that is given. Such an update has
-    /// changed nothing.
+    /// The first box with a NaN, in the order of `moved` if that is given. An update with such a
+    /// box changes nothing.
     std::optional<std::uint32_t> refused = std::nullopt;
     /// Boxes that left the larger box around them, or whose filter has changed.
     std::uint32_t escaped = 0;

@@ -15,8 +15,8 @@ namespace cdprep {
 
 /// Returns the index in Model::hulls().hulls of a hull around the whole model, a component, an
 /// instance or a part. Returns nothing if the model has no such hull. `number` is 0 for the whole
-/// model. Parts are the last hulls, numbered from 0; together they contain the surface and its
-/// interior. Needs Ask::hulls. Takes O(log n) time.
+/// model. Parts are at the end of the array, and `number` counts them from 0. Together they contain
+/// the surface and its interior. Needs Ask::hulls. Takes O(log n) time.
 [[nodiscard]] CDPREP_API std::optional<std::uint32_t> find_hull(const Model& model,
                                                                 format::HullScope scope,
                                                                 std::uint32_t number = 0) noexcept;

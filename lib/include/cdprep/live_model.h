@@ -171,8 +171,9 @@ public:
     /// Returns the number of triangles.
     [[nodiscard]] CDPREP_API std::uint32_t triangle_count() const noexcept;
 
-    /// Returns the place of a triangle in the views of model(), if the model can tear. Returns
-    /// nothing if there is no triangle of this number, or the model cannot tear. Takes O(1) time.
+    /// Returns the index of the triangle with this number in the mesh() and source() views of
+    /// model(). Returns nothing if there is no such triangle, or if the model cannot tear. Takes
+    /// O(1) time.
     [[nodiscard]] CDPREP_API std::optional<std::uint32_t> place_of(
         std::uint32_t number) const noexcept;
 

@@ -73,8 +73,8 @@ struct Pair {
 struct Containment {
     Answer answer = Answer::no;
     /// The winding number that decided: an integer if `answer` is yes, and 0 if it is no. If
-    /// `answer` is unknown, it is the generalised winding number: solid angle / 4 pi. For a
-    /// component of a torn model (Model::is_torn()), it is then 0.
+    /// `answer` is unknown, it is the generalised winding number: solid angle / 4 pi. If the model
+    /// that may be inside is torn (Model::is_torn()), it is then 0.
     double winding = 0;
     bool a_inside_b = false;  ///< unless `answer` is no: true for A in B, false for B in A
 };

@@ -113,9 +113,9 @@ struct Bounds {
 
 /// A maximal set of triangles connected through shared vertices.
 ///
-/// Components are ordered by their lowest source triangle. If two surfaces do not touch, each
-/// component lies wholly inside or wholly outside the other model. One vertex of the component then
-/// decides which.
+/// Components are ordered by their lowest triangle number in the source. If two surfaces do not
+/// touch, each component lies wholly inside or wholly outside the other model. One vertex of the
+/// component then decides which.
 struct Component {
     std::uint32_t vertex;          ///< one of its vertices
     std::uint32_t triangle_count;  ///< its triangles

@@ -28,9 +28,10 @@ enum HullFlags : std::uint32_t {
 /// segment, in 0 a point, and in -1 it is empty.
 ///
 /// The exact hull is the convex hull of the enclosed vertices. No point of the stored hull is
-/// farther than `distance` from it, in model units. No point of a part is farther than `distance`
-/// from the surface and its interior. In each section, the elements of a hull directly follow those
-/// of the previous hull. Indices in these elements count from the hull's own first element.
+/// farther than `distance` from the exact hull, in model units. No point of a part is farther than
+/// `distance` from the surface and its interior. In each section, the elements of a hull directly
+/// follow those of the previous hull. Indices in these elements count from the hull's own first
+/// element.
 struct Hull {
     HullScope scope;
     std::uint32_t number;  ///< of the component, instance or part; 0 for the whole

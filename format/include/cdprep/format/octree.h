@@ -109,8 +109,9 @@ struct AdaptiveOctree {
 /// references of the leaves are in the order of the nodes.
 struct AdaptiveOctreeNode {
     /// The split point, model units. Along each axis it is strictly inside the node's box or at its
-    /// upper bound. At the upper bound, the axis is not divided and no child lies above it. A flat
-    /// axis cannot be divided. At least one axis is divided. For a leaf: zero.
+    /// upper bound. At the upper bound, the axis is not divided and no child lies above it. An axis
+    /// along which the box is flat cannot be divided. At least one axis is divided. For a leaf:
+    /// zero.
     Double3 split;
     std::uint32_t first;  ///< as in OctreeNode
     std::uint32_t count;  ///< as in OctreeNode

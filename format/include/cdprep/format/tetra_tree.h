@@ -54,7 +54,7 @@ enum TetraTreeFlags : std::uint32_t {
 /// cone contains a point is exact.
 struct TetraTree {
     Double3 centre;           ///< C: the mean of the vertices, rounded; model units
-    std::uint32_t level;      ///< no cone has more splits above it; at most kMaxTetraLevel
+    std::uint32_t level;      ///< no cone is deeper; at most kMaxTetraLevel
     std::uint32_t threshold;  ///< a cone with fewer triangles is not split
     std::uint32_t top_level;  ///< the level of the cones in tetra_top; at most `level`
     TetraBounding bounding;

@@ -40,7 +40,7 @@ enum VerdictPromises : std::uint32_t {
 };
 
 /// The facts and promises of the whole mesh or of a component. The first verdict of the section is
-/// that of the mesh. Those of the components follow, in the order of their lowest source triangle.
+/// that of the mesh. Those of the components follow, in the order of their lowest triangle number.
 struct Verdict {
     std::uint32_t facts;           ///< VerdictFacts
     std::uint32_t promises;        ///< VerdictPromises

@@ -42,7 +42,7 @@ struct ComponentNumbers {
 number_components(std::size_t vertex_count, std::span<const format::Triangle> triangles);
 
 struct Topology {
-    /// The components, in the order of their lowest triangle.
+    /// The components, in the order of their lowest triangle number.
     std::vector<format::Component> components;
     /// The surface is balanced: the directed uses of every edge cancel, so winding numbers exist.
     bool balanced = false;

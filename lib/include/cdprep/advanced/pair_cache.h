@@ -28,7 +28,7 @@ struct PairCache {
     std::uint32_t wait = 0;                    ///< queries to wait before the next proof attempt
     std::array<std::uint64_t, 2> models = {};  ///< content hashes of A and B at the placement
     double gap = 0;       ///< model units: proven lower bound of the distance at the placement
-    double step = 0;      ///< model units: the distance that B moves per query
+    double step = 0;      ///< model units: mean motion of B relative to A per query
     double proof = 0;     ///< model units: the gap that the last attempt proved, or 0 if it failed
     Pose a_from_b;        ///< the placement
     Double3 middle = {};  ///< the middle of a box around B, in B's coordinates

@@ -113,7 +113,7 @@ CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* move
 
 /* Adds `count` triangles: 3 vertices each, numbered as in cdprep_live_refit(). *first is the number
  * of the first triangle; the others get the next numbers. Answers name a triangle by its number,
- * which is never used again. Takes O(m log^2 n) time for m triangles, amortised.
+ * which no other triangle gets later. Takes O(m log^2 n) time for m triangles, amortised.
  *
  * On failure, nothing changes and *first is CDPREP_NONE. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.

@@ -121,7 +121,7 @@ CDPREP_API int cdprep_collide(const cdprep_pair* pair, cdprep_workspace* workspa
 CDPREP_API int cdprep_containment(const cdprep_pair* pair, cdprep_workspace* workspace,
                                   cdprep_collision* collision, cdprep_error* error);
 
-/* Stores whether two solids collide, if one level of their tetra-trees can prove it. CDPREP_NO and
+/* Stores whether two solids collide, if `level` of both tetra-trees can prove it. CDPREP_NO and
  * CDPREP_YES are proven. CDPREP_UNKNOWN means that this level is too coarse
  * (cdprep_model_level_error()). A level beyond the deepest counts as the deepest. The
  * workspace must have `cells`. Takes O(pairs of cones that meet) time.

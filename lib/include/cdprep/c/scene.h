@@ -63,7 +63,8 @@ typedef struct cdprep_layer_pair {
     double max_distance;
     /* 0: for distance, model units: the largest permitted error of answers; see above. */
     double max_error;
-    /* Null: for contacts, the defaults with `most` 16. Read only during the call. */
+    /* Null; for contacts: the options. Null means the defaults, but with `most` = 16. Read only
+     * during the call. */
     const cdprep_contact_options* contacts;
     double impact_tolerance; /* 0: for continuous: cdprep_moving_pair.tolerance */
     /* 0: for haptic, which needs at least 1: `work` of cdprep_distance_bounded(). */

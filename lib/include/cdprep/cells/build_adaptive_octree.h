@@ -48,10 +48,9 @@ inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
 /// triangles.
 ///
 /// An axis is not divided if its plane would cut every triangle's box, unless that holds for all
-/// three axes. A cell is a leaf if no plane is inside it, or every child would list all triangles
-/// of the cell. So equal triangles, and triangles that meet in one point, end the division early. A
-/// level and those below it are not divided if the tree would get more references than
-/// build_octree() allows.
+/// three axes. A cell is a leaf if no plane is inside it, or if each child would list all of the
+/// cell's triangles or none. So a cell whose triangles are all equal is not divided. A level and
+/// those below it are not divided if the tree would get more references than build_octree() allows.
 ///
 /// Takes O(levels * references) time. The memory beside the result is at most the sum of
 /// kAdaptiveScratchPerTriangle, PerReference and PerNode, each times its number. This holds for one

@@ -24,7 +24,7 @@ struct TetraTree {
 
 struct TetraTreeOptions {
     ParallelFor parallel_for = serial_for;
-    std::uint32_t level = 3;      ///< no cone has more splits above it; 0 to kMaxTetraLevel
+    std::uint32_t level = 3;      ///< no cone is deeper; 0 to kMaxTetraLevel
     std::uint32_t threshold = 1;  ///< a cone with fewer triangles is not split; at least 1
     format::TetraBounding bounding = format::TetraBounding::caps;
     std::int32_t frame_exponent = 0;  ///< of the model's frame: the unit of radii

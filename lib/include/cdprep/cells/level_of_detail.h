@@ -31,7 +31,7 @@ struct CoarseCollision {
 /// Beyond the deepest level, the facets are those of the deepest level.
 [[nodiscard]] CDPREP_API double level_error(const Model& model, std::uint32_t level) noexcept;
 
-/// Returns whether two solids collide, if one level of their tetra-trees can prove it. Ignores
+/// Returns whether two solids collide, if `level` of both tetra-trees can prove it. Ignores
 /// pair.options. Needs Ask::tetra_tree of both models.
 ///
 /// `no`: no two cones meet within their outer facets. This also holds for surfaces and for open
