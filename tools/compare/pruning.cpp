@@ -119,12 +119,16 @@ constexpr const char* kLostKey = "lost";
 /// More than rounding moves the points of models with a diagonal of 1 that are near each other.
 constexpr double kMovedRounding = 0x1p-40;
 
-/// A column of the table about whole models, and its number.
-struct ObjectColumn {
+/// A column of the table, and its number.
+template <class Numbers>
+struct NumberColumn {
     const char* key;
     const char* title;
-    double ObjectPruning::*member;
+    double Numbers::*member;
 };
+using ObjectColumn = NumberColumn<ObjectPruning>;
+using PruningColumn = NumberColumn<Pruning>;
+
 constexpr std::array<ObjectColumn, 3> kObjectColumns = {{
     {"boxes", "boxes meet", &ObjectPruning::boxes},
     {"oriented", "oriented boxes meet", &ObjectPruning::oriented},
@@ -132,12 +136,6 @@ constexpr std::array<ObjectColumn, 3> kObjectColumns = {{
 }};
 static_assert(sizeof(ObjectPruning) == kObjectColumns.size() * sizeof(double));
 
-/// A column of the table about triangles, and its number.
-struct PruningColumn {
-    const char* key;
-    const char* title;
-    double Pruning::*member;
-};
 constexpr std::array<PruningColumn, 15> kColumns = {{
     {"all_b", "triangles of B", &Pruning::all_b},
     {"box_b", "in A's box", &Pruning::box_b},

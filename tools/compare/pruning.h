@@ -48,8 +48,8 @@ struct Pruning {
 [[nodiscard]] Pruning prune(const Model& a, const Model& b, const Pose& a_from_b, CellSearch search,
                             Workspace& workspace, std::vector<TrianglePair>& missed);
 
-/// The steps that see models as wholes, in the order of their cost. 1 if what represents the models
-/// meets, otherwise 0; shares where several poses were added up.
+/// The steps that look at whole models, by rising cost. A number is 1 if the shapes around the
+/// models meet, otherwise 0. Means of several poses are shares.
 struct ObjectPruning {
     double boxes = 0;     ///< boxes along the axes of the world
     double oriented = 0;  ///< boxes along the axes of each model
