@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "cdprep/format/float_environment.h"
+#include "core/numbers.h"
 #include "core/require.h"
 #include "pieces/cluster_contacts.h"
 #include "pieces/contact_choice.h"
@@ -137,8 +138,12 @@ public:
         std::uint64_t work_of_all = 0;
         each_page([&](const NearPieces& near) {
             work_of_all += work_of(near) + kWorkOfBound;
+            // Without a choice, and without a limit that might end it, no bound is needed.
+            const bool takes_all =
+                options_.work == 0 && !gathered_.is_limited() && verdict_.found <= options_.most;
+            const double depth = takes_all ? kInfinity : contacts.most_depth(near);
             const Double3 at = moved_a_.corners(near.a)[0];
-            choice.add({contacts.most_depth(near), Known::roughly, kNoSlot, at, near, 0});
+            choice.add({depth, Known::roughly, kNoSlot, at, near, 0});
             return true;
         });
         std::uint32_t slots = 0;
