@@ -126,7 +126,7 @@ std::optional<ObjectId> Scene::add(const SceneObject& object) noexcept {
     place.pose = object.world_from_model;
     place.layer = place.last_layer = object.layer;
     if (state.last_poses != nullptr) state.last_poses[slot] = object.world_from_model;
-    if (++place.generation == 0) place.generation = 1;
+    place.generation = next_generation(place.generation);
     state.find_parts(slot);
     state.change(slot);
     ++state.object_count;

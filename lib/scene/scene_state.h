@@ -28,6 +28,12 @@ struct ObjectSlot {
     bool is_changed = false;       ///< since that step
 };
 
+/// Returns the generation of the next object in a slot. After all numbers they begin again, without
+/// 0.
+constexpr std::uint32_t next_generation(std::uint32_t generation) noexcept {
+    return generation + 1 == 0 ? 1 : generation + 1;
+}
+
 /// The ticks that one thread counts, by effect.
 using EffectTicks = std::array<std::uint64_t, kSceneEffects.size()>;
 

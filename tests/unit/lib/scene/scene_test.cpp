@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cdprep/live_model.h"
+#include "scene/scene_state.h"
 #include "support/aligned_bytes.h"
 #include "support/float_modes.h"
 #include "support/more_sections.h"
@@ -606,6 +607,13 @@ TEST(Scene, EventsSayWhy) {
     EXPECT_FALSE(scene.set_layer(b, 0));
     EXPECT_FALSE(scene.remove({99, 1}));
     EXPECT_FALSE(scene.remove({}));
+}
+
+// An id that was never given must not become valid: 0 means no object.
+TEST(Scene, GenerationsLeaveOutZero) {
+    EXPECT_EQ(next_generation(0), 1U);
+    EXPECT_EQ(next_generation(1), 2U);
+    EXPECT_EQ(next_generation(0xffffffff), 1U);
 }
 
 TEST(Scene, FloatModesChangeNothing) {
