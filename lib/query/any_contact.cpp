@@ -49,4 +49,28 @@ bool any_contact_near(TreePair& touched, const Pair& pair, Workspace& workspace)
     return found.has_value();
 }
 
+namespace {
+
+/// Prefetches the leaf of a triangle and the nodes in which touches_again() begins.
+void prefetch_near(const Model& model, std::uint32_t triangle) noexcept {
+    if (!has_triangle(model, triangle)) return;
+    const Tree tree(model);
+    const std::uint32_t leaf = triangle / format::kBvhWidth;
+    prefetch(&model.bvh().leaves[leaf]);
+    TreePlace below = {0, leaf};
+    for (; below.height < std::min(kNearHeight, tree.shape.levels); ++below.height) {
+        below.index /= format::kBvhWidth;
+        const std::uint32_t node = tree.shape.first[below.height] + below.index;
+        prefetch(&tree.nodes[node]);
+        if (tree.oriented != nullptr) prefetch(&tree.oriented[node]);
+    }
+}
+
+}  // namespace
+
+void prefetch_contact(const TreePair& touched, const Model& a, const Model& b) noexcept {
+    prefetch_near(a, touched.a);
+    prefetch_near(b, touched.b);
+}
+
 }  // namespace cdprep

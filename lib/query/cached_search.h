@@ -104,9 +104,12 @@ inline bool CachedSearch::touches_again() noexcept {
         const std::uint32_t height = std::min(kNearHeight, tree.shape.levels);
         return TreePlace{height, leaf >> (3 * height)};
     };
-    return !walk_pairs_from<Search::first>(
-        {around(trees_.a, leaf_a), around(trees_.b, leaf_b)}, 0, trees_.a, trees_.b, placed_,
-        scratch_, [&](const PendingPair& pair) { return !look_at(pair.a.index, pair.b.index); });
+    const PendingPair nodes = {around(trees_.a, leaf_a), around(trees_.b, leaf_b)};
+    const auto miss = [&](const PendingPair& leaves) {
+        const bool is_known = leaves.a.index == leaf_a && leaves.b.index == leaf_b;
+        return is_known || !look_at(leaves.a.index, leaves.b.index);
+    };
+    return !walk_pairs_from<Search::first>(nodes, 0, trees_.a, trees_.b, placed_, scratch_, miss);
 }
 
 /// Returns the gap to be proved, in model units, or 0.

@@ -133,6 +133,7 @@ struct Scene::State {
     [[nodiscard]] PairAnswer ask_two(std::uint32_t number, const ObjectSlot& a, const ObjectSlot& b,
                                      Workspace& workspace, const ListWriters& lists) noexcept;
     void ask(std::uint32_t number, Workspace& workspace, const ListWriters& lists) noexcept;
+    void prefetch_search(std::uint32_t number) const noexcept;
     void ask_all(std::span<Workspace> workspaces, ParallelFor parallel_for) noexcept;
     [[nodiscard]] SceneStep place_lists() noexcept;
     void fill_lists(std::size_t threads, ParallelFor parallel_for) noexcept;

@@ -38,4 +38,7 @@ void remember_pair(PairCache& cache, const TreePair& pair) noexcept;
 [[nodiscard]] bool any_contact_near(TreePair& touched, const Pair& pair,
                                     Workspace& workspace) noexcept;
 
+/// Prefetches what any_contact_near() reads first. `touched` may be any pair.
+void prefetch_contact(const TreePair& touched, const Model& a, const Model& b) noexcept;
+
 }  // namespace cdprep
