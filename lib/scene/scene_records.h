@@ -54,12 +54,9 @@ struct Record {
     Ask asked = Ask::nothing;   ///< effects that are known
     Ask called = Ask::nothing;  ///< effects whose query was called in this step
     Ask holds = Ask::nothing;
-    Collision collision;
     TreePair touched = kNoPair;  ///< triangles that `collide` found, where the next search begins
-    RecordList triangle_pairs;
-    RecordList contacts;
-    bool is_new = false;    ///< looked at in this step
-    bool is_apart = false;  ///< by the root boxes: nothing is asked
+    bool is_new = false;         ///< looked at in this step
+    bool is_apart = false;       ///< by the root boxes: nothing is asked
 
     [[nodiscard]] bool is_of_one() const noexcept {
         return a.slot == b.slot;
@@ -72,8 +69,14 @@ struct Record {
     }
 };
 
-/// The records of a step, sorted by slots. Arrays of effects that the plan does not ask for are
-/// null.
+/// Whether `collide` is asked of solids: then more is known than whether it holds.
+inline bool collides_solids(const Plan& plan) noexcept {
+    return std::any_of(plan.pairs().begin(), plan.pairs().end(), [](const LayerPair& pair) {
+        return contains(pair.effects, Ask::collide) && pair.body == Body::solid;
+    });
+}
+
+/// The records of a step, sorted by slots. Arrays that the plan does not need are null.
 struct Records {
     Records(Carver& carver, const Plan& plan) noexcept
         : record(carver.take<Record>(plan.limits().pairs)) {
@@ -82,21 +85,33 @@ struct Records {
         if (contains(effects, Ask::distance)) distance = carver.take<Distance>(limits.pairs);
         if (contains(effects, Ask::continuous)) impact = carver.take<Impact>(limits.pairs);
         if (contains(effects, Ask::haptic)) haptic = carver.take<HapticRecord>(limits.pairs);
+        if (collides_solids(plan)) collision = carver.take<Collision>(limits.pairs);
         if ((effects & (Ask::overlap | Ask::self)) != Ask::nothing) {
+            triangle_list = carver.take<RecordList>(limits.pairs);
             triangle_pairs = carver.take<TrianglePair>(limits.triangle_pairs);
         }
         if (contains(effects, Ask::contacts)) {
+            contact_list = carver.take<RecordList>(limits.pairs);
             verdict = carver.take<ContactsVerdict>(limits.pairs);
             contacts = carver.take<Contact>(limits.contacts);
         }
     }
 
+    /// What `collide` found.
+    [[nodiscard]] Collision collision_of(std::uint32_t number) const noexcept {
+        if (collision != nullptr) return collision[number];
+        return {contains(record[number].holds, Ask::collide) ? Answer::yes : Answer::no, {}};
+    }
+
     std::uint32_t count = 0;
-    Record* record;
-    Distance* distance = nullptr;        ///< by record
-    Impact* impact = nullptr;            ///< by record
-    HapticRecord* haptic = nullptr;      ///< by record
-    ContactsVerdict* verdict = nullptr;  ///< by record
+    Record* record;  ///< as the next seven, by number
+    Collision* collision = nullptr;
+    Distance* distance = nullptr;
+    Impact* impact = nullptr;
+    HapticRecord* haptic = nullptr;
+    ContactsVerdict* verdict = nullptr;
+    RecordList* triangle_list = nullptr;
+    RecordList* contact_list = nullptr;
     TrianglePair* triangle_pairs = nullptr;
     Contact* contacts = nullptr;
 };

@@ -84,9 +84,7 @@ void Scene::State::add_candidate(BoxPair slots) noexcept {
     record = Record{.a = {slots.a, a.generation},
                     .b = {slots.b, b.generation},
                     .pair = *plan->find_pair(a.layer, b.layer),
-                    .collision = {},
-                    .triangle_pairs = {},
-                    .contacts = {},
+                    .touched = kNoPair,
                     .is_new = true};
 }
 
@@ -162,6 +160,15 @@ std::uint64_t Scene::State::list_given(std::span<const BoxPair> candidates) noex
     return next.count;
 }
 
+namespace {
+
+/// A list that the next step copies from the last.
+RecordList kept(const RecordList& list) noexcept {
+    return {list.place, list.place, list.count};
+}
+
+}  // namespace
+
 /// Takes over what the last step knew of two objects, as far as it is not paused.
 void Scene::State::keep(std::uint32_t old, std::uint32_t now) noexcept {
     Record& record = next.record[now];
@@ -170,11 +177,18 @@ void Scene::State::keep(std::uint32_t old, std::uint32_t now) noexcept {
     record.called = Ask::nothing;
     record.asked = record.asked & effects_of(record);
     record.holds = record.holds & record.asked;
-    if (!contains(record.asked, Ask::collide)) record.collision = {};
-    if ((record.asked & (Ask::overlap | Ask::self)) == Ask::nothing) record.triangle_pairs = {};
-    if (!contains(record.asked, Ask::contacts)) record.contacts = {};
-    record.triangle_pairs.source = record.triangle_pairs.place;
-    record.contacts.source = record.contacts.place;
+    if (next.collision) {
+        next.collision[now] =
+            contains(record.asked, Ask::collide) ? last.collision[old] : Collision();
+    }
+    if (next.triangle_list) {
+        const bool is_asked = (record.asked & (Ask::overlap | Ask::self)) != Ask::nothing;
+        next.triangle_list[now] = is_asked ? kept(last.triangle_list[old]) : RecordList();
+    }
+    if (next.contact_list) {
+        const bool is_asked = contains(record.asked, Ask::contacts);
+        next.contact_list[now] = is_asked ? kept(last.contact_list[old]) : RecordList();
+    }
     if (next.distance) next.distance[now] = last.distance[old];
     if (next.impact) next.impact[now] = last.impact[old];
     if (next.verdict) next.verdict[now] = last.verdict[old];
@@ -263,23 +277,32 @@ void Scene::State::ask(std::uint32_t number, Workspace& workspace,
                        const ListWriters& lists) noexcept {
     const format::FloatEnvironment environment;
     Record& record = next.record[number];
+    if (next.collision) next.collision[number] = {};
+    if (next.triangle_list) next.triangle_list[number] = {};
+    if (next.contact_list) next.contact_list[number] = {};
     record.asked = effects_of(record);
     if (record.asked == Ask::nothing) return;
     const ObjectSlot &a = objects[record.a.slot], &b = objects[record.b.slot];
     record.is_apart =
         !record.is_of_one() && !boxes_may_meet(roots[record.a.slot], roots[record.b.slot]);
     if (record.is_apart) return;
-    if (lists.triangle_pairs) record.triangle_pairs.source = lists.triangle_pairs->begin_list();
-    if (lists.contacts) record.contacts.source = lists.contacts->begin_list();
+    const std::size_t first_pair = lists.triangle_pairs ? lists.triangle_pairs->begin_list() : 0;
+    const std::size_t first_contact = lists.contacts ? lists.contacts->begin_list() : 0;
     const PairAnswer answer = record.is_of_one() ? ask_self(*a.model, workspace, lists)
                                                  : ask_two(number, a, b, workspace, lists);
     record.holds = answer.holds;
     record.called = answer.called;
     record.touched = answer.touched;
-    record.collision = answer.collision;
+    if (next.collision) next.collision[number] = answer.collision;
     // A list that does not fit is longer than its count says; then the step is not complete.
-    record.triangle_pairs.count = static_cast<std::uint32_t>(answer.overlapping);
-    record.contacts.count = static_cast<std::uint32_t>(answer.contacts.count);
+    if (next.triangle_list) {
+        next.triangle_list[number] = {first_pair, 0,
+                                      static_cast<std::uint32_t>(answer.overlapping)};
+    }
+    if (next.contact_list) {
+        next.contact_list[number] = {first_contact, 0,
+                                     static_cast<std::uint32_t>(answer.contacts.count)};
+    }
     if (next.distance) next.distance[number] = answer.distance;
     if (next.impact) next.impact[number] = answer.impact;
     if (next.verdict) next.verdict[number] = answer.contacts;
@@ -307,18 +330,18 @@ void Scene::State::ask_all(std::span<Workspace> workspaces, ParallelFor parallel
 
 /// Gives each list its place in the order of records. Returns what the limits lack.
 SceneStep Scene::State::place_lists() noexcept {
-    std::uint64_t pairs = triangle_pairs ? triangle_pairs->count() : 0;
-    std::uint64_t found = contact_pages ? contact_pages->count() : 0;
-    std::uint32_t pair_place = 0, contact_place = 0;
-    for (std::uint32_t i = 0; i < next.count; ++i) {
-        Record& record = next.record[i];
-        record.triangle_pairs.place =
-            std::exchange(pair_place, pair_place + record.triangle_pairs.count);
-        record.contacts.place = std::exchange(contact_place, contact_place + record.contacts.count);
-        if (record.is_new) continue;
-        pairs += record.triangle_pairs.count;
-        found += record.contacts.count;
-    }
+    const auto place_all = [&](RecordList* lists, std::uint64_t added) {
+        std::uint32_t place = 0;
+        for (std::uint32_t i = 0; lists != nullptr && i < next.count; ++i) {
+            lists[i].place = std::exchange(place, place + lists[i].count);
+            if (!next.record[i].is_new) added += lists[i].count;
+        }
+        return added;
+    };
+    const std::uint64_t pairs =
+        place_all(next.triangle_list, triangle_pairs ? triangle_pairs->count() : 0);
+    const std::uint64_t found =
+        place_all(next.contact_list, contact_pages ? contact_pages->count() : 0);
     SceneStep step;
     if (pairs > plan->limits().triangle_pairs) step.needed_triangle_pairs = pairs;
     if (found > plan->limits().contacts) step.needed_contacts = found;
@@ -332,6 +355,7 @@ namespace {
 template <class Item>
 void fill_list(const RecordList& list, bool is_new, const ListPages<Item>& pages,
                const Item* last_items, Item* items) noexcept {
+    if (list.count == 0) return;
     if (is_new) {
         pages.copy(list.source, list.count, items + list.place);
     } else {
@@ -344,15 +368,15 @@ void fill_list(const RecordList& list, bool is_new, const ListPages<Item>& pages
 void Scene::State::fill_lists(std::size_t threads, ParallelFor parallel_for) noexcept {
     if (!triangle_pairs && !contact_pages) return;
     share_jobs(next.count, threads, parallel_for, [&](std::size_t job, std::size_t) {
-        const Record& record = next.record[job];
-        if (record.triangle_pairs.count > 0) {
-            fill_list(record.triangle_pairs, record.is_new, *triangle_pairs, last.triangle_pairs,
-                      next.triangle_pairs);
-            TrianglePair* const first = next.triangle_pairs + record.triangle_pairs.place;
-            if (record.is_new) std::sort(first, first + record.triangle_pairs.count);
+        const bool is_new = next.record[job].is_new;
+        if (next.triangle_list) {
+            const RecordList& list = next.triangle_list[job];
+            fill_list(list, is_new, *triangle_pairs, last.triangle_pairs, next.triangle_pairs);
+            TrianglePair* const first = next.triangle_pairs + list.place;
+            if (is_new) std::sort(first, first + list.count);
         }
-        if (record.contacts.count > 0) {
-            fill_list(record.contacts, record.is_new, *contact_pages, last.contacts, next.contacts);
+        if (next.contact_list) {
+            fill_list(next.contact_list[job], is_new, *contact_pages, last.contacts, next.contacts);
         }
     });
 }
@@ -363,8 +387,8 @@ void Scene::State::count_calls() noexcept {
     counts = {.moved = changed_count, .candidates = next.count, .kept = next.count - asked_count};
     for (std::uint32_t i = 0; i < next.count; ++i) {
         const Record& record = next.record[i];
-        counts.triangle_pairs += record.triangle_pairs.count;
-        counts.contacts += record.contacts.count;
+        if (next.triangle_list) counts.triangle_pairs += next.triangle_list[i].count;
+        if (next.contact_list) counts.contacts += next.contact_list[i].count;
         if (!record.is_new) continue;
         counts.apart += record.is_apart ? 1 : 0;
         for (std::size_t effect = 0; effect < kSceneEffects.size(); ++effect) {
@@ -421,15 +445,19 @@ void Scene::State::list_events() noexcept {
 void Scene::State::list_lists_of(std::uint32_t number) noexcept {
     const Record& record = last.record[number];
     const auto holds = [&](Ask effect) { return contains(record.holds, effect); };
-    const std::span<const TrianglePair> triangles = {
-        last.triangle_pairs + record.triangle_pairs.place, record.triangle_pairs.count};
+    const auto triangles = [&] {
+        const RecordList& list = last.triangle_list[number];
+        return std::span<const TrianglePair>(last.triangle_pairs + list.place, list.count);
+    };
     if (holds(Ask::distance)) {
         distances[distance_count++] = {record.a, record.b, record.pair, last.distance[number]};
     }
     if (holds(Ask::overlap)) {
-        overlaps[overlap_count++] = {record.a, record.b, record.pair, triangles};
+        overlaps[overlap_count++] = {record.a, record.b, record.pair, triangles()};
     }
-    if (holds(Ask::self)) self_overlaps[self_overlap_count++] = {record.a, record.pair, triangles};
+    if (holds(Ask::self)) {
+        self_overlaps[self_overlap_count++] = {record.a, record.pair, triangles()};
+    }
     if (holds(Ask::continuous)) {
         impacts[impact_count++] = {record.a, record.b, record.pair, last.impact[number]};
     }
@@ -440,22 +468,25 @@ void Scene::State::list_lists_of(std::uint32_t number) noexcept {
     }
 }
 
+/// Lists the contacts of two objects, or that they were not found for lack of work.
+void Scene::State::list_contacts_of(std::uint32_t number) noexcept {
+    const Record& record = last.record[number];
+    const RecordList& list = last.contact_list[number];
+    const ContactsVerdict& verdict = last.verdict[number];
+    if (list.count == 0 && verdict.searched) return;
+    contacts[contact_count++] = {
+        record.a, record.b, record.pair, {last.contacts + list.place, list.count}, verdict};
+}
+
 void Scene::State::list_results() noexcept {
     hit_count = distance_count = overlap_count = contact_count = 0;
     self_overlap_count = impact_count = bounded_distance_count = 0;
     for (std::uint32_t i = 0; i < last.count; ++i) {
         const Record& record = last.record[i];
-        if (contains(record.asked, Ask::contacts) && !record.is_apart &&
-            (record.contacts.count > 0 || !last.verdict[i].searched)) {
-            contacts[contact_count++] = {
-                record.a,
-                record.b,
-                record.pair,
-                {last.contacts + record.contacts.place, record.contacts.count},
-                last.verdict[i]};
-        }
-        if (record.holds == Ask::nothing && record.collision.hit == Answer::no) continue;
-        hits[hit_count++] = {record.a, record.b, record.pair, record.holds, record.collision};
+        if (contains(record.asked, Ask::contacts) && !record.is_apart) list_contacts_of(i);
+        const Collision collision = last.collision_of(i);
+        if (record.holds == Ask::nothing && collision.hit == Answer::no) continue;
+        hits[hit_count++] = {record.a, record.b, record.pair, record.holds, collision};
         list_lists_of(i);
     }
 }

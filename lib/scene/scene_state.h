@@ -144,6 +144,7 @@ struct Scene::State {
     void list_events() noexcept;
     void list_results() noexcept;
     void list_lists_of(std::uint32_t number) noexcept;
+    void list_contacts_of(std::uint32_t number) noexcept;
     void accept_changes() noexcept;
     [[nodiscard]] SceneStep compute(std::uint64_t begin, std::span<Workspace> workspaces,
                                     ParallelFor parallel_for) noexcept;
