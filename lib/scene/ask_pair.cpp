@@ -76,6 +76,20 @@ public:
     }
 
 private:
+    /// Runs a query that begins at the near triangles. Keeps those that it finds.
+    template <class Query>
+    [[nodiscard]] auto from_near(const Query& query) noexcept {
+        PairCache cache;
+        Pair pair = pair_;
+        pair.cache = &cache;
+        TreePair& near = answer_.starts.near;
+        if (near.a != kNoPair.a) remember_pair(cache, near);
+        const auto found = query(pair);
+        near = has_pair(cache, pair.a, pair.b) ? TreePair{cache.triangle_a, cache.triangle_b}
+                                               : kNoPair;
+        return found;
+    }
+
     void find_overlaps() noexcept {
         call(Ask::overlap);
         const auto add = [&](const TrianglePair& found) {
@@ -91,9 +105,7 @@ private:
         call(Ask::distance);
         const auto found = has_parts() ? distance_of_parts(pair_, *question_.parts_a,
                                                            *question_.parts_b, asks_.max_distance)
-                                       : cdprep::distance(pair_, workspace_,
-                                                          {.absolute_error = question_.max_error,
-                                                           .max_distance = asks_.max_distance});
+                                       : measured();
         if (found) answer_.distance = *found;
         hold(Ask::distance, found.has_value());
     }
@@ -128,9 +140,21 @@ private:
         if constexpr (contains(kAsked, Ask::distance)) known = within_by_distance();
         if (!known) {
             call(Ask::within);
-            known = cdprep::within(pair_, asks_.tolerance, workspace_);
+            known = from_near([&](const Pair& pair) {
+                return cdprep::within(pair, asks_.tolerance, workspace_);
+            });
         }
         hold(Ask::within, *known);
+    }
+
+    [[nodiscard]] std::optional<Distance> measured() noexcept {
+        const DistanceOptions options = {.absolute_error = question_.max_error,
+                                         .max_distance = asks_.max_distance};
+        const auto ask = [&](const Pair& pair) {
+            return cdprep::distance(pair, workspace_, options);
+        };
+        // Where an error is permitted, the answer would depend on where the search begins.
+        return question_.max_error > 0 ? ask(pair_) : from_near(ask);
     }
 
     void find_contacts() noexcept {
@@ -182,7 +206,7 @@ private:
 
     /// As cdprep::collide(), but begins where the last contact was.
     [[nodiscard]] Collision collision() noexcept {
-        if (any_contact_near(answer_.touched, pair_, workspace_)) return {Answer::yes, {}};
+        if (any_contact_near(answer_.starts.touched, pair_, workspace_)) return {Answer::yes, {}};
         if (asks_.body == Body::surface) return {};
         const Containment inside = containment(pair_, workspace_);
         return {inside.answer, inside};
@@ -286,7 +310,7 @@ PairKernel pair_kernel(Ask effects) noexcept {
 PairAnswer ask_pair(const PairQuestion& question, PairKernel kernel, Workspace& workspace,
                     const ListWriters& lists) noexcept {
     PairAnswer answer;
-    answer.touched = question.touched;
+    answer.starts = question.starts;
     PairQueries queries(question, workspace, lists, answer);
     kernel(queries);
     return answer;

@@ -27,7 +27,7 @@ struct ListWriters {
 struct PairQuestion {
     const Pair& pair;
     const LayerPair& asks;  ///< the options of the effects
-    TreePair touched;       ///< triangles that touched in the last step, or kNoPair
+    SearchStarts starts;    ///< that the last step found
     const Pose& last_a;     ///< the poses at the begin of the step, of `continuous`
     const Pose& last_b;
     HapticRecord* haptic;           ///< of `haptic`, otherwise null
@@ -45,7 +45,7 @@ struct PairAnswer {
     Impact impact{};                ///< of `continuous`
     ContactsVerdict contacts{};     ///< of the list of contacts
     std::uint64_t overlapping = 0;  ///< triangle pairs in the list
-    TreePair touched = kNoPair;     ///< triangles found to touch
+    SearchStarts starts;
 };
 
 /// The queries about two objects: see ask_pair.cpp.

@@ -32,6 +32,12 @@ inline std::size_t effect_number(Ask effect) noexcept {
     return static_cast<std::size_t>(at - kSceneEffects.begin());
 }
 
+/// Triangles with which searches begin, or kNoPair. They change times, never answers.
+struct SearchStarts {
+    TreePair touched = kNoPair;  ///< of `collide`: they touched
+    TreePair near = kNoPair;     ///< of `within` and `distance`: they were the nearest, or near
+};
+
 /// What `haptic` knows of two objects.
 struct HapticRecord {
     BoundedDistance found;
@@ -54,9 +60,9 @@ struct Record {
     Ask asked = Ask::nothing;   ///< effects that are known
     Ask called = Ask::nothing;  ///< effects whose query was called in this step
     Ask holds = Ask::nothing;
-    TreePair touched = kNoPair;  ///< triangles that `collide` found, where the next search begins
-    bool is_new = false;         ///< looked at in this step
-    bool is_apart = false;       ///< by the root boxes: nothing is asked
+    SearchStarts starts;    ///< of the next search
+    bool is_new = false;    ///< looked at in this step
+    bool is_apart = false;  ///< by the root boxes: nothing is asked
 
     [[nodiscard]] bool is_of_one() const noexcept {
         return a.slot == b.slot;

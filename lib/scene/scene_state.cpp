@@ -84,7 +84,7 @@ void Scene::State::add_candidate(BoxPair slots) noexcept {
     record = Record{.a = {slots.a, a.generation},
                     .b = {slots.b, b.generation},
                     .pair = *plan->find_pair(a.layer, b.layer),
-                    .touched = kNoPair,
+                    .starts = {},
                     .is_new = true};
 }
 
@@ -212,7 +212,7 @@ void Scene::State::keep_known() noexcept {
         const bool is_known = contains(before.asked, effects_of(record)) &&
                               !follows_paused_distance(before, effects_of(record));
         if (is_known && !is_changed(record)) keep(old, now);
-        record.touched = before.touched;
+        record.starts = before.starts;
         if (next.haptic != nullptr) next.haptic[now] = last.haptic[old];
     });
     asked_count = 0;
@@ -254,7 +254,7 @@ PairAnswer Scene::State::ask_two(std::uint32_t number, const ObjectSlot& a, cons
     const PairRung& rung = plan->rungs()[record.pair];
     PairQuestion question = {pair,
                              asks,
-                             record.touched,
+                             record.starts,
                              has_ways ? last_poses[record.a.slot] : a.pose,
                              has_ways ? last_poses[record.b.slot] : b.pose,
                              next.haptic != nullptr ? next.haptic + number : nullptr,
@@ -292,7 +292,7 @@ void Scene::State::ask(std::uint32_t number, Workspace& workspace,
                                                  : ask_two(number, a, b, workspace, lists);
     record.holds = answer.holds;
     record.called = answer.called;
-    record.touched = answer.touched;
+    record.starts = answer.starts;
     if (next.collision) next.collision[number] = answer.collision;
     // A list that does not fit is longer than its count says; then the step is not complete.
     if (next.triangle_list) {
@@ -311,8 +311,9 @@ void Scene::State::ask(std::uint32_t number, Workspace& workspace,
 /// Prefetches what the search of `collide` reads first: it is far away in memory.
 void Scene::State::prefetch_search(std::uint32_t number) const noexcept {
     const Record& record = next.record[number];
-    if (record.is_of_one() || record.touched.a == kNoPair.a) return;
-    prefetch_contact(record.touched, *objects[record.a.slot].model, *objects[record.b.slot].model);
+    if (record.is_of_one() || record.starts.touched.a == kNoPair.a) return;
+    prefetch_contact(record.starts.touched, *objects[record.a.slot].model,
+                     *objects[record.b.slot].model);
 }
 
 void Scene::State::ask_all(std::span<Workspace> workspaces, ParallelFor parallel_for) noexcept {
