@@ -18,15 +18,22 @@ public:
         assert(at_a_time > 0);
     }
 
-    /// Calls `body(number)` for shares of this worker until none is left.
+    /// Calls `body(first, last)` for shares of this worker until none is left. `last` is one past
+    /// the share.
     template <class Body>
-    void take(Body&& body) noexcept {
+    void take_runs(Body&& body) noexcept {
         while (true) {
             const std::size_t first = next_.fetch_add(at_a_time_, std::memory_order_relaxed);
             if (first >= count_) return;
-            const std::size_t last = std::min(count_, first + at_a_time_);
-            for (std::size_t i = first; i < last; ++i) body(i);
+            body(first, std::min(count_, first + at_a_time_));
         }
+    }
+    /// As above, but calls `body(number)` for each number.
+    template <class Body>
+    void take(Body&& body) noexcept {
+        take_runs([&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) body(i);
+        });
     }
 
 private:
@@ -46,10 +53,10 @@ void run_workers(std::size_t workers, ParallelFor parallel_for, Work&& work) noe
     }
 }
 
-/// Calls `body(job, worker)` once for each job below `count`, on the caller's threads. A worker's
-/// number is below `most_workers`; a worker does one job at a time.
+/// Shares out the jobs below `count` on the caller's threads. Calls `body(first, last, worker)` for
+/// each share. A worker's number is below `most_workers`; a worker does one share at a time.
 template <class Body>
-void share_jobs(std::size_t count, std::size_t most_workers, ParallelFor parallel_for,
+void share_runs(std::size_t count, std::size_t most_workers, ParallelFor parallel_for,
                 Body body) noexcept {
     assert(most_workers > 0);
     // Jobs differ in cost. Small shares keep all workers busy to the end; large shares reduce
@@ -59,8 +66,18 @@ void share_jobs(std::size_t count, std::size_t most_workers, ParallelFor paralle
     if (workers == 0) return;
     Shares shares(count, 1 + count / (kSharesOfAWorker * workers));
     run_workers(workers, parallel_for, [&](std::size_t worker) {
-        shares.take([&](std::size_t job) { body(job, worker); });
+        shares.take_runs([&](std::size_t first, std::size_t last) { body(first, last, worker); });
     });
+}
+
+/// As above, but calls `body(job, worker)` once for each job.
+template <class Body>
+void share_jobs(std::size_t count, std::size_t most_workers, ParallelFor parallel_for,
+                Body body) noexcept {
+    share_runs(count, most_workers, parallel_for,
+               [&](std::size_t first, std::size_t last, std::size_t worker) {
+                   for (std::size_t job = first; job < last; ++job) body(job, worker);
+               });
 }
 
 }  // namespace cdprep

@@ -135,12 +135,14 @@ public:
         Workspace::Storage& storage = workspace_.storage();
         ContactChoice choice(storage.contact_candidates);
         Contacts contacts(*this, options_.manifold);
+        const std::size_t most = std::min(options_.most, kMostListedContacts);
         std::uint64_t work_of_all = 0;
         each_page([&](const NearPieces& near) {
             work_of_all += work_of(near) + kWorkOfBound;
-            // Without a choice, and without a limit that might end it, no bound is needed.
-            const bool takes_all =
-                options_.work == 0 && !gathered_.is_limited() && verdict_.found <= options_.most;
+            // Where all are listed and no limit may end the choice, no bound is needed. How many
+            // enclosed components are listed is not yet known.
+            const bool takes_all = options_.work == 0 && pair_.options.body == Body::surface &&
+                                   !gathered_.is_limited() && verdict_.found <= most;
             const double depth = takes_all ? kInfinity : contacts.most_depth(near);
             const Double3 at = moved_a_.corners(near.a)[0];
             choice.add({depth, Known::roughly, kNoSlot, at, near, 0});
@@ -158,7 +160,6 @@ public:
             candidate.known = Known::exactly;
             return true;
         };
-        const std::size_t most = std::min(options_.most, kMostListedContacts);
         const std::size_t deep = list_deep(std::span(storage.listed_contacts).first(most));
         // Bounds save time where many contacts would be computed. They would use up a limit that
         // allows few.

@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    /// Runs a query that begins at the near triangles. Keeps those that it finds.
+    /// Runs a query that begins at the near triangles. Keeps those that it finds, or else the same.
     template <class Query>
     [[nodiscard]] auto from_near(const Query& query) noexcept {
         PairCache cache;
@@ -140,9 +140,11 @@ private:
         if constexpr (contains(kAsked, Ask::distance)) known = within_by_distance();
         if (!known) {
             call(Ask::within);
-            known = from_near([&](const Pair& pair) {
+            const auto ask = [&](const Pair& pair) {
                 return cdprep::within(pair, asks_.tolerance, workspace_);
-            });
+            };
+            // Of tolerance 0, it searches for a contact, which a near pair does not help.
+            known = asks_.tolerance > 0 ? from_near(ask) : ask(pair_);
         }
         hold(Ask::within, *known);
     }

@@ -110,7 +110,7 @@ struct Records {
     }
 
     std::uint32_t count = 0;
-    Record* record;  ///< as the next seven, by number
+    Record* record;  ///< by number, as are the next seven
     Collision* collision = nullptr;
     Distance* distance = nullptr;
     Impact* impact = nullptr;

@@ -308,7 +308,7 @@ void Scene::State::ask(std::uint32_t number, Workspace& workspace,
     if (next.verdict) next.verdict[number] = answer.contacts;
 }
 
-/// Prefetches what the search of `collide` reads first: it is far away in memory.
+/// Prefetches what the search of `collide` reads first, because it is far away in memory.
 void Scene::State::prefetch_search(std::uint32_t number) const noexcept {
     const Record& record = next.record[number];
     if (record.is_of_one() || record.starts.touched.a == kNoPair.a) return;
@@ -321,10 +321,14 @@ void Scene::State::ask_all(std::span<Workspace> workspaces, ParallelFor parallel
     if (triangle_pairs) triangle_pairs->start();
     if (contact_pages) contact_pages->start();
     std::fill_n(ticks, plan->limits().threads, EffectTicks{});
-    share_jobs(asked_count, threads, parallel_for, [&](std::size_t job, std::size_t worker) {
-        if (job + 1 < asked_count) prefetch_search(asked[job + 1]);
-        ask(asked[job], workspaces[worker], start_lists(worker));
-    });
+    const auto ask_share = [&](std::size_t first, std::size_t end, std::size_t worker) {
+        for (std::size_t job = first; job < end; ++job) {
+            // Another worker may be writing the record after the share.
+            if (job + 1 < end) prefetch_search(asked[job + 1]);
+            ask(asked[job], workspaces[worker], start_lists(worker));
+        }
+    };
+    share_runs(asked_count, threads, parallel_for, ask_share);
 }
 
 // Lists -------------------------------------------------------------------------------------------
