@@ -621,6 +621,7 @@ TEST(Scene, FloatModesChangeNothing) {
     const test::OpenModel ring = test::open_tiny(test::torus(0.7, 0.2, 12, 8));
     std::mt19937 random(9);
     std::vector<Pose> poses;
+    poses.reserve(120);
     for (int i = 0; i < 120; ++i) poses.push_back(test::random_pose(random, 2));
     std::vector<std::uint64_t> hashes;
     for (const test::FloatMode& mode : test::float_modes()) {
