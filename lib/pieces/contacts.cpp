@@ -139,8 +139,8 @@ public:
         std::uint64_t work_of_all = 0;
         each_page([&](const NearPieces& near) {
             work_of_all += work_of(near) + kWorkOfBound;
-            // Where all are listed and no limit may end the choice, no bound is needed. How many
-            // enclosed components are listed is not yet known.
+            // Where all are listed and no limit may end the choice, no bound is needed. Of solids,
+            // enclosed components may take places of the list.
             const bool takes_all = options_.work == 0 && pair_.options.body == Body::surface &&
                                    !gathered_.is_limited() && verdict_.found <= most;
             const double depth = takes_all ? kInfinity : contacts.most_depth(near);

@@ -76,7 +76,7 @@ public:
     }
 
 private:
-    /// Runs a query that begins at the near triangles. Keeps those that it finds, or else the same.
+    /// Runs a query that begins at the near triangles. Then keeps those that it found, if any.
     template <class Query>
     [[nodiscard]] auto from_near(const Query& query) noexcept {
         PairCache cache;
@@ -143,7 +143,8 @@ private:
             const auto ask = [&](const Pair& pair) {
                 return cdprep::within(pair, asks_.tolerance, workspace_);
             };
-            // Of tolerance 0, it searches for a contact, which a near pair does not help.
+            // With a tolerance of 0, the query searches for a contact. A near pair does not help
+            // it.
             known = asks_.tolerance > 0 ? from_near(ask) : ask(pair_);
         }
         hold(Ask::within, *known);
