@@ -233,6 +233,10 @@ inline D8 abs(const D8& a) noexcept {
 inline D8::Mask greater(const D8& a, const D8& b) noexcept {
     return {_mm256_cmp_pd(a.x, b.x, _CMP_GT_OQ), _mm256_cmp_pd(a.y, b.y, _CMP_GT_OQ)};
 }
+inline unsigned bits(const D8::Mask& a) noexcept {
+    return static_cast<unsigned>(_mm256_movemask_pd(a.x)) |
+           static_cast<unsigned>(_mm256_movemask_pd(a.y)) << 4;
+}
 inline D8 select(const D8::Mask& where, const D8& a, const D8& b) noexcept {
     return {_mm256_blendv_pd(b.x, a.x, where.x), _mm256_blendv_pd(b.y, a.y, where.y)};
 }

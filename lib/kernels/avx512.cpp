@@ -300,6 +300,9 @@ inline D8 abs(D8 a) noexcept {
 inline D8::Mask greater(D8 a, D8 b) noexcept {
     return {_mm512_cmp_pd_mask(a.x, b.x, _CMP_GT_OQ)};
 }
+inline unsigned bits(D8::Mask a) noexcept {
+    return a.x;
+}
 inline D8 select(D8::Mask where, D8 a, D8 b) noexcept {
     return _mm512_mask_blend_pd(where.x, b.x, a.x);
 }

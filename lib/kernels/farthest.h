@@ -14,6 +14,10 @@ inline constexpr std::size_t kMostBlocks = std::size_t{1} << 29;  ///< for 2^32 
 
 namespace {
 
+inline double highest_of(double a, double b) noexcept {
+    return a > b ? a : b;
+}
+
 /// The highest value of each lane, and the first block that has it.
 template <class D8>
 struct HighestOfLane {
@@ -31,14 +35,16 @@ struct HighestOfLane {
         double blocks[kLanes];
         value.store(values);
         block.store(blocks);
-        FarthestPoint best = {0, -format::kInfinity, 0};
-        for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+        const double most = highest_of(
+            highest_of(highest_of(values[0], values[1]), highest_of(values[2], values[3])),
+            highest_of(highest_of(values[4], values[5]), highest_of(values[6], values[7])));
+        // One lane, as a rule: a search for the highest lane would mispredict its branches.
+        unsigned rest = ~bits(greater(D8(most), value)) & ((1U << kLanes) - 1);
+        FarthestPoint best = {0xffffffff, most, 0};
+        for (; rest != 0; rest &= rest - 1) {
+            const unsigned lane = format::lowest_set_bit(rest);
             const auto number = static_cast<std::uint32_t>(blocks[lane]) * 8 + lane;
-            // Without branches, because the lane is unpredictable.
-            const bool is_first = values[lane] == best.value && number < best.number;
-            const bool is_better = values[lane] > best.value || is_first;
-            best.number = is_better ? number : best.number;
-            best.value = is_better ? values[lane] : best.value;
+            best.number = number < best.number ? number : best.number;
         }
         return best;
     }

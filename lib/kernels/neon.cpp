@@ -263,6 +263,10 @@ inline D8::Mask greater(const D8& a, const D8& b) noexcept {
     for (unsigned i = 0; i < 4; ++i) result.x[i] = vcgtq_f64(a.x[i], b.x[i]);
     return result;
 }
+inline unsigned bits(const D8::Mask& a) noexcept {
+    return bits(Mask8{vcombine_u32(vmovn_u64(a.x[0]), vmovn_u64(a.x[1])),
+                      vcombine_u32(vmovn_u64(a.x[2]), vmovn_u64(a.x[3]))});
+}
 inline D8 select(const D8::Mask& where, const D8& a, const D8& b) noexcept {
     return each_double([&](unsigned i) { return vbslq_f64(where.x[i], a.x[i], b.x[i]); });
 }

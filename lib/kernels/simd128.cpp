@@ -261,6 +261,11 @@ inline D8::Mask greater(const D8& a, const D8& b) noexcept {
     for (unsigned i = 0; i < 4; ++i) result.x[i] = wasm_f64x2_gt(a.x[i], b.x[i]);
     return result;
 }
+inline unsigned bits(const D8::Mask& a) noexcept {
+    unsigned all = 0;
+    for (unsigned i = 0; i < 4; ++i) all |= wasm_i64x2_bitmask(a.x[i]) << (2 * i);
+    return all;
+}
 inline D8 select(const D8::Mask& where, const D8& a, const D8& b) noexcept {
     return each_double([&](unsigned i) { return wasm_v128_bitselect(a.x[i], b.x[i], where.x[i]); });
 }
