@@ -15,7 +15,7 @@ set(lib_rooms
     "live: build core exact walk"
     "walk: core exact kernels"
     "hull: core exact kernels"
-    "pieces: core exact hull walk"
+    "pieces: core exact hull kernels walk"
     "query: core exact pieces walk"
     "motion: build core exact query walk"
     "scene: core kernels walk"

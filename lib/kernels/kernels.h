@@ -268,6 +268,22 @@ struct PlaneRows {
     std::size_t stride;
 };
 
+/// An edge of a convex polytope, and the vectors from its start to a corner of the face on either
+/// side.
+struct OneEdge {
+    double along[3];
+    double left[3];
+    double right[3];
+    double length;
+};
+/// Eight of them, by lanes.
+struct EdgeLanes {
+    double along[3][kLanes];
+    double left[3][kLanes];
+    double right[3][kLanes];
+    double length[kLanes];
+};
+
 /// A box in world coordinates is padded to eight floats: lower x, y, z, 0, upper x, y, z, 0.
 /// Eight boxes of a tree are a node of 48: lower x, y, z, upper x, y, z, eight each. An absent box
 /// has lower > upper along each axis and meets none.
@@ -375,6 +391,19 @@ struct Table {
     /// As above for points as they are moved, with a proven bound.
     FarthestPoint (*farthest_moved)(const double* blocks, std::size_t count,
                                     const MovedDirection& from) noexcept;
+
+    /// Computes how far points reach along directions: the largest scalar product of each. Takes
+    /// `blocks` blocks of eight directions, as format::HullBlock, and at least one point, three
+    /// numbers each. Stores eight numbers a block. This and the next are the same for every table.
+    void (*reaches)(const double* directions, std::size_t blocks, const double* points,
+                    std::size_t count, double* reaches) noexcept;
+
+    /// Finds the edges that may, with `edge`, be the end of both polytopes along the normal of
+    /// both edges. For the others, two of the four corners are certainly on different sides: by
+    /// more than error_of_height times the product of the lengths. The corners of the other edge
+    /// count reversed. Stores a bit set a block.
+    void (*edges_across)(const EdgeLanes* edges, std::size_t blocks, const OneEdge& edge,
+                         double error_of_height, std::uint8_t* across) noexcept;
 
     /// Finds, among the first `count` planes, those without a certain gap of more than `limit`,
     /// pair units. Returns their number; stores their numbers, rising, in `numbers`. May write

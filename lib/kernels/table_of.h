@@ -6,6 +6,7 @@
 #include "exact_leaf.h"
 #include "farthest.h"
 #include "kernels.h"
+#include "piece_ways.h"
 #include "swept_spheres.h"
 #include "weak_planes.h"
 #include "world_boxes.h"
@@ -29,6 +30,8 @@ constexpr Table table_of(const char* name) noexcept {
             {kSweptTests<0, F8, Wide>, kSweptTests<1, F8, Wide>, kSweptTests<2, F8, Wide>},
             farthest_of<D8>,
             farthest_moved_of<D8>,
+            reaches_of<D8>,
+            edges_across_of<D8>,
             weak_planes_of<Wide>,
             met_boxes_of<F8>,
             meeting_boxes_of<F8>,

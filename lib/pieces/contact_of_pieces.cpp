@@ -215,7 +215,7 @@ private:
         const PieceShape* shape_b = shape_a == nullptr ? nullptr : b_.shape(origin);
         if (shape_b == nullptr || !ways.find(*shape_a, *shape_b, near_.touch)) return false;
         if (question_.counts != nullptr) question_.counts->hull_pairs += 1;
-        const double shortest = ways.shortest()[0].length;
+        const double shortest = ways[0].length;
         const double size = shape_a->reach() + shape_b->reach();
         return shortest - ways.least() <=
                kRelative * shortest + kOfSize * size + 4 * ways.position_error();
@@ -252,9 +252,9 @@ private:
     }
 
     /// `depth` is a lower bound of the length of every way out.
-    [[nodiscard]] Meeting answer_overlap(const WaysOut& ways, double depth,
+    [[nodiscard]] Meeting answer_overlap(WaysOut& ways, double depth,
                                          Contact& contact) const noexcept {
-        Exit exit = best_exit(ways.shortest());
+        Exit exit = best_exit(ways);
         put_points(exit);
         contact.flags |= contact_overlap;
         if (exit.rank > 0) contact.flags |= contact_internal_edge;
@@ -297,9 +297,9 @@ private:
     /// kMuchShorter and leads neither along a plane nor deeper into a solid. Without either,
     /// returns the direction of the shortest exit along a plane, turned upright. Without that too,
     /// returns the shortest way itself.
-    [[nodiscard]] Exit best_exit(std::span<const WayOut> ways) const noexcept {
+    [[nodiscard]] Exit best_exit(WaysOut& ways) const noexcept {
         std::optional<Exit> other, leaning;
-        for (std::size_t i = 0; i < ways.size(); ++i) {
+        for (std::size_t i = 0; i < ways.count(); ++i) {
             const WayOut& way = ways[i];
             if (other && way.length > kMuchShorter * other->way.length) break;
             const std::optional<Meeting> meeting = features_across(way);
@@ -311,7 +311,7 @@ private:
         if (other) return *other;
         if (!leaning) return {ways[0], {}, 0};
         const auto upright = upright_normal(leaning->meeting, leaning->way.normal);
-        return {{upright.value_or(ways[0].normal), 0, WayKind::other, 0, 0}, {}, ways.size()};
+        return {{upright.value_or(ways[0].normal), 0, WayKind::other, 0, 0}, {}, ways.count()};
     }
 
     /// Returns the features across which a way leads, with any triangle of a face. Returns nothing

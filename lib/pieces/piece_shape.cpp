@@ -22,6 +22,7 @@ bool PieceShape::set(const ContactSide& side, const Double3& origin) noexcept {
         if (!add_face(facets.subspan(f, edges.end_of_face(f) - f))) return false;
     }
     add_edges(side);
+    set_inward();
     return true;
 }
 
@@ -29,9 +30,15 @@ void PieceShape::set_corners(const ContactSide& side, const Double3& origin) noe
     position_error_ = side.position_error();
     reach_ = 0;
     corners_ = side.points().count;
+    box_ = {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
     for (std::uint32_t i = 0; i < corners_; ++i) {
-        corner_[i] = side.corner(i) - origin;
-        reach_ = std::max(reach_, length(corner_[i]));
+        const Double3 p = side.corner(i) - origin;
+        corner_[i] = p;
+        reach_ = std::max(reach_, length(p));
+        box_ = {
+            {std::min(box_.lower.x, p.x), std::min(box_.lower.y, p.y), std::min(box_.lower.z, p.z)},
+            {std::max(box_.upper.x, p.x), std::max(box_.upper.y, p.y),
+             std::max(box_.upper.z, p.z)}};
     }
 }
 
@@ -69,6 +76,17 @@ void PieceShape::add_edges(const ContactSide& side) noexcept {
                                static_cast<std::uint8_t>(edges.end(p)), third(p),
                                third(edges.twin(p))};
         }
+    }
+}
+
+void PieceShape::set_inward() noexcept {
+    constexpr std::size_t kLanes = format::kHullLanes;
+    for (std::size_t i = 0; i < kLanes * inward().size(); ++i) {
+        const Double3 n = i < faces_ ? -face_[i].normal : Double3{};
+        auto& rows = inward_[i / kLanes].at;
+        rows[0][i % kLanes] = n.x;
+        rows[1][i % kLanes] = n.y;
+        rows[2][i % kLanes] = n.z;
     }
 }
 

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <span>
 
+#include "cdprep/format/hull.h"
 #include "cdprep/format/pieces.h"
+#include "exact/box3.h"
 #include "exact/vectors.h"
 
 namespace cdprep {
@@ -53,6 +55,14 @@ public:
     [[nodiscard]] std::span<const Edge> edges() const noexcept {
         return std::span(edge_).first(edges_);
     }
+    /// The normals of all faces, reversed. The rest of the last block is 0.
+    [[nodiscard]] std::span<const format::HullBlock> inward() const noexcept {
+        return std::span(inward_).first((faces_ + format::kHullLanes - 1) / format::kHullLanes);
+    }
+    /// The box around the corners.
+    [[nodiscard]] const Box3& box() const noexcept {
+        return box_;
+    }
     /// The largest distance of a corner from where exact arithmetic would move it.
     [[nodiscard]] double position_error() const noexcept {
         return position_error_;
@@ -66,15 +76,18 @@ private:
     void set_corners(const ContactSide& side, const Double3& origin) noexcept;
     [[nodiscard]] bool add_face(std::span<const format::PieceFacet> facets) noexcept;
     void add_edges(const ContactSide& side) noexcept;
+    void set_inward() noexcept;
 
     std::size_t corners_ = 0;
     std::size_t faces_ = 0;
     std::size_t edges_ = 0;
     double position_error_ = 0;
     double reach_ = 0;
+    Box3 box_{};
     std::array<Double3, kMostCorners> corner_;
     std::array<Face, kMostFaces> face_;
     std::array<Edge, kMostEdges> edge_;
+    std::array<format::HullBlock, kMostFaces / format::kHullLanes> inward_;
 };
 
 }  // namespace cdprep

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "pieces/piece_shape.h"
 
@@ -46,14 +46,20 @@ public:
     void add(const Double3& normal, double length) noexcept {
         add({normal, length, WayKind::other, 0, 0});
     }
+    /// Forgets all ways.
     void clear() noexcept {
-        count_ = 0;
+        count_ = found_ = 0;
     }
 
+    /// The number of ways that operator[] returns.
+    [[nodiscard]] std::size_t count() const noexcept {
+        return std::min(count_, kMost);
+    }
     /// Returns the shortest ways in order. Of ways that are equal up to rounding, those of faces
-    /// come first.
-    [[nodiscard]] std::span<const WayOut> shortest() const noexcept {
-        return std::span(way_).first(count_);
+    /// come first. No way can be added afterwards.
+    [[nodiscard]] const WayOut& operator[](std::size_t i) noexcept {
+        while (found_ <= i) find_next();
+        return way_[place_[i]];
     }
     /// Returns a lower bound of the length of every way out. Negative: the hulls may be apart.
     [[nodiscard]] double least() const noexcept {
@@ -65,17 +71,26 @@ public:
     }
 
 private:
+    /// The most ways before the longest ones go.
+    static constexpr std::size_t kRoom = 64;
+
     void add(const WayOut& way) noexcept;
     void add_faces(const PieceShape& of, const PieceShape& other, WayKind kind) noexcept;
     void add_edges(const PieceShape& a, const PieceShape& b, double far) noexcept;
+    void keep_shortest() noexcept;
+    void find_next() noexcept;
 
     std::size_t count_ = 0;
+    std::size_t found_ = 0;  ///< how many of the shortest are in place_
     double least_ = 0;
     double position_error_ = 0;
     double reach_ = 0;
+    double shortest_of_faces_ = 0;
     double skipped_angle_ = 0;  ///< the largest between edges that were left out
-    std::array<WayOut, kMost> way_;
-    std::array<double, kMost> order_;  ///< the length; of edges, a little more
+    std::array<WayOut, kRoom> way_;
+    /// The length; of edges, a little more. Infinite for those in place_.
+    std::array<double, kRoom> order_;
+    std::array<std::uint8_t, kMost> place_;  ///< of the shortest in way_, in order
 };
 
 /// Returns a bound of the shortest way out of two hulls, or minus their distance, by the normals of

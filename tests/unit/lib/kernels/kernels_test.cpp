@@ -16,6 +16,7 @@
 #include "cdprep/format/hull.h"
 #include "exact/triangle_contact.h"
 #include "exact/triangle_distance.h"
+#include "exact/vectors.h"
 #include "support/random_pose.h"
 #include "unit/lib/kernels/each_table.h"
 #include "unit/lib/kernels/inputs.h"
@@ -874,6 +875,86 @@ TEST(Kernels, TheFarthestPointIsTheSameForEveryTable) {
         if (HasFatalFailure()) return;
     }
     EXPECT_GT(ties, 1000);
+}
+
+// The reference is the formula, point by point; every table must give the same bits.
+TEST(Kernels, ReachesAreTheSameForEveryTable) {
+    std::mt19937 random(78);
+    for (int trial = 0; trial < 1000; ++trial) {
+        const auto directions = random_blocks(random, 1 + random() % 40, false);
+        std::vector<Double3> points(1 + random() % 20);
+        for (Double3& p : points) p = test::random_pose(random, 2).translation();
+        for_each_table([&](const Table& table) {
+            std::vector<double> reaches(8 * directions.size(), HUGE_VAL);
+            table.reaches(directions[0].at[0].data(), directions.size(), &points[0].x,
+                          points.size(), reaches.data());
+            for (std::size_t i = 0; i < reaches.size(); ++i) {
+                const auto& at = directions[i / 8].at;
+                const Double3 n = {at[0][i % 8], at[1][i % 8], at[2][i % 8]};
+                double most = -HUGE_VAL;
+                for (const Double3& p : points) most = std::max(most, dot(n, p));
+                ASSERT_EQ(reaches[i], most);
+            }
+        });
+        if (HasFatalFailure()) return;
+    }
+}
+
+/// An edge of small whole numbers, so that no product is rounded.
+OneEdge random_edge(std::mt19937& random) {
+    OneEdge edge{};
+    const auto number = [&] { return static_cast<double>(random() % 7) - 3; };
+    for (double* vector : {edge.along, edge.left, edge.right}) {
+        for (std::size_t axis = 0; axis < 3; ++axis) vector[axis] = number();
+    }
+    edge.length = std::sqrt(edge.along[0] * edge.along[0] + edge.along[1] * edge.along[1] +
+                            edge.along[2] * edge.along[2]);
+    return edge;
+}
+
+// An edge stays unless two of the four corners are on different sides of the plane of both.
+TEST(Kernels, EdgesAcrossAreTheSameForEveryTable) {
+    std::mt19937 random(79);
+    const auto vector = [](const double* p) { return Double3{p[0], p[1], p[2]}; };
+    int left_out = 0, at_the_limit = 0;
+    for (int trial = 0; trial < 3000; ++trial) {
+        const OneEdge edge = random_edge(random);
+        std::array<OneEdge, 16> others;
+        std::array<EdgeLanes, 2> lanes;
+        for (std::size_t i = 0; i < others.size(); ++i) {
+            others[i] = random_edge(random);
+            EdgeLanes& block = lanes[i / 8];
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                block.along[axis][i % 8] = others[i].along[axis];
+                block.left[axis][i % 8] = others[i].left[axis];
+                block.right[axis][i % 8] = others[i].right[axis];
+            }
+            block.length[i % 8] = others[i].length;
+        }
+        const double error = trial % 2 == 0 ? 0 : 0.25;
+        std::array<bool, 16> stays;
+        for (std::size_t i = 0; i < others.size(); ++i) {
+            const Double3 n = cdprep::cross(vector(edge.along), vector(others[i].along));
+            const std::array heights = {dot(n, vector(edge.left)), dot(n, vector(edge.right)),
+                                        -dot(n, vector(others[i].left)),
+                                        -dot(n, vector(others[i].right))};
+            const double slack = edge.length * others[i].length * error;
+            const auto [least, most] = std::minmax_element(heights.begin(), heights.end());
+            stays[i] = !(*most > slack && *least < -slack);
+            left_out += stays[i] ? 0 : 1;
+            at_the_limit += *most == slack || *least == -slack ? 1 : 0;
+        }
+        for_each_table([&](const Table& table) {
+            std::array<std::uint8_t, 2> across = {0xaa, 0x55};
+            table.edges_across(lanes.data(), lanes.size(), edge, error, across.data());
+            for (std::size_t i = 0; i < others.size(); ++i) {
+                ASSERT_EQ((across[i / 8] >> (i % 8) & 1) != 0, stays[i]) << i;
+            }
+        });
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(left_out, 10'000);
+    EXPECT_GT(at_the_limit, 1000);
 }
 
 // By the points themselves, in double: between what two sets of points reach along a direction that

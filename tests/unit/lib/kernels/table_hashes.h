@@ -256,6 +256,29 @@ inline void ask_points(const Table& table, Draws& draws, Hashes& hashes) {
     hash.add(moved.bound);
 }
 
+inline void ask_ways(const Table& table, Draws& draws, Hashes& hashes) {
+    std::array<double, 3 * kLanes> normals;
+    std::array<double, 15> points;
+    for (double& x : normals) x = draws.fraction();
+    for (double& x : points) x = draws.fraction();
+    std::array<double, kLanes> reaches;
+    table.reaches(normals.data(), 1, points.data(), points.size() / 3, reaches.data());
+    hashes["reaches"].add_all(reaches);
+    EdgeLanes edges;
+    OneEdge edge;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (auto* vector : {edge.along, edge.left, edge.right}) vector[i] = draws.fraction();
+        for (auto* rows : {edges.along, edges.left, edges.right}) {
+            for (double& x : rows[i]) x = draws.fraction();
+        }
+    }
+    edge.length = std::fabs(draws.fraction());
+    for (double& length : edges.length) length = std::fabs(draws.fraction());
+    std::uint8_t across = 0;
+    table.edges_across(&edges, 1, edge, 0.75, &across);
+    hashes["edges_across"].add(across);
+}
+
 inline void ask_planes(const Table& table, Draws& draws, Hashes& hashes) {
     constexpr std::size_t kStride = 48, kCount = 43;
     const Pose pose = draws.pose();
@@ -362,7 +385,7 @@ inline constexpr std::size_t kKernels = sizeof(Table) / sizeof(void*) - 1 - 3;
 
 /// Asks every kernel of a table a thousand times.
 inline Hashes hashes_of(const Table& table) {
-    Draws draws(8), leaf_draws(9);
+    Draws draws(8), leaf_draws(9), way_draws(10);
     Hashes hashes;
     const auto scratch = std::make_unique<LeafScratch>();
     for (int round = 0; round < 1000; ++round) {
@@ -373,6 +396,7 @@ inline Hashes hashes_of(const Table& table) {
         ask_planes(table, draws, hashes);
         ask_world(table, draws, hashes);
         ask_leaf(table, leaf_draws, hashes);
+        ask_ways(table, way_draws, hashes);
     }
     return hashes;
 }
