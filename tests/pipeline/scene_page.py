@@ -114,6 +114,8 @@ def check_pushes(browser, program, folder):
     effects = browser.value("Array.from({length: run.event_count}, (_, i) => "
                             "run.effects[run.event(i).effect].name)")
     must(set(effects) == {"response"}, f"effects {effects}")
+    stages = browser.value("run.spans.stages")
+    must(stages[0] == "response", f"stages {stages}")
     for kind in ("begins", "ends"):
         marks = browser.value(f"+document.querySelector('#lane-response .{kind}').dataset.count")
         frames = {e[0] for e in told if e[1] == kind}

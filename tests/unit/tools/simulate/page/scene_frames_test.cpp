@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -83,6 +84,17 @@ TEST(SceneFrames, KeepsAMotionThatOnlyALeftOutFrameHas) {
     ASSERT_EQ(moved.size(), 1u);
     EXPECT_EQ(moved[0].object, 3u);
     EXPECT_EQ(moved[0].pose.translation().x, 1001);
+}
+
+// `response` is not asked. pipeline_scene_page has a scene that asks it.
+TEST(SceneTimeline, HasAStageForEachEffectThatIsAsked) {
+    PageScene scene;
+    SceneTimeline timeline;
+    scene.run(
+        1, [&](std::uint64_t, const scenes::Simulation& simulation) { timeline.add(simulation); });
+    EXPECT_EQ(timeline.stages(),
+              (std::vector<std::string>{"boxes", "collide", "overlap", "within", "distance",
+                                        "contacts", "rest of pairs", "lists"}));
 }
 
 // By a run without limits: sums and maxima of the frames that a span joins.
