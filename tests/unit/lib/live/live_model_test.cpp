@@ -556,6 +556,51 @@ TEST(LiveModel, ARebuildMakesBoxesSmallerAndChangesNoAnswer) {
     EXPECT_FALSE(format::find_deep_damage(moving.object.image().value()));
 }
 
+/// The triangles of a soup, each moved by its vector, which is scaled by `by(number)`.
+template <class By>
+TestMesh scattered(const TestMesh& soup, By&& by) {
+    TestMesh moved = soup;
+    std::mt19937 random(9);
+    std::normal_distribution<double> normal;
+    for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
+        const Double3 d = {normal(random), normal(random), normal(random)};
+        const double factor = by(i);
+        for (const std::uint32_t v : soup.triangles[i].vertex) {
+            const Double3& p = soup.positions[v];
+            moved.positions[v] = {p.x + factor * d.x, p.y + factor * d.y, p.z + factor * d.z};
+        }
+    }
+    return moved;
+}
+
+// All boxes grow by less than begins a rebuild. Then some grow by more: the others are rebuilt too,
+// since they have grown by more than ends it.
+TEST(LiveModel, ARebuildGoesOnBelowTheGrowthThatBeginsIt) {
+    const TestMesh soup = random_soup(6, 60'000, 0.05);
+    Running moving = run(arrays_of(soup));
+    const double cost = moving.object.surface_cost();
+    double little = 0;
+    while (moving.object.surface_cost() < 1.33 * cost) {
+        little += 0.001;
+        ASSERT_TRUE(
+            moving.object.refit(scattered(soup, [&](std::size_t) { return little; }).positions));
+    }
+    EXPECT_EQ(moving.object.rebuild(1'000'000), 0U);
+    std::uint32_t moved_more = 0;
+    const TestMesh uneven = scattered(soup, [&](std::size_t i) {
+        const Double3& p = soup.positions[soup.triangles[i].vertex[0]];
+        const bool is_corner = p.x < -0.4 && p.y < -0.4 && p.z < -0.4;
+        moved_more += is_corner ? 1 : 0;
+        return is_corner ? 10 * little : little;
+    });
+    ASSERT_TRUE(moving.object.refit(uneven.positions));
+    const std::uint32_t rebuilt = moving.object.rebuild(1'000'000);
+    EXPECT_GT(moved_more, 500U);
+    EXPECT_LT(moved_more, 6'000U);
+    EXPECT_GT(rebuilt, 50'000U);
+    EXPECT_EQ(moving.object.rebuild(1'000'000), 0U);
+}
+
 TEST(LiveModel, BadMovesAreRefusedByNumberAndChangeNothing) {
     const TestMesh ball = icosphere(2);
     Running moving = run(arrays_of(ball));
