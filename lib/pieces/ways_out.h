@@ -71,8 +71,8 @@ public:
     }
 
 private:
-    /// The most ways before the longest ones go.
-    static constexpr std::size_t kRoom = 64;
+    /// The most ways before the longest ones go: enough for most pieces.
+    static constexpr std::size_t kRoom = 128;
 
     void add(const WayOut& way) noexcept;
     void add_faces(const PieceShape& of, const PieceShape& other, WayKind kind) noexcept;
