@@ -280,12 +280,12 @@ private:
         placed_points_;  ///< in placed_ or a PlacedHull; empty for a hull too large for both
     PlacedHull* large_ = nullptr;  ///< or null: the hull is not in a PlacedHull
     std::array<format::HullBlock, kMostPlaced> placed_;
+    PieceShape shape_;
     static constexpr std::size_t kMostPlacedTriangles = 32;
     std::size_t placed_triangles_count_ = 0;
     std::array<PlacedTriangle, kMostPlacedTriangles> placed_triangle_;
     enum class HasShape : std::uint8_t { unknown, no, yes };
     HasShape has_shape_ = HasShape::unknown;
-    PieceShape shape_;
 };
 
 }  // namespace cdprep
