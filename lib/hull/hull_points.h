@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "cdprep/advanced/convex_points.h"
 
@@ -20,6 +21,16 @@ namespace cdprep {
     if (points.floats.empty()) return points.doubles[corner];
     const format::Float3& p = points.floats[corner];
     return {p.x, p.y, p.z};
+}
+
+/// Sets a point of some blocks.
+inline void set_hull_point(std::span<format::HullBlock> blocks, std::size_t number,
+                           const Double3& p) noexcept {
+    auto& at = blocks[number / format::kHullLanes].at;
+    const std::size_t lane = number % format::kHullLanes;
+    at[0][lane] = p.x;
+    at[1][lane] = p.y;
+    at[2][lane] = p.z;
 }
 
 /// Returns direction_cell(), under the same conditions.

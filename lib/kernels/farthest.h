@@ -14,8 +14,10 @@ inline constexpr std::size_t kMostBlocks = std::size_t{1} << 29;  ///< for 2^32 
 
 namespace {
 
-inline double highest_of(double a, double b) noexcept {
-    return a > b ? a : b;
+inline double highest_of(const double (&lanes)[kLanes]) noexcept {
+    const auto of = [](double a, double b) { return a > b ? a : b; };
+    return of(of(of(lanes[0], lanes[1]), of(lanes[2], lanes[3])),
+              of(of(lanes[4], lanes[5]), of(lanes[6], lanes[7])));
 }
 
 /// The highest value of each lane, and the first block that has it.
@@ -35,9 +37,7 @@ struct HighestOfLane {
         double blocks[kLanes];
         value.store(values);
         block.store(blocks);
-        const double most = highest_of(
-            highest_of(highest_of(values[0], values[1]), highest_of(values[2], values[3])),
-            highest_of(highest_of(values[4], values[5]), highest_of(values[6], values[7])));
+        const double most = highest_of(values);
         // One lane, as a rule: a search for the highest lane would mispredict its branches.
         unsigned rest = ~bits(greater(D8(most), value)) & ((1U << kLanes) - 1);
         FarthestPoint best = {0xffffffff, most, 0};
@@ -100,10 +100,7 @@ FarthestPoint farthest_moved_of(const double* blocks, std::size_t count,
     FarthestPoint best = highest.farthest();
     double bounds[kLanes];
     bound.store(bounds);
-    best.bound = bounds[0];
-    for (std::size_t lane = 1; lane < kLanes; ++lane) {
-        if (bounds[lane] > best.bound) best.bound = bounds[lane];
-    }
+    best.bound = highest_of(bounds);
     assert(!(best.bound < best.value));
     return best;
 }

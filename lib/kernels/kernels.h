@@ -268,8 +268,8 @@ struct PlaneRows {
     std::size_t stride;
 };
 
-/// An edge of a convex polytope, and the vectors from its start to a corner of the face on either
-/// side.
+/// An edge of a convex polytope. `left` and `right` lead from its start to a corner of each
+/// adjacent face.
 struct OneEdge {
     double along[3];
     double left[3];
@@ -398,10 +398,11 @@ struct Table {
     void (*reaches)(const double* directions, std::size_t blocks, const double* points,
                     std::size_t count, double* reaches) noexcept;
 
-    /// Finds the edges that may, with `edge`, be the end of both polytopes along the normal of
-    /// both edges. For the others, two of the four corners are certainly on different sides: by
-    /// more than error_of_height times the product of the lengths. The corners of the other edge
-    /// count reversed. Stores a bit set a block.
+    /// Sets the bits of the edges that may, with `edge`, span a face of the difference of both
+    /// polytopes. Clears a bit only if two corners of adjacent faces are certainly on different
+    /// sides. Heights are along the normal of both edges; those of the other edge's corners are
+    /// negated. They must exceed error_of_height times the product of both lengths. Stores one byte
+    /// a block.
     void (*edges_across)(const EdgeLanes* edges, std::size_t blocks, const OneEdge& edge,
                          double error_of_height, std::uint8_t* across) noexcept;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The body that all instruction sets share; see kernels.h. Products and sums are rounded one by one
-// and in one order, so the answers are the same for every table, to the last bit.
+// The bodies of reaches() and edges_across(), which all instruction sets share; see kernels.h.
+// Products and sums are rounded one by one and in one order, so the answers are the same for every
+// table, to the last bit.
 #pragma once
 
 #include <cassert>

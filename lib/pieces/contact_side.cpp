@@ -89,10 +89,7 @@ void ContactSide::place_into(std::span<format::HullBlock> blocks) const noexcept
     Double3 p{};
     for (std::uint32_t i = 0; i < blocks.size() * format::kHullLanes; ++i) {
         if (i < count) p = model_->position(hull_.points.corners[i]);
-        auto& at = blocks[i / format::kHullLanes].at;
-        at[0][i % format::kHullLanes] = p.x;
-        at[1][i % format::kHullLanes] = p.y;
-        at[2][i % format::kHullLanes] = p.z;
+        set_hull_point(blocks, i, p);
     }
 }
 

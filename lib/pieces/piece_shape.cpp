@@ -5,6 +5,7 @@
 
 #include "core/numbers.h"
 #include "hull/hull_edges.h"
+#include "hull/hull_points.h"
 #include "pieces/contact_side.h"
 
 namespace cdprep {
@@ -80,13 +81,8 @@ void PieceShape::add_edges(const ContactSide& side) noexcept {
 }
 
 void PieceShape::set_inward() noexcept {
-    constexpr std::size_t kLanes = format::kHullLanes;
-    for (std::size_t i = 0; i < kLanes * inward().size(); ++i) {
-        const Double3 n = i < faces_ ? -face_[i].normal : Double3{};
-        auto& rows = inward_[i / kLanes].at;
-        rows[0][i % kLanes] = n.x;
-        rows[1][i % kLanes] = n.y;
-        rows[2][i % kLanes] = n.z;
+    for (std::size_t i = 0; i < format::kHullLanes * inward().size(); ++i) {
+        set_hull_point(inward_, i, i < faces_ ? -face_[i].normal : Double3{});
     }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hull/gjk.h"
+#include "hull/hull_points.h"
 
 namespace cdprep {
 namespace {
@@ -50,11 +51,7 @@ public:
 
 private:
     void put(std::size_t i, const Double3& p) noexcept {
-        auto& block = block_[i / format::kHullLanes].at;
-        const std::size_t lane = i % format::kHullLanes;
-        block[0][lane] = p.x;
-        block[1][lane] = p.y;
-        block[2][lane] = p.z;
+        set_hull_point(block_, i, p);
         last_ = p;
     }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <span>
 
 #include "core/numbers.h"
@@ -71,7 +72,7 @@ public:
                                static_cast<std::uint8_t>(i)};
             shortest = std::min(shortest, edge_[count_ - 1].length);
         }
-        error_ = std::max(0.0, 2 * shape.position_error() / shortest) + 4 * kUnit;
+        error_ = std::max(0.0, 2 * shape.position_error() / shortest) + 4 * kUnit;  // 0 / 0 is 0
     }
     [[nodiscard]] std::span<const NearEdge> all() const noexcept {
         return std::span(edge_).first(count_);
@@ -124,6 +125,7 @@ public:
 
 private:
     static constexpr std::size_t kMostBlocks = PieceShape::kMostEdges / kernels::kLanes;
+    static_assert(PieceShape::kMostEdges % kernels::kLanes == 0);
 
     [[nodiscard]] std::size_t blocks() const noexcept {
         return (count_ + kernels::kLanes - 1) / kernels::kLanes;
@@ -146,7 +148,7 @@ private:
     std::array<kernels::EdgeLanes, kMostBlocks> block_;
 };
 
-/// How far one hull reaches behind each face of another.
+/// The reach of one hull behind each face of another.
 class WaysThrough {
 public:
     WaysThrough(const PieceShape& of, const PieceShape& other) noexcept : of_(of) {
@@ -161,6 +163,7 @@ public:
 
 private:
     const PieceShape& of_;
+    static_assert(PieceShape::kMostFaces % kernels::kLanes == 0);
     std::array<double, PieceShape::kMostFaces> reach_;
 };
 
@@ -200,10 +203,13 @@ bool WaysOut::find(const PieceShape& a, const PieceShape& b, bool they_meet) noe
 }
 
 void WaysOut::add(const WayOut& way) noexcept {
+    assert(found_ == 0);
     if (count_ == kRoom) keep_shortest();
     const double order = way.length + (way.kind == WayKind::edges ? kTie * reach_ : 0);
     way_[count_] = way;
-    order_[count_++] = order < kInfinity ? order : kInfinity;  // NaN has no order
+    // NaN has no order. Infinity is that of a way in place_.
+    constexpr double kLongest = std::numeric_limits<double>::max();
+    order_[count_++] = order < kLongest ? order : kLongest;
 }
 
 /// Keeps the kMost shortest ways, in the order in which they came.

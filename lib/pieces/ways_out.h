@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -55,9 +56,11 @@ public:
     [[nodiscard]] std::size_t count() const noexcept {
         return std::min(count_, kMost);
     }
-    /// Returns the shortest ways in order. Of ways that are equal up to rounding, those of faces
-    /// come first. No way can be added afterwards.
+    /// Returns a way by its number, which is less than count(). The shortest has the number 0. Of
+    /// ways that are equal up to rounding, those of faces come first. No way can be added
+    /// afterwards, until clear().
     [[nodiscard]] const WayOut& operator[](std::size_t i) noexcept {
+        assert(i < count());
         while (found_ <= i) find_next();
         return way_[place_[i]];
     }
@@ -71,7 +74,7 @@ public:
     }
 
 private:
-    /// The most ways before the longest ones go: enough for most pieces.
+    /// The number of ways stored before the longest are dropped. Most pairs of pieces have fewer.
     static constexpr std::size_t kRoom = 128;
 
     void add(const WayOut& way) noexcept;

@@ -877,7 +877,7 @@ TEST(Kernels, TheFarthestPointIsTheSameForEveryTable) {
     EXPECT_GT(ties, 1000);
 }
 
-// The reference is the formula, point by point; every table must give the same bits.
+// The reference is the formula, point by point; every table must give the same numbers.
 TEST(Kernels, ReachesAreTheSameForEveryTable) {
     std::mt19937 random(78);
     for (int trial = 0; trial < 1000; ++trial) {
@@ -900,10 +900,13 @@ TEST(Kernels, ReachesAreTheSameForEveryTable) {
     }
 }
 
-/// An edge of small whole numbers, so that no product is rounded.
-OneEdge random_edge(std::mt19937& random) {
+/// An edge of small whole numbers, whose heights are exact, or of others.
+OneEdge random_edge(std::mt19937& random, bool coarse) {
     OneEdge edge{};
-    const auto number = [&] { return static_cast<double>(random() % 7) - 3; };
+    std::uniform_real_distribution<double> fine(-3, 3);
+    const auto number = [&] {
+        return coarse ? static_cast<double>(random() % 7) - 3 : fine(random);
+    };
     for (double* vector : {edge.along, edge.left, edge.right}) {
         for (std::size_t axis = 0; axis < 3; ++axis) vector[axis] = number();
     }
@@ -918,11 +921,12 @@ TEST(Kernels, EdgesAcrossAreTheSameForEveryTable) {
     const auto vector = [](const double* p) { return Double3{p[0], p[1], p[2]}; };
     int left_out = 0, at_the_limit = 0;
     for (int trial = 0; trial < 3000; ++trial) {
-        const OneEdge edge = random_edge(random);
+        const bool coarse = trial % 4 < 2;
+        const OneEdge edge = random_edge(random, coarse);
         std::array<OneEdge, 16> others;
         std::array<EdgeLanes, 2> lanes;
         for (std::size_t i = 0; i < others.size(); ++i) {
-            others[i] = random_edge(random);
+            others[i] = random_edge(random, coarse);
             EdgeLanes& block = lanes[i / 8];
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 block.along[axis][i % 8] = others[i].along[axis];
@@ -954,7 +958,7 @@ TEST(Kernels, EdgesAcrossAreTheSameForEveryTable) {
         if (HasFatalFailure()) return;
     }
     EXPECT_GT(left_out, 10'000);
-    EXPECT_GT(at_the_limit, 1000);
+    EXPECT_GT(at_the_limit, 500);
 }
 
 // By the points themselves, in double: between what two sets of points reach along a direction that

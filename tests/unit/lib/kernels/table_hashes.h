@@ -259,21 +259,25 @@ inline void ask_points(const Table& table, Draws& draws, Hashes& hashes) {
 inline void ask_ways(const Table& table, Draws& draws, Hashes& hashes) {
     std::array<double, 3 * kLanes> normals;
     std::array<double, 15> points;
-    for (double& x : normals) x = draws.fraction();
-    for (double& x : points) x = draws.fraction();
+    const auto number = [&] {  // whose products are rounded
+        const double x = draws.fraction();
+        return x + x * draws.fraction() / 4;
+    };
+    for (double& x : normals) x = number();
+    for (double& x : points) x = number();
     std::array<double, kLanes> reaches;
     table.reaches(normals.data(), 1, points.data(), points.size() / 3, reaches.data());
     hashes["reaches"].add_all(reaches);
     EdgeLanes edges;
     OneEdge edge;
     for (std::size_t i = 0; i < 3; ++i) {
-        for (auto* vector : {edge.along, edge.left, edge.right}) vector[i] = draws.fraction();
+        for (auto* vector : {edge.along, edge.left, edge.right}) vector[i] = number();
         for (auto* rows : {edges.along, edges.left, edges.right}) {
-            for (double& x : rows[i]) x = draws.fraction();
+            for (double& x : rows[i]) x = number();
         }
     }
-    edge.length = std::fabs(draws.fraction());
-    for (double& length : edges.length) length = std::fabs(draws.fraction());
+    edge.length = std::fabs(number());
+    for (double& length : edges.length) length = std::fabs(number());
     std::uint8_t across = 0;
     table.edges_across(&edges, 1, edge, 0.75, &across);
     hashes["edges_across"].add(across);

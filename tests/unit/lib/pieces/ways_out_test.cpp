@@ -35,10 +35,15 @@ TEST(WaysOut, TheShortestComeInOrder) {
 // Lengths that overflow have no order, and are no reason to read elsewhere.
 TEST(WaysOut, LengthsThatAreNoNumbersComeLast) {
     WaysOut ways;
-    for (int i = 0; i < 100; ++i) ways.add({}, i % 2 == 0 ? std::nan("") : HUGE_VAL);
-    ways.add({1, 0, 0}, 3);
-    EXPECT_EQ(ways[0].normal.x, 1);
-    for (std::size_t i = 1; i < ways.count(); ++i) EXPECT_EQ(ways[i].normal.x, 0);
+    ways.add({-1, 0, 0}, 3);
+    for (int i = 0; i < 300; ++i) {
+        ways.add({static_cast<double>(i), 0, 0}, i % 2 == 0 ? std::nan("") : HUGE_VAL);
+    }
+    ASSERT_EQ(ways.count(), WaysOut::kMost);
+    EXPECT_EQ(ways[0].normal.x, -1);
+    for (std::size_t i = 1; i < ways.count(); ++i) {
+        EXPECT_EQ(ways[i].normal.x, static_cast<double>(i - 1));
+    }
 }
 
 }  // namespace
