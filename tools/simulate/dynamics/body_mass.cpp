@@ -70,6 +70,7 @@ BodyMass mass_of_box(const Box& box, double mass) {
                  z = std::max(d.z * d.z, least);
     BodyMass made;
     made.mass = mass;
+    made.is_box = true;
     made.centre = mesh::middle_of(box.lower, box.upper);
     made.moments = {mass / 12 * (y + z), mass / 12 * (z + x), mass / 12 * (x + y)};
     return made;

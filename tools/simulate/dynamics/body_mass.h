@@ -16,6 +16,8 @@ struct BodyMass {
     std::array<double, 9> model_from_axes = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     Double3 moments{};  ///< of inertia about the principal axes
     double radius = 0;  ///< no point of the model is farther from the centre
+    /// The mass is spread as in the model's box: the file has no usable mass properties.
+    bool is_box = false;
 };
 
 /// A symmetric matrix as a rotation of a diagonal one: matrix = axes diag(moments) axes^T.

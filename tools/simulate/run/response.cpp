@@ -139,6 +139,7 @@ Result<Done> Response::add(std::uint32_t object, const Model& model) {
     objects_.push_back(object);
     if (body.kind == dynamics::BodyKind::driven) driven_.push_back(*number);
     if (body.kind == dynamics::BodyKind::moving) {
+        box_count_ += dynamics::mass_of(body)->is_box ? 1 : 0;
         moving_.push_back(*number);
         poses_.push_back({object, *start});
         sleeps_.push_back(false);

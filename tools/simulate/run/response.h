@@ -106,6 +106,10 @@ public:
     [[nodiscard]] std::size_t driven_count() const noexcept {
         return driven_.size();
     }
+    /// The bodies that move freely and resist as boxes: BodyMass::is_box.
+    [[nodiscard]] std::size_t box_count() const noexcept {
+        return box_count_;
+    }
     /// The wall time of the last step().
     [[nodiscard]] double seconds() const noexcept {
         return seconds_;
@@ -125,6 +129,7 @@ private:
     std::vector<std::uint32_t> objects_;  ///< by body
     std::vector<std::uint32_t> moving_;
     std::vector<std::uint32_t> driven_;
+    std::size_t box_count_ = 0;
     std::vector<GivenPose> poses_;  ///< of the moving bodies
     std::vector<ObjectPair> pushing_;
     std::vector<ObjectPair> pushed_;  ///< pushing_ of the frame before

@@ -49,6 +49,7 @@ TEST(BodyMass, OfAClosedModelIsThatOfTheFile) {
     RigidBody body{.model = &made.model, .mass = 2};
     const BodyMass mass = mass_of(body).value();
     EXPECT_EQ(mass.mass, 2);
+    EXPECT_FALSE(mass.is_box);
     EXPECT_NEAR(mass.centre.x, 0.5, 1e-15);
     EXPECT_NEAR(mass.moments.x, 1.0 / 3, 1e-15);
     EXPECT_NEAR(mass.radius, std::sqrt(0.75), 1e-15);
@@ -70,6 +71,7 @@ TEST(BodyMass, OfAnOpenModelIsThatOfItsBox) {
     body.mass = 12;
     const BodyMass mass = mass_of(body).value();
     EXPECT_EQ(mass.mass, 12);
+    EXPECT_TRUE(mass.is_box);
     EXPECT_EQ(mass.centre.x, 1);
     EXPECT_NEAR(mass.moments.z, 5, 1e-12);
 }

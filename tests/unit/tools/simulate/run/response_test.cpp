@@ -226,6 +226,28 @@ TEST_F(ResponseTest, ReportsTellPushes) {
     }
 }
 
+/// Returns the text about one frame.
+std::string text_of(const Falling& falling, const SceneFile& file) {
+    Simulation simulation = falling.make();
+    report::SimulationReport report(file, simulation.plan(), report::EventFormat::text, 1);
+    EXPECT_TRUE(simulation.step(0));
+    static_cast<void>(report.add_frame(0, simulation));
+    return report.finish(simulation);
+}
+
+// A cube without mass properties in its file, though it is closed.
+TEST_F(ResponseTest, ReportsTellWhichBodiesResistAsBoxes) {
+    constexpr const char* kTold = "1 body resists as a box: its file has no usable mass properties";
+    Falling falling(1);
+    falling.file().bodies[0].mass = 3;
+    EXPECT_EQ(text_of(falling, falling.file()).find(kTold), std::string::npos);
+    auto plain = study::make_memory_model(
+        test::mesh_of(test::moved_by(test::unit_cube(), 1, {-0.5, -0.5, -0.5})), {.pieces = true});
+    ASSERT_TRUE(plain);
+    falling.models()[1].model.emplace(std::move(plain->model));
+    EXPECT_NE(text_of(falling, falling.file()).find(kTold), std::string::npos);
+}
+
 // By hand: the cube rests on the floor; nobody asks for contacts, so those that push are shown.
 TEST_F(ResponseTest, PagesShowWhatPushes) {
     Falling falling(0.6);
