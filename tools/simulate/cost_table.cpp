@@ -174,7 +174,7 @@ std::vector<PartRow> CostTable::parts() const {
 }
 
 double CostTable::explained() const {
-    const std::uint64_t all = frame_times_.sum() + refit_times_.sum();
+    const std::uint64_t all = frame_times_.sum();
     std::uint64_t rows = 0;
     for (const TimeHistogram& times : times_) rows += times.sum();
     for (const PartRow& row : parts()) rows += row.nanoseconds;

@@ -18,9 +18,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns wall time to show: nanoseconds would not be repeatable.
+/// Returns wall time to show. A short frame takes less than a microsecond.
 double milliseconds(std::uint64_t nanoseconds) {
-    return std::round(1e-3 * static_cast<double>(nanoseconds)) / 1e3;
+    return static_cast<double>(nanoseconds) / 1e6;
 }
 
 /// Returns the time of a frame: the mean of so many.
@@ -161,14 +161,19 @@ std::string table_text(const RunSummary& summary) {
     for (const PartRow& row : summary.table.parts()) {
         text += line_of({row.name, "", frame_text(row.nanoseconds, frames)}, "");
     }
-    const std::uint64_t all = summary.table.frame_times().sum() + summary.table.refit_times().sum();
+    const std::uint64_t all = summary.table.frame_times().sum();
     // Frames that do nothing take as long as the clock, whose readings no row has.
     constexpr std::uint64_t kShort = 10'000;
     const bool is_long = all > kShort * frames;
-    return text + line_of({"frame", "", frame_text(all, frames)},
-                          is_long ? "the rows add up to " +
-                                        fixed(100 * summary.table.explained(), 1) + " % of it"
-                                  : "");
+    text += line_of(
+        {"frame", "", frame_text(all, frames)},
+        is_long ? "the rows add up to " + fixed(100 * summary.table.explained(), 1) + " % of it"
+                : "");
+    const std::size_t threads = summary.simulation.thread_count();
+    if (threads > 1) {
+        text += "times of effects are means over " + std::to_string(threads) + " threads\n";
+    }
+    return text;
 }
 
 std::string changes_text(const RunSummary& summary) {
@@ -205,6 +210,11 @@ std::string response_text(const RunSummary& summary) {
                        counted(counts.impacts, "impact", "impacts") +
                        "; deepest overlap at the end " + number_text(deepest_contact(*response)) +
                        "; state " + hexadecimal(response->bodies().state_hash()) + "\n";
+    if (response->box_count() > 0) {
+        text += counted(response->box_count(), "body resists as a box: its file has",
+                        "bodies resist as boxes: their files have") +
+                " no usable mass properties\n";
+    }
     for (const std::string& warning : response_warnings(counts)) text += warning + ".\n";
     return text;
 }
@@ -244,6 +254,7 @@ Json response_json(const RunSummary& summary, const EffectRow& row) {
             {"bodies", response.moving().size()},
             {"awake", response.awake_count()},
             {"driven", response.driven_count()},
+            {"boxes", response.box_count()},
             {"calls", row.calls},
             {"begins", row.begins},
             {"ends", row.ends},
@@ -262,7 +273,9 @@ Json response_json(const RunSummary& summary, const EffectRow& row) {
 }
 
 Json times_json(const TimeHistogram& times) {
-    return {{"median", milliseconds(times.at(0.5))}, {"p95", milliseconds(times.at(0.95))}};
+    return {{"mean", frame_ms(times.sum(), times.count())},
+            {"median", milliseconds(times.at(0.5))},
+            {"p95", milliseconds(times.at(0.95))}};
 }
 
 void add_not_computed(Json& json, const RunSummary& summary) {
@@ -282,7 +295,7 @@ void add_changes(Json& json, const RunSummary& summary) {
                        {"missed", changing.missed}, {"refits", work.refits},
                        {"rebuilt", work.rebuilt},   {"torn", work.torn},
                        {"parts", work.parts}};
-    json["refit_ms"] = times_json(summary.table.refit_times());
+    json["changes_ms"] = times_json(summary.table.refit_times());
 }
 
 void add_costs(Json& json, const RunSummary& summary) {
@@ -347,7 +360,7 @@ std::string summary_json(const RunSummary& summary) {
                  {"effects", effects_json(summary, rows)}};
     add_not_computed(json, summary);
     json["grown_steps"] = simulation.grown_steps();
-    json["step_ms"] = times_json(summary.table.frame_times());
+    json["frame_ms"] = times_json(summary.table.frame_times());
     json["stages_ms"] = stages_json(summary);
     json["explained"] = rounded_share(summary.table.explained());
     json["state_hash"] = hexadecimal(simulation.scene().state_hash());

@@ -2,8 +2,10 @@
 #include "simulate/simulation_report.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
+#include "cdprep/contacts.h"
 #include "simulate/event_json.h"
 #include "simulate/run_summary.h"
 #include "text/json_layout.h"
@@ -72,7 +74,10 @@ std::vector<std::string> SimulationReport::warnings(bool is_gltf) const {
     fast.incomplete = cut.too_fast = 0;
     std::vector<std::string> sentences;
     for (const std::string& warning : response_warnings(cut)) {
-        sentences.push_back(warning + ". Raise dynamics.most_contacts.");
+        sentences.push_back(warning + (scene_.dynamics.most_contacts < kMostListedContacts
+                                           ? ". Raise dynamics.most_contacts."
+                                           : ": two bodies have at most " +
+                                                 std::to_string(kMostListedContacts) + "."));
     }
     for (const std::string& warning : response_warnings(fast)) {
         sentences.push_back(warning + ". Raise dynamics.most_speed or dynamics.substeps, or make " +

@@ -55,6 +55,9 @@ std::vector<StageTime> stage_times(const scenes::Simulation& simulation) {
     if (simulation.response() != nullptr) {
         times.push_back({"response", simulation.response_seconds()});
     }
+    if (!simulation.changing().empty()) {
+        times.push_back({"changes of models", simulation.change_work().seconds});
+    }
     times.push_back({"boxes", seconds(counts.box_ticks)});
     for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
         if (!contains(simulation.plan().effects(), kSceneEffects[i])) continue;

@@ -14,8 +14,8 @@
 namespace cdprep::report {
 
 /// Returns the parts of the last frame's time, the same ones for each frame. They are the response,
-/// boxes, the queries of each effect, the rest of the pairs, and lists. Queries are means over the
-/// threads. A part with the name of an effect is drawn in the lane of that effect.
+/// changes of models, boxes, the queries of each effect, the rest of the pairs, and lists. Queries
+/// are means over the threads. A part with the name of an effect is drawn in its lane.
 [[nodiscard]] std::vector<StageTime> stage_times(const scenes::Simulation& simulation);
 
 /// What happened in some frames that follow each other. Arrays are by kSimulatedEffects.

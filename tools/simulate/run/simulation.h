@@ -74,9 +74,10 @@ public:
     [[nodiscard]] double response_seconds() const noexcept {
         return response_seconds_;
     }
-    /// The sum of both.
+    /// The wall time of the last frame: `response`, the changes of live models, and the library's
+    /// step.
     [[nodiscard]] double frame_seconds() const noexcept {
-        return step_seconds_ + response_seconds_;
+        return step_seconds_ + response_seconds_ + work_.seconds;
     }
     [[nodiscard]] std::size_t thread_count() const noexcept {
         return workspaces_.size();

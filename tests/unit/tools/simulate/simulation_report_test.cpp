@@ -13,6 +13,7 @@
 #include "scene_file/compile_scene.h"
 #include "scene_file/read_scene.h"
 #include "simulate/cost_table.h"
+#include "simulate/page/scene_timeline.h"
 #include "simulate/run/section_use.h"
 #include "simulate/run/unpaired_layers.h"
 #include "support/guarded_pages.h"
@@ -84,6 +85,27 @@ TEST(SimulationReport, RowsMakeUpTheFrame) {
             }
             EXPECT_GT(explained, 0.95) << scene.name << " on " << threads;
         }
+    }
+}
+
+// As above, for what the page and the chart draw. Live models change in three of the scenes.
+TEST(SimulationReport, StagesMakeUpTheFrame) {
+    for (const SceneFile& scene : sample_scenes()) {
+        const std::vector<SceneModel> models = models_of(scene);
+        double explained = 0;
+        for (int run = 0; run < 20 && !(explained > 0.95); ++run) {
+            auto simulation = Simulation::make(scene, models, 1, test::run_threads);
+            ASSERT_TRUE(simulation);
+            double frames = 0, stages = 0;
+            for (std::uint64_t frame = 0; frame < 16; ++frame) {
+                ASSERT_TRUE(simulation->step(frame));
+                frames += simulation->frame_seconds();
+                for (const StageTime& stage : stage_times(*simulation)) stages += stage.seconds;
+            }
+            explained = stages / frames;
+            EXPECT_LT(explained, 1.05) << scene.name;
+        }
+        EXPECT_GT(explained, 0.95) << scene.name;
     }
 }
 
