@@ -72,6 +72,12 @@ def moves_along(program, folder):
     for shorter in (("--frames", 2), ("--until", 0.2)):
         must(summary_of(simulate(program, moved / "kept.ndjson", *shorter))["frames"] == 2,
              f"{shorter} does not shorten a replay")
+    alone = folder / "alone"
+    alone.mkdir()
+    shutil.copy(moved / "kept.ndjson", alone / "kept.ndjson")
+    told = simulate(program, alone / "kept.ndjson", code=3).stderr
+    must(f"{alone}/kept.ndjson: the scene in it: " in told and "there is no file" in told and
+         "a recording finds models from its own folder" in told, told)
 
 
 def until(program, folder):

@@ -146,11 +146,23 @@ private:
             scenes::SceneReading reading =
                 replay_ ? scenes::parse_scene(replay_->scene_name(), replay_->scene_text(), folder_)
                         : scenes::read_scene(file);
-            if (!reading.scene) return fail_all("simulate", reading.errors, ErrorCode::unreadable);
+            if (!reading.scene) {
+                if (replay_) tell_recording(reading.errors);
+                return fail_all("simulate", reading.errors, ErrorCode::unreadable);
+            }
             scene_ = std::move(*reading.scene);
         }
         if (replay_) stop_motions();
         return std::nullopt;
+    }
+
+    /// Says that the errors are about the scene in a recording, which is found nowhere else.
+    void tell_recording(std::vector<std::string>& errors) const {
+        for (std::string& error : errors) {
+            error = arguments_.scene.string() + ": the scene in it: " + error;
+        }
+        errors.push_back(arguments_.scene.string() +
+                         ": a recording finds models from its own folder. Move both together.");
     }
 
     /// Meshes are in the file, so a replay reads it again.
