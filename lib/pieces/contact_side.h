@@ -269,6 +269,9 @@ private:
     [[nodiscard]] bool goes_on_beyond(const PieceFeature& feature,
                                       const Double3& direction) const noexcept;
 
+    // The first two are aligned to 64 bytes.
+    std::array<format::HullBlock, kMostPlaced> placed_;
+    PieceShape shape_;
     const MovedModel* model_;
     Workspace::Storage* scratch_;
     std::uint32_t piece_;
@@ -279,8 +282,6 @@ private:
     ConvexPoints
         placed_points_;  ///< in placed_ or a PlacedHull; empty for a hull too large for both
     PlacedHull* large_ = nullptr;  ///< or null: the hull is not in a PlacedHull
-    std::array<format::HullBlock, kMostPlaced> placed_;
-    PieceShape shape_;
     static constexpr std::size_t kMostPlacedTriangles = 32;
     std::size_t placed_triangles_count_ = 0;
     std::array<PlacedTriangle, kMostPlacedTriangles> placed_triangle_;

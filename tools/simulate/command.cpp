@@ -159,7 +159,7 @@ private:
     /// Says that the errors are about the scene in a recording, which is found nowhere else.
     void tell_recording(std::vector<std::string>& errors) const {
         for (std::string& error : errors) {
-            error = arguments_.scene.string() + ": the scene in it: " + error;
+            error.insert(0, arguments_.scene.string() + ": the scene in it: ");
         }
         errors.push_back(arguments_.scene.string() +
                          ": a recording finds models from its own folder. Move both together.");
