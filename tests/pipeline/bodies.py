@@ -204,6 +204,9 @@ def refusals(program, folder):
     done = run(program, "simulate", alone)
     must(done.returncode == 2 and "no pair of this layer asks for response" in done.stderr,
          done.stderr)
+    plan = run(program, "simulate", SCENES / "pile.json", "--plan").stdout
+    must("; contacts within 0.05555; layers 'bodies' and 'trays', 'bodies' and 'bodies'\n" in plan,
+         plan)
 
 
 def what_to_bake(program, folder):

@@ -180,11 +180,13 @@ std::string response_text(const SceneFile& scene) {
                        std::to_string(counts.driven) + " driven, " + std::to_string(counts.fixed) +
                        " fixed; " + counted(options.substeps, "substep", "substeps") +
                        " a frame, " + counted(options.iterations, "iteration", "iterations") +
-                       "; contacts within " + number_text(options.tolerance) + "; layers";
+                       "; contacts within " + in_six_digits(options.tolerance) + "; layers";
+    const char* separator = " '";
     for (const scenes::AskedPair& pair : scene.pairs) {
         if (!contains(pair.asked.effects, Ask::response)) continue;
-        text += " " + printable(scene.layers[pair.asked.a]) + "-" +
-                printable(scene.layers[pair.asked.b]);
+        text += separator + printable(scene.layers[pair.asked.a]) + "' and '" +
+                printable(scene.layers[pair.asked.b]) + "'";
+        separator = ", '";
     }
     return text + "\n";
 }
