@@ -50,8 +50,9 @@ enum ContactFlags : std::uint32_t {
     /// Ignore this contact in a solver; other piece pairs give the separating direction.
     contact_from_behind = 4,
     /// A component of one model lies inside the other, and no triangles of the two models touch:
-    /// see contacts(). The component's point is on a hull around it. The translation by -lower
-    /// along `normal` moves point_b to point_a.
+    /// see contacts(). The point on the component's model lies on a hull or box around the
+    /// component, and may be off the surface. The translation by -lower along `normal` moves
+    /// point_b to point_a.
     contact_deep = 8,
 };
 

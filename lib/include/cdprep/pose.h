@@ -48,7 +48,7 @@ public:
     static constexpr double kQuaternionError = 8 * 0x1p-53;
 
 private:
-    /// from_rows() in the floating-point environment of the thread.
+    /// Does the same as from_rows(), but does not set the default floating-point environment first.
     [[nodiscard]] static Result<Pose> checked(const std::array<double, 12>& rows);
 
     std::array<double, 9> rotation_ = {1, 0, 0, 0, 1, 0, 0, 0, 1};

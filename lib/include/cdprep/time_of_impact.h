@@ -70,10 +70,10 @@ struct Impact {
 /// own, along the direction between them. The method C2A does the same for boxes (Tang, Kim and
 /// Manocha 2009).
 ///
-/// Needs Ask::distance of both models, and Ask::solid with Body::solid. Takes a distance query for
-/// each step, most of them with a PairCache, and one for the nearest points. Near a contact it also
-/// takes some collide() queries. A pair that passes without coming near takes 2 or 3 steps, an
-/// impact 10 or so. Never allocates.
+/// Needs Ask::distance of both models, and Ask::solid with Body::solid. Each step of the search
+/// takes one distance query, most of them with a PairCache. One more finds the nearest points. Near
+/// a contact it also takes some collide() queries. A pair that passes without coming near takes 2
+/// or 3 steps, an impact 10 or so. Never allocates.
 [[nodiscard]] CDPREP_API Impact time_of_impact(const MovingPair& pair, Workspace& workspace,
                                                const ImpactOptions& options = {}) noexcept;
 

@@ -83,8 +83,8 @@ typedef struct cdprep_impact {
  * may then pass each other closely, or touch later. In a solver, treat this result as an impact at
  * `lower`.
  *
- * Takes a distance query for each step. Models that pass at a distance take 2 or 3 steps; an impact
- * takes about 10. Never allocates.
+ * Each step of the search takes one distance query. Models that pass at a distance take 2 or 3
+ * steps; an impact takes about 10. Never allocates.
  * Errors: CDPREP_WHY_OUT_OF_RANGE also for a motion beyond 2^1000, or a turn of more than 1000.
  * Needs: CDPREP_ASK_DISTANCE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_time_of_impact(const cdprep_moving_pair* pair, cdprep_workspace* workspace,
