@@ -399,10 +399,10 @@ struct Table {
                     std::size_t count, double* reaches) noexcept;
 
     /// Sets the bits of the edges that may, with `edge`, span a face of the difference of both
-    /// polytopes. Clears a bit only if two corners of adjacent faces are certainly on different
-    /// sides. Heights are along the normal of both edges; those of the other edge's corners are
-    /// negated. They must exceed error_of_height times the product of both lengths. Stores one byte
-    /// a block.
+    /// polytopes. Clears a bit only if one corner of the adjacent faces is certainly above the
+    /// plane of both edges, and another one below. A height is certain if it exceeds
+    /// error_of_height times the product of both lengths. Heights of the other edge's corners are
+    /// negated. Stores one byte for each block.
     void (*edges_across)(const EdgeLanes* edges, std::size_t blocks, const OneEdge& edge,
                          double error_of_height, std::uint8_t* across) noexcept;
 

@@ -63,8 +63,8 @@ void edges_across_of(const EdgeLanes* edges, std::size_t blocks, const OneEdge& 
         const D8 other_right = dot(normal, Vector8<D8>(other.right));
         const D8 above = max(max(own_left, own_right), max(zero - other_left, zero - other_right));
         const D8 below = max(max(zero - own_left, zero - own_right), max(other_left, other_right));
-        const unsigned parted = bits(greater(above, slack)) & bits(greater(below, slack));
-        across[block] = static_cast<std::uint8_t>(~parted);
+        const unsigned both_sides = bits(greater(above, slack)) & bits(greater(below, slack));
+        across[block] = static_cast<std::uint8_t>(~both_sides);
     }
 }
 

@@ -147,7 +147,7 @@ def scene(count, models):
     asked = {"effects": ["response", "contacts"], "contacts": {"tolerance": 0.001}, "events": []}
     objects = [{"name": "tray", "model": "tray.obj", "layer": "trays"}]
     objects += [body(number, models[number % len(models)]) for number in range(count)]
-    # A scan that lies flat has hundreds of contacts. If too many are left out, it is thrown up.
+    # A scan that lies flat has hundreds of contacts. If too many are left out, it jumps.
     most = 128 if models == ["jack.obj"] else 256
     return {
         "$schema": "../../tools/scene_file/scene.schema.json",
