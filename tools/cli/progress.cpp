@@ -33,6 +33,13 @@ std::string time_left_text(std::chrono::duration<double> passed, std::size_t don
     return ", " + std::to_string(std::llround(left / 3600)) + " h left";
 }
 
+void LoopPace::advance(const Mark& now) {
+    constexpr double kRatio = 1.25;
+    if (now.time - begin_.time < kRatio * (next_.time - begin_.time)) return;
+    recent_ = next_;
+    next_ = now;
+}
+
 Result<ProgressStyle> parse_progress(const std::string& word) {
     if (is_quiet() || word == "none") return ProgressStyle::none;
     if (word == "plain") return ProgressStyle::plain;
@@ -80,9 +87,10 @@ void Progress::advance(std::size_t done, const std::string& what) {
     if (!is_loop_ || what_ != what) {
         what_ = what;
         begun_ = now;
-        first_ = done;
+        pace_.begin({now, done});
         is_loop_ = true;
     }
+    pace_.advance({now, done});
     done_ = done;
     if (now - drawn_at_ >= pause()) draw();
 }
@@ -113,11 +121,14 @@ void Progress::tell_while_it_lasts() {
 
 /// Returns ", 12 s, 43 %": nothing in the first second, and a share only if there is one input.
 std::string Progress::since() const {
-    const Clock::duration exact = Clock::now() - begun_;
-    const auto passed = std::chrono::duration_cast<std::chrono::seconds>(exact);
+    const Clock::time_point now = Clock::now();
+    const auto passed = std::chrono::duration_cast<std::chrono::seconds>(now - begun_);
     if (passed.count() < 1) return "";
     std::string text = ", " + std::to_string(passed.count()) + " s";
-    if (is_loop_) return text + time_left_text(exact, done_ - first_, total_ - first_);
+    if (is_loop_) {
+        const LoopPace::Mark& base = pace_.base(done_);
+        return text + time_left_text(now - base.time, done_ - base.done, total_ - base.done);
+    }
     const LoopShare share = watched_loop();
     if (total_ == 1 && share.count > 1) {
         text += ", " + std::to_string(100 * share.done / share.count) + " %";

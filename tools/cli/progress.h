@@ -18,9 +18,36 @@ enum class ProgressStyle { none, plain, bar };
 /// terminal, and none otherwise. Fails with bad_argument on another word.
 [[nodiscard]] Result<ProgressStyle> parse_progress(const std::string& word);
 
-/// Returns ", 2 min left": how long the rest of a loop takes at its mean speed. Empty at first.
+/// Returns ", 2 min left": how long the rest of a loop takes at the pace of `done` steps of `total`
+/// in the time that passed. Empty at first.
 [[nodiscard]] std::string time_left_text(std::chrono::duration<double> passed, std::size_t done,
                                          std::size_t total);
+
+/// Remembers a step of a loop at about four fifths of its time. The steps since then tell how fast
+/// it is now, also if it becomes slower and slower.
+class LoopPace {
+public:
+    using Clock = std::chrono::steady_clock;
+    /// A time, and how many steps were done then.
+    struct Mark {
+        Clock::time_point time;
+        std::size_t done = 0;
+    };
+
+    void begin(const Mark& now) {
+        begin_ = recent_ = next_ = now;
+    }
+    void advance(const Mark& now);
+    /// Returns the mark to measure the pace from: the begin if no step is done since.
+    [[nodiscard]] const Mark& base(std::size_t done) const noexcept {
+        return done > recent_.done ? recent_ : begin_;
+    }
+
+private:
+    Mark begin_;
+    Mark recent_;
+    Mark next_;  ///< recent_ from a quarter more time on
+};
 
 /// Shows the progress of long work on stderr. During a stage it shows the elapsed time and the
 /// finished share of a loop that takes longer than a second. A bar is updated four times a
@@ -43,7 +70,7 @@ public:
     void clear();
 
 private:
-    using Clock = std::chrono::steady_clock;
+    using Clock = LoopPace::Clock;
 
     void tell_while_it_lasts();
     [[nodiscard]] Clock::duration pause() const noexcept;
@@ -58,7 +85,7 @@ private:
     std::size_t done_ = 0;
     std::string what_;
     Clock::time_point begun_;
-    std::size_t first_ = 0;  ///< of the loop: what was done before
+    LoopPace pace_;
     bool is_loop_ = false;
     Clock::time_point drawn_at_;
     bool drawn_ = false;

@@ -47,6 +47,40 @@ TEST(TimeLeft, IsThatOfTheMeanStep) {
     EXPECT_EQ(time_left_text(seconds(6), 5, 4), "");
 }
 
+// A loop whose steps take 1, 2, 3, ... seconds. After 40 of 80 steps 820 s have passed and 2420 s
+// remain. The mean promises 820 s; the last steps promise much more.
+TEST(LoopPace, IsThatOfTheLastSteps) {
+    using std::chrono::seconds;
+    LoopPace pace;
+    LoopPace::Clock::time_point now{};
+    pace.begin({now, 0});
+    for (std::size_t done = 1; done <= 40; ++done) {
+        now += seconds(done);
+        pace.advance({now, done});
+    }
+    const LoopPace::Mark& base = pace.base(40);
+    EXPECT_GE(base.done, 30u) << "at about four fifths of the time";
+    EXPECT_LT(base.done, 40u);
+    const std::chrono::duration<double> passed = now - base.time;
+    const double left = passed.count() / static_cast<double>(40 - base.done) * 40;
+    EXPECT_GT(left, 1300);
+    EXPECT_LT(left, 1600) << "steps get slower still";
+}
+
+// A step that takes longer than all others before it.
+TEST(LoopPace, BeginsWithTheLoop) {
+    using std::chrono::seconds;
+    LoopPace pace;
+    const LoopPace::Clock::time_point now{};
+    pace.begin({now, 5});
+    EXPECT_EQ(pace.base(5).done, 5u);
+    pace.advance({now, 5});
+    pace.advance({now + seconds(10), 6});
+    pace.advance({now + seconds(100), 6});
+    pace.advance({now + seconds(1000), 6});
+    EXPECT_EQ(pace.base(6).done, 5u) << "no step since";
+}
+
 // A fast loop would otherwise write a line for each step.
 TEST(Progress, ALoopIsDrawnSeldom) {
     testing::internal::CaptureStderr();
