@@ -17,11 +17,10 @@ namespace {
 // Lengths in units of the chart.
 constexpr double kLeft = 76;
 constexpr double kRight = kSceneChartWidth - 20;
-constexpr double kTop = 40;
 constexpr double kBottom = kSceneChartHeight - 48;
-constexpr double kKeyWidth = 120;
-constexpr double kKeyHeight = 17;
-constexpr std::size_t kKeyColumns = 6;
+constexpr double kKeyWidth = 191;  ///< of "changes of models" in the page's letters
+constexpr double kKeyHeight = 19;
+constexpr std::size_t kKeyColumns = 4;
 constexpr int kTicks = 6;
 
 /// Returns the mean seconds of the stages before one, and of it, in a frame of a span.
@@ -50,6 +49,8 @@ public:
         }
         if (!(most_ > 0)) most_ = 1e-6;
         if (frames_ == 0) frames_ = 1;
+        const std::size_t key_rows = (timeline.stages().size() + kKeyColumns - 1) / kKeyColumns;
+        top_ += kKeyHeight * static_cast<double>(key_rows);
     }
 
     [[nodiscard]] std::string body() const {
@@ -66,7 +67,7 @@ private:
         return kLeft + (kRight - kLeft) * frame / frames_;
     }
     [[nodiscard]] double y_of(double seconds) const {
-        return kBottom - (kBottom - kTop) * seconds / most_;
+        return kBottom - (kBottom - top_) * seconds / most_;
     }
 
     [[nodiscard]] std::string axes() const {
@@ -85,7 +86,7 @@ private:
         }
         text += words((kLeft + kRight) / 2, kBottom + 38, "middle", "name",
                       "frame, one each " + in_six_digits(step_s_) + " s");
-        text += "<text transform=\"translate(16 " + units((kTop + kBottom) / 2) +
+        text += "<text transform=\"translate(16 " + units((top_ + kBottom) / 2) +
                 ") rotate(-90)\" text-anchor=\"middle\" class=\"name\">us a frame</text>\n";
         return text;
     }
@@ -145,6 +146,7 @@ private:
     double step_s_;
     double frames_ = 0;
     double most_ = 0;
+    double top_ = 8;  ///< of the curves: the key is above
 };
 
 }  // namespace
