@@ -7,9 +7,10 @@
 #include <atomic>
 #include <csignal>
 #include <mutex>
-#include <string_view>
+#include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "cli/command.h"
 
@@ -26,7 +27,7 @@ sem_t signalled;
 
 // Held while the last words change or run, and by the thread that ends the process.
 std::mutex ending;
-std::function<void()> last_words;
+std::vector<const LastWords*> last_words;
 bool is_over = false;
 
 /// Handles SIGPIPE: the reader of our output has ended. Acts like a first interrupt, however
@@ -51,11 +52,15 @@ void give_up_after_signal() {
     std::this_thread::sleep_for(kPatience);
     const std::lock_guard lock(ending);
     if (is_over) return;
-    if (last_words) last_words();
-    constexpr std::string_view kSentence = "cdprep: stopped before the work was done.\n";
+    std::string sentence;
+    for (auto words = last_words.rbegin(); words != last_words.rend(); ++words) {
+        const std::string said = (*words)->call();
+        if (sentence.empty()) sentence = said;
+    }
+    if (sentence.empty()) sentence = "cdprep: stopped before the work was done.";
+    sentence += '\n';
     // Other threads may be using the streams.
-    [[maybe_unused]] const ssize_t told =
-        ::write(STDERR_FILENO, kSentence.data(), kSentence.size());
+    [[maybe_unused]] const ssize_t told = ::write(STDERR_FILENO, sentence.data(), sentence.size());
     ::_exit(static_cast<int>(Exit::interrupted));
 }
 
@@ -71,14 +76,14 @@ void watch_for_interrupts() {
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-LastWords::LastWords(std::function<void()> words) {
+LastWords::LastWords(std::function<std::string()> words) : words_(std::move(words)) {
     const std::lock_guard lock(ending);
-    last_words = std::move(words);
+    last_words.push_back(this);
 }
 
 LastWords::~LastWords() {
     const std::lock_guard lock(ending);
-    last_words = nullptr;
+    std::erase(last_words, this);
 }
 
 void end_by_itself() {

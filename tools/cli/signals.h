@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "cdprep/result.h"
 
@@ -21,16 +22,24 @@ void watch_for_interrupts();
 /// needs another 70 ms for each gigabyte that it takes back.
 inline constexpr std::chrono::milliseconds kPatience{30};
 
-/// A function to call when work is abandoned, for example to complete a report. It is active
-/// while this object lives. The call comes from another thread while the work continues; it
-/// must not wait for that work.
+/// A function to call when work is abandoned, for example to complete a report. It returns the
+/// sentence that says where the work stopped, or nothing. It is active while this object lives.
+/// There may be several: the last one is called first. The call comes from another thread while
+/// the work continues; it must not wait for that work.
 class LastWords {
 public:
-    explicit LastWords(std::function<void()> words);
+    explicit LastWords(std::function<std::string()> words);
     LastWords(const LastWords&) = delete;
     LastWords& operator=(const LastWords&) = delete;
     /// Waits if the call has begun; the process then ends within it.
     ~LastWords();
+
+    [[nodiscard]] std::string call() const {
+        return words_();
+    }
+
+private:
+    std::function<std::string()> words_;
 };
 
 /// Declares that the work has ended by itself. From now on a report has no time limit.

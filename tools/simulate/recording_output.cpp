@@ -16,7 +16,10 @@ Result<std::unique_ptr<RecordingOutput>> RecordingOutput::open(
     if (!begun) return begun.error();
     // Nothing is left of a recording on standard output, where other text may follow.
     if (output->output_.is_file()) {
-        output->last_words_.emplace([mine = output.get()] { static_cast<void>(mine->end()); });
+        output->last_words_.emplace([mine = output.get()] {
+            static_cast<void>(mine->end());
+            return std::string();
+        });
     }
     return output;
 }

@@ -115,7 +115,10 @@ public:
     Exit all(const std::vector<Input>& inputs, const Threads& threads) {
         deliver(writer_.head());
         // A report on standard output is a whole document even if the work is abandoned.
-        const LastWords words([this] { give_up(); });
+        const LastWords words([this] {
+            give_up();
+            return std::string();
+        });
         threads.run_in_order(inputs.size(), [&](std::size_t i) -> std::function<void()> {
             if (is_over()) return [] {};
             auto validation = std::make_shared<Validation>(
