@@ -416,10 +416,41 @@ def unused_models(program, folder):
     must(len(events) == 1 and summary["objects"] == 2 and summary["kept"] == 1, f"{summary}")
 
 
+def all_refusals(program, folder, crate):
+    """Of the plan and of baked files: one try tells all. No mesh is baked for it."""
+    (folder / "broken.obj").write_text("no mesh\n")
+    shutil.copy(folder / crate["model"], folder / "damaged.cdp.h5")
+    with open(folder / "damaged.cdp.h5", "r+b") as damaged:
+        damaged.truncate(600)
+    models = [crate["model"], "broken.obj", "damaged.cdp.h5"]
+    scene = write_scene(
+        folder / "all.json", layers=["a", "b"],
+        objects=[dict(crate, name=model, model=model) for model in models],
+        pairs=[{"layers": ["a", "a"], "effects": ["distance"]},
+               {"layers": ["a", "b"], "effects": ["collide"], "tolerance": 3}])
+    words = ["Pair 1 of layers, 'a' and 'b': tolerance has no meaning without within",
+             "crate.cdp.h5: its layer 'a' needs distance, but the file has no source_triangle",
+             "damaged.cdp.h5: "]
+    done = run(program, "simulate", scene, "--plan", "--format", "json", "--cache", folder / "none")
+    must(done.returncode == 3, f"{done.returncode}: {done.stderr}")
+    told = json.loads(done.stdout)
+    check_schema(OUTPUT_SCHEMA, told, "all refusals")
+    must(told["exit"] == 3 and len(told["refusals"]) == len(words), f"{told}")
+    for word, sentence, line in zip(words, told["refusals"], done.stderr.splitlines()):
+        must(word in sentence and sentence in line, f"'{word}' is not in {sentence}, {line}")
+    must(not (folder / "none").exists(), "something was baked for a plan that does not exist")
+    # With a plan, meshes are baked: then what is wrong with them is told too.
+    scene.write_text(scene.read_text().replace(', "tolerance": 3', ""))
+    told = run(program, "simulate", scene).stderr
+    must(told.count("\n") == 3 and words[1] in told and words[2] in told and "broken.obj" in told,
+         told)
+
+
 def refusals(program, folder):
     """All reasons against a plan at once, and exit 2."""
     bake(program, folder / "crate.obj", "-o", folder / "crate.cdp.h5", "--effects", "collide")
     crate = {"name": "x", "model": "crate.cdp.h5", "layer": "a"}
+    all_refusals(program, folder, crate)
     scene = write_scene(folder / "unbuilt.json", layers=["a", "b"], objects=[crate],
                         pairs=[{"layers": ["a", "b"], "effects": ["inside", "response"]},
                                {"layers": ["b", "a"], "effects": ["collide"], "tolerance": 3}])
@@ -427,7 +458,8 @@ def refusals(program, folder):
              "Pair 0 of layers, 'a' and 'b': inside is not built",
              "line 1: /pairs/1: Pair 1 of layers, 'b' and 'a': layers 'b' and 'a' are also those of "
              "pair 0",
-             "Pair 1 of layers, 'b' and 'a': tolerance has no meaning without within"]
+             "Pair 1 of layers, 'b' and 'a': tolerance has no meaning without within",
+             "crate.cdp.h5: its layer 'a' needs contacts"]
     done = run(program, "simulate", scene, "--plan", "--format", "json")
     must(done.returncode == 2, f"{done.returncode}: {done.stderr}")
     refused = json.loads(done.stdout)

@@ -190,8 +190,9 @@ private:
         options.import = arguments_.import.options();
         options.import.parallel_for = threads_.parallel_for();
         options.assembly = assembly_ ? &*assembly_ : nullptr;
-        scenes::LoadedModels loaded =
-            scenes::load_models(scene(), plan, std::move(options), style_, threads_);
+        scenes::LoadedModels loaded = scenes::load_models(
+            scene(), scenes::needs_of_models(scene(), scenes::asks_of_layers(plan)),
+            std::move(options), style_, threads_);
         if (!loaded.errors.empty()) return fail_all("query", loaded.errors);
         models_ = std::move(loaded.models);
         for (const std::string& line : scenes::kept_colliders(scene(), models_)) {

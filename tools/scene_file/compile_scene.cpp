@@ -97,6 +97,27 @@ void drop_effects(LayerPair& pair, Ask effects) {
     }
 }
 
+/// Returns the pairs of layers as the library gets them: without `response`, and without effects
+/// that are not built.
+std::vector<LayerPair> library_pairs(const SceneFile& scene) {
+    std::vector<LayerPair> pairs;
+    for (const AskedPair& pair : scene.pairs) {
+        pairs.push_back(pair.asked);
+        LayerPair& asked = pairs.back();
+        asked.effects = scene_effects(pair);
+        const Ask unbuilt = asked.effects & unbuilt_effects();
+        if (unbuilt != Ask::nothing) drop_effects(asked, unbuilt);
+    }
+    return pairs;
+}
+
+/// Models are not open yet, so the first object's translation stands for all objects.
+Double3 origin_of(const SceneFile& scene) {
+    if (scene.objects.empty()) return {};
+    const auto pose = pose_of(scene, scene.objects[0], 0);
+    return pose ? pose->translation() : Double3{};
+}
+
 /// Returns why objects of responding layers cannot push each other. There is a sentence for the
 /// first such object of a layer, and one for each pair of layers without a body.
 std::vector<std::string> body_refusals(const SceneFile& scene) {
@@ -157,12 +178,31 @@ std::vector<std::string> change_refusals(const SceneFile& scene) {
 
 }  // namespace
 
-std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan) {
+LayerAsks asks_of_layers(const Plan& plan) {
+    LayerAsks asks{};
+    for (std::uint32_t layer = 0; layer < kLayers; ++layer) asks[layer] = plan.asks_of(layer);
+    return asks;
+}
+
+LayerAsks asks_of_layers(const SceneFile& scene) {
+    LayerAsks asks{};
+    for (const LayerPair& pair : library_pairs(scene)) {
+        const Plan::Compiled alone =
+            Plan::compile({.pairs = {&pair, 1}, .limits = {}, .origin = origin_of(scene)});
+        if (!alone.plan) continue;
+        for (const std::uint32_t layer : {pair.a, pair.b}) {
+            asks[layer] = asks[layer] | alone.plan->asks_of(layer);
+        }
+    }
+    return asks;
+}
+
+std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const LayerAsks& layer_asks) {
     std::vector<ModelNeeds> needs(scene.models.size());
     const bool has_continuous = std::ranges::any_of(scene.bodies, &BodyMotion::is_continuous);
     for (const FileObject& object : scene.objects) {
         ModelNeeds& model = needs[object.model];
-        Ask asks = needs_of(scene, object, plan.asks_of(object.layer));
+        Ask asks = needs_of(scene, object, layer_asks[object.layer]);
         if (responds(scene, object.layer)) {
             const ModelNeeds more = needs_of_response(scene, object, has_continuous);
             asks = asks | more.asks;
@@ -190,26 +230,14 @@ bool responds(const SceneFile& scene, std::uint32_t layer) {
 
 Plan::Compiled compile_scene(const SceneFile& scene, const SceneLimits& limits,
                              std::span<const ModelUse> models) {
-    std::vector<LayerPair> pairs;
-    for (const AskedPair& pair : scene.pairs) {
-        pairs.push_back(pair.asked);
-        LayerPair& asked = pairs.back();
-        asked.effects = scene_effects(pair);
-        const Ask unbuilt = asked.effects & unbuilt_effects();
-        if (unbuilt != Ask::nothing) drop_effects(asked, unbuilt);
-    }
+    const std::vector<LayerPair> pairs = library_pairs(scene);
     std::vector<std::string> names;
     for (const std::string& layer : scene.layers) names.push_back(report::printable(layer));
     const std::vector<std::string_view> layers(names.begin(), names.end());
-    // Models are not open yet, so the first object's translation stands for all objects.
-    Double3 origin{};
-    if (!scene.objects.empty()) {
-        if (const auto pose = pose_of(scene, scene.objects[0], 0)) origin = pose->translation();
-    }
     Plan::Compiled compiled = Plan::compile({.pairs = pairs,
                                              .models = models,
                                              .limits = limits,
-                                             .origin = origin,
+                                             .origin = origin_of(scene),
                                              .layer_names = layers});
     for (auto* find_refusals : {effect_refusals, change_refusals, body_refusals}) {
         for (std::string& refusal : find_refusals(scene)) {

@@ -22,9 +22,19 @@ struct ModelNeeds {
     }
 };
 
+/// What the objects of each layer are asked for.
+using LayerAsks = std::array<Ask, kLayers>;
+
+/// Returns what a plan asks for.
+[[nodiscard]] LayerAsks asks_of_layers(const Plan& plan);
+/// Returns the same of a scene without a plan. A pair of layers that a plan refuses asks for
+/// nothing.
+[[nodiscard]] LayerAsks asks_of_layers(const SceneFile& scene);
+
 /// Returns what each model of a scene must serve. The model of an object that deforms or tears must
 /// serve as the base of a live model.
-[[nodiscard]] std::vector<ModelNeeds> needs_of_models(const SceneFile& scene, const Plan& plan);
+[[nodiscard]] std::vector<ModelNeeds> needs_of_models(const SceneFile& scene,
+                                                      const LayerAsks& asks);
 
 /// Returns whether a pair of layers asks for the object. Others are not added to a scene.
 [[nodiscard]] bool is_asked(const SceneFile& scene, const Plan& plan, const FileObject& object);

@@ -147,6 +147,7 @@ public:
         loaded.needs = needs;
         if (needs.asks == Ask::nothing) return loaded;
         if (const auto error = open(path, loaded)) return *error;
+        if (!loaded.model) return loaded;
         if (const auto error = find_other_unit(path, *loaded.model)) return *error;
         return loaded;
     }
@@ -158,6 +159,7 @@ private:
             loaded.origin = ModelOrigin::baked;
             return open_sections(path, loaded);
         }
+        if (!options_.bakes) return std::nullopt;
         Result<cli::BakeOptions> bake = bake_options_for(loaded.needs.wanted(), options_.import);
         if (!bake) return bake.error();
         if (assembly != nullptr) {
@@ -223,15 +225,15 @@ private:
 
 }  // namespace
 
-LoadedModels load_models(const SceneFile& scene, const Plan& plan, const LoadOptions& options,
-                         const cli::Threads& threads) {
-    const std::vector<ModelNeeds> needs = needs_of_models(scene, plan);
+LoadedModels load_models(const SceneFile& scene, std::span<const ModelNeeds> needs,
+                         const LoadOptions& options, const cli::Threads& threads) {
     Loader loader(scene, options, threads);
     LoadedModels all;
+    all.models.resize(scene.models.size());
     for (std::size_t i = 0; i < scene.models.size(); ++i) {
         Result<SceneModel> loaded = loader.load(i, needs[i]);
         if (loaded) {
-            all.models.push_back(std::move(loaded).value());
+            all.models[i] = std::move(loaded).value();
             continue;
         }
         all.errors.push_back(loaded.error());
@@ -240,11 +242,12 @@ LoadedModels load_models(const SceneFile& scene, const Plan& plan, const LoadOpt
     return all;
 }
 
-LoadedModels load_models(const SceneFile& scene, const Plan& plan, LoadOptions options,
-                         cli::ProgressStyle style, const cli::Threads& threads) {
+LoadedModels load_models(const SceneFile& scene, std::span<const ModelNeeds> needs,
+                         LoadOptions options, cli::ProgressStyle style,
+                         const cli::Threads& threads) {
     cli::Progress progress(style, scene.models.size());
     options.begins = [&](std::size_t done, const std::string& what) { progress.show(done, what); };
-    LoadedModels loaded = load_models(scene, plan, options, threads);
+    LoadedModels loaded = load_models(scene, needs, options, threads);
     progress.clear();
     return loaded;
 }

@@ -41,26 +41,27 @@ struct LoadOptions {
     std::filesystem::path cache;  ///< the folder of baked meshes; empty: bake into memory
     import::ImportOptions import;
     const AssemblyScene* assembly = nullptr;  ///< whose models are loaded; null: models are files
+    bool bakes = true;  ///< false: the models of mesh files stay closed
     /// Called as a stage of a bake begins, with the number of models before and "FILE: STAGE".
     std::function<void(std::size_t done, const std::string& what)> begins =
         [](std::size_t /*done*/, const std::string& /*what*/) {};
 };
 
-/// Models in the order of SceneFile::models. If there are errors, models are missing.
+/// Models in the order of SceneFile::models. Those with errors are closed.
 struct LoadedModels {
     std::vector<SceneModel> models;
     std::vector<Error> errors;
 };
 
-/// Opens the models that the plan asks for, with exactly the sections that it needs or uses, in the
-/// order of SceneFile::models. Mesh files are baked for these sections. A baked file may lack some:
-/// model_refusals() tells. There is an error for each model that cannot be read, or whose unit is
-/// not that of the scene. Any other error is the last: no model is opened after it.
-[[nodiscard]] LoadedModels load_models(const SceneFile& scene, const Plan& plan,
+/// Opens the models that serve something, with exactly the sections that are needed or used. The
+/// needs are those of needs_of_models(). Mesh files are baked for these sections. A baked file may
+/// lack some: model_refusals() tells. There is an error for each model that cannot be read, or
+/// whose unit is not that of the scene. Any other error is the last: no model is opened after it.
+[[nodiscard]] LoadedModels load_models(const SceneFile& scene, std::span<const ModelNeeds> needs,
                                        const LoadOptions& options, const cli::Threads& threads);
 
 /// The same, and shows the progress.
-[[nodiscard]] LoadedModels load_models(const SceneFile& scene, const Plan& plan,
+[[nodiscard]] LoadedModels load_models(const SceneFile& scene, std::span<const ModelNeeds> needs,
                                        LoadOptions options, cli::ProgressStyle style,
                                        const cli::Threads& threads);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -112,15 +113,11 @@ public:
         std::vector<ModelUse> parts;
         if (!assembly_) parts = scenes::uses_of_parts(scene_);
         Plan::Compiled compiled = scenes::compile_scene(scene_, limits(), parts);
-        if (!compiled.plan) return refuse(compiled.refusals);
-        if (const auto failed = load(*compiled.plan)) return *failed;
-        std::vector<std::string> refusals = scenes::model_refusals(scene_, models_);
-        if (!replay_) {
-            for (std::string& refusal : scenes::response_refusals(scene_, models_)) {
-                refusals.push_back(std::move(refusal));
-            }
-        }
-        if (!refusals.empty()) return refuse(refusals);
+        const std::vector<Error> errors = load(compiled.plan);
+        std::vector<std::string> refusals = std::move(compiled.refusals);
+        add(refusals, scenes::model_refusals(scene_, models_));
+        if (!replay_) add(refusals, scenes::response_refusals(scene_, models_));
+        if (!refusals.empty() || !errors.empty()) return refuse(refusals, errors);
         std::vector<std::string> names;
         compiled = scenes::compile_scene(scene_, limits(), scenes::uses_of(scene_, models_, names));
         if (!compiled.plan) return refuse(compiled.refusals);
@@ -204,6 +201,10 @@ private:
         return Done{};
     }
 
+    static void add(std::vector<std::string>& all, std::vector<std::string> more) {
+        std::ranges::move(more, std::back_inserter(all));
+    }
+
     [[nodiscard]] SceneLimits limits() const {
         return scenes::first_limits(scene_, thread_count());
     }
@@ -244,30 +245,38 @@ private:
         return std::max(1U, std::thread::hardware_concurrency());
     }
 
-    Exit refuse(const std::vector<std::string>& refusals) {
-        const Exit exit = exit_for(ErrorCode::bad_argument);
-        if (arguments_.plan && arguments_.format == "json") {
-            const std::string json =
-                report::refused_json(scene_.name, static_cast<int>(exit), refusals);
+    /// Reports all reasons at once. The errors of files come last, and decide the exit code.
+    Exit refuse(std::vector<std::string> refusals, const std::vector<Error>& errors = {}) {
+        const bool is_json = arguments_.plan && arguments_.format == "json";
+        std::vector<Error> all;
+        for (const std::string& refusal : refusals)
+            all.push_back({ErrorCode::bad_argument, refusal});
+        all.insert(all.end(), errors.begin(), errors.end());
+        if (is_json) {
+            for (const Error& error : errors) refusals.push_back(error.message);
+            const auto exit = static_cast<int>(exit_for(all.back().code));
+            const std::string json = report::refused_json(scene_.name, exit, refusals);
             if (const Exit written = finish(json); written != Exit::success) return written;
         }
-        return fail_all("simulate", refusals, ErrorCode::bad_argument);
+        return fail_all("simulate", all);
     }
 
-    /// Returns the exit code if models cannot be loaded.
-    std::optional<Exit> load(const Plan& plan) {
+    /// Opens the models. Without a plan it opens baked files, as far as they can be told, and bakes
+    /// nothing.
+    std::vector<Error> load(const std::optional<Plan>& plan) {
         scenes::LoadOptions options;
         options.cache = arguments_.cache;
         options.import = import_;
         options.assembly = assembly_ ? &*assembly_ : nullptr;
-        scenes::LoadedModels loaded =
-            scenes::load_models(scene_, plan, std::move(options), style_, threads_);
-        if (!loaded.errors.empty()) return fail_all("simulate", loaded.errors);
+        options.bakes = plan.has_value();
+        const auto asks = plan ? scenes::asks_of_layers(*plan) : scenes::asks_of_layers(scene_);
+        scenes::LoadedModels loaded = scenes::load_models(
+            scene_, scenes::needs_of_models(scene_, asks), std::move(options), style_, threads_);
         models_ = std::move(loaded.models);
         for (const std::string& line : scenes::kept_colliders(scene_, models_)) {
             std::cerr << "cdprep simulate: " << line << '\n';
         }
-        return std::nullopt;
+        return std::move(loaded.errors);
     }
 
     Exit show_plan(const Plan& plan) {

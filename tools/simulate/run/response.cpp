@@ -104,7 +104,12 @@ std::vector<std::string> response_refusals(const SceneFile& scene,
         const Result<dynamics::BodyMass> mass = dynamics::mass_of(body);
         if (!mass) refusals.push_back(mass.error().message);
     }
-    if (!refusals.empty() || std::ranges::count(is_refused, true) > 0) return refusals;
+    const bool lacks_some = std::ranges::any_of(models, [](const SceneModel& model) {
+        return !model.model && model.needs.asks != Ask::nothing;
+    });
+    if (!refusals.empty() || lacks_some || std::ranges::count(is_refused, true) > 0) {
+        return refusals;
+    }
     // What else may be wrong is found where the bodies are made.
     const Result<Response> whole = Response::make(scene, models, 1, serial_for);
     if (!whole) refusals.push_back(whole.error().message);

@@ -34,7 +34,7 @@ TEST(CompileScene, FindsWhatEachModelMustServe) {
                   {.asked = {.a = 1, .b = 1, .effects = Ask::within}}});
     const Plan::Compiled compiled = compile_scene(scene, kLimits);
     ASSERT_TRUE(compiled.plan);
-    const std::vector<ModelNeeds> needs = needs_of_models(scene, *compiled.plan);
+    const std::vector<ModelNeeds> needs = needs_of_models(scene, asks_of_layers(*compiled.plan));
     ASSERT_EQ(needs.size(), 2u);
     EXPECT_EQ(needs[0].asks, Ask::collide | Ask::solid | Ask::within);
     EXPECT_EQ(needs[0].layers, 0b11u);
@@ -42,6 +42,26 @@ TEST(CompileScene, FindsWhatEachModelMustServe) {
     EXPECT_EQ(needs[1].asks, Ask::nothing);
     EXPECT_TRUE(is_asked(scene, *compiled.plan, scene.objects[0]));
     EXPECT_FALSE(is_asked(scene, *compiled.plan, scene.objects[2]));
+}
+
+// A plan refuses the second pair and the body, so there is none; the first pair still asks.
+TEST(AsksOfLayers, AreThoseOfThePairsThatAreValid) {
+    SceneFile scene =
+        scene_of({{.asked = {.a = 0, .b = 1, .effects = Ask::collide, .body = Body::solid}},
+                  {.asked = {.a = 1, .b = 2, .effects = Ask::distance, .tolerance = 1}}});
+    scene.bodies = {{}};
+    scene.objects[2].body = 0;
+    EXPECT_EQ(compile_scene(scene, kLimits).refusals.size(), 2u);
+    LayerAsks asks = asks_of_layers(scene);
+    EXPECT_EQ(asks[0], Ask::collide | Ask::solid);
+    EXPECT_EQ(asks[1], Ask::collide | Ask::solid);
+    EXPECT_EQ(asks[2], Ask::nothing);
+    // With a plan, both ways agree.
+    scene.pairs[1].asked.tolerance = 0;
+    scene.objects[2].body = kNoBody;
+    asks = asks_of_layers(scene);
+    EXPECT_EQ(asks[2], Ask::distance);
+    EXPECT_EQ(asks, asks_of_layers(*compile_scene(scene, kLimits).plan));
 }
 
 // The sentences name the file and the pair.
@@ -92,12 +112,12 @@ TEST(CompileScene, FindsWhatTheBaseOfALiveModelMustServe) {
     for (FileObject& object : scene.objects) object.change = 0;
     const Plan::Compiled compiled = compile_scene(scene, kLimits);
     ASSERT_TRUE(compiled.plan);
-    std::vector<ModelNeeds> needs = needs_of_models(scene, *compiled.plan);
+    std::vector<ModelNeeds> needs = needs_of_models(scene, asks_of_layers(*compiled.plan));
     EXPECT_EQ(needs[0].asks, Ask::deform | Ask::solid);
     EXPECT_EQ(needs[1].asks, Ask::nothing) << "nobody asks for it";
     scene.objects[0].change = kUnchanged;
     scene.objects[1].change = 1;
-    needs = needs_of_models(scene, *compiled.plan);
+    needs = needs_of_models(scene, asks_of_layers(*compiled.plan));
     EXPECT_EQ(needs[0].asks, Ask::tear | Ask::solid | Ask::distance);
 }
 
@@ -146,13 +166,13 @@ TEST(CompileScene, FindsWhatBodiesNeed) {
     EXPECT_TRUE(is_asked(scene, *compiled.plan, scene.objects[0]));
     EXPECT_TRUE(is_asked(scene, *compiled.plan, scene.objects[1]));
     EXPECT_FALSE(is_asked(scene, *compiled.plan, scene.objects[2]));
-    std::vector<ModelNeeds> needs = needs_of_models(scene, *compiled.plan);
+    std::vector<ModelNeeds> needs = needs_of_models(scene, asks_of_layers(*compiled.plan));
     EXPECT_EQ(needs[0].asks, Ask::contacts | Ask::distance) << "a body is continuous";
     EXPECT_EQ(needs[0].wishes, Ask::solid);
     EXPECT_EQ(needs[1].asks, Ask::contacts | Ask::distance | Ask::response);
     scene.bodies[1].is_continuous = false;
     scene.objects[0].body = 1;
-    needs = needs_of_models(scene, *compiled.plan);
+    needs = needs_of_models(scene, asks_of_layers(*compiled.plan));
     EXPECT_EQ(needs[0].asks, Ask::contacts);
     EXPECT_EQ(needs[1].asks, Ask::contacts);
     EXPECT_EQ(needs[1].wishes, Ask::solid | Ask::response) << "how its mass is distributed";

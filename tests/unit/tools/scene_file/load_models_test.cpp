@@ -34,7 +34,8 @@ SceneFile scene_of(const std::filesystem::path& model, Ask effects) {
 LoadedModels load_all(const SceneFile& scene, const LoadOptions& options = {}) {
     const cli::Threads threads(1);
     const auto compiled = compile_scene(scene, {.objects = 3, .pairs = 3});
-    return load_models(scene, *compiled.plan, options, threads);
+    return load_models(scene, needs_of_models(scene, asks_of_layers(*compiled.plan)), options,
+                       threads);
 }
 
 /// The models, or the first error.
@@ -71,6 +72,18 @@ TEST(LoadModels, LeaveAModelAloneThatNobodyAsksFor) {
     EXPECT_FALSE(models->back().model);
 }
 
+// Without a plan, a mesh is not even read.
+TEST(LoadModels, OpenBakedFilesAlone) {
+    const test::ScratchFolder folder;
+    const auto mesh = folder.write("m.off", std::string_view("OFF 1 1 0\n"));
+    LoadOptions options;
+    options.bakes = false;
+    const LoadedModels loaded = load_all(scene_of(mesh, Ask::collide), options);
+    EXPECT_TRUE(loaded.errors.empty());
+    ASSERT_EQ(loaded.models.size(), 2u);
+    EXPECT_FALSE(loaded.models[0].model);
+}
+
 // One sentence: the layers, what they need, the sections, and a bake that keeps the rest.
 TEST(ModelRefusals, AreOneSentenceForEachModel) {
     const test::ScratchFolder folder;
@@ -80,8 +93,7 @@ TEST(ModelRefusals, AreOneSentenceForEachModel) {
     EXPECT_TRUE(model_refusals(scene, loaded.models).empty());
     // The same file in a scene that asks for more.
     scene = scene_of(mesh, Ask::within | Ask::distance);
-    loaded.models[0].needs =
-        needs_of_models(scene, *compile_scene(scene, {.objects = 3, .pairs = 3}).plan)[0];
+    loaded.models[0].needs = needs_of_models(scene, asks_of_layers(scene))[0];
     EXPECT_EQ(model_refusals(scene, loaded.models),
               (std::vector<std::string>{
                   "s.json: " + mesh.string() +
@@ -233,7 +245,9 @@ TEST(LoadModels, NamesEveryModelThatCannotBeRead) {
     ASSERT_EQ(all.errors.size(), 2u);
     EXPECT_NE(all.errors[0].message.find("m.off"), std::string::npos);
     EXPECT_NE(all.errors[1].message.find("n.off"), std::string::npos);
-    EXPECT_EQ(all.models.size(), 2u);
+    ASSERT_EQ(all.models.size(), 4u) << "in the order of the scene";
+    EXPECT_FALSE(all.models[0].model);
+    EXPECT_TRUE(all.models[3].model);
 }
 
 }  // namespace

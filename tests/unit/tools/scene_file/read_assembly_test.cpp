@@ -160,13 +160,13 @@ TEST(ReadAssembly, ModelsAreBakedOnce) {
         folder.read(R"({"mesh":0},{"mesh":0,"translation":[1,0,0]},{"mesh":0,"scale":[2,2,2]})");
     read.scene.pairs = {{.asked = {.a = 0, .b = 0, .effects = Ask::collide}}};
     const cli::Threads threads(1);
-    const auto compiled = compile_scene(read.scene, {.objects = 3, .pairs = 3});
+    const std::vector<ModelNeeds> needs = needs_of_models(read.scene, asks_of_layers(read.scene));
     LoadOptions options;
     options.assembly = &read;
-    const auto in_memory = load_models(read.scene, *compiled.plan, options, threads);
+    const auto in_memory = load_models(read.scene, needs, options, threads);
     options.cache = folder.scratch().path() / "cache";
-    const auto cached = load_models(read.scene, *compiled.plan, options, threads);
-    const auto again = load_models(read.scene, *compiled.plan, options, threads);
+    const auto cached = load_models(read.scene, needs, options, threads);
+    const auto again = load_models(read.scene, needs, options, threads);
     for (const LoadedModels* loaded : {&in_memory, &cached, &again}) {
         ASSERT_TRUE(loaded->errors.empty()) << loaded->errors[0].message;
         ASSERT_EQ(loaded->models.size(), 2u);

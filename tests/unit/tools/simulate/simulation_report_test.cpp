@@ -50,10 +50,14 @@ Plan plan_of(const SceneFile& scene) {
     return *scenes::compile_scene(scene, kPlanLimits).plan;
 }
 
+std::vector<scenes::ModelNeeds> needs_of(const SceneFile& scene) {
+    return scenes::needs_of_models(scene, scenes::asks_of_layers(plan_of(scene)));
+}
+
 /// Opens the models of a scene, with what its plan reads.
 std::vector<SceneModel> models_of(const SceneFile& scene) {
     const cli::Threads threads(1);
-    auto loaded = scenes::load_models(scene, plan_of(scene), {}, threads);
+    auto loaded = scenes::load_models(scene, needs_of(scene), {}, threads);
     EXPECT_TRUE(loaded.errors.empty()) << scene.name;
     return std::move(loaded.models);
 }
@@ -156,7 +160,7 @@ public:
             }
         }
         whole_ = models_of(more);
-        const auto needs = scenes::needs_of_models(scene, plan_of(scene));
+        const auto needs = needs_of(scene);
         models_.resize(whole_.size());
         for (std::size_t i = 0; i < whole_.size(); ++i) {
             models_[i].needs = needs[i];
