@@ -242,22 +242,29 @@ def in_a_later_frame(process):
         told += piece
 
 
-def an_interrupt_in_a_frame(program, folder):
-    """A frame of this pile takes 0.2 s or more, so the signal comes in the middle of one."""
+def slow_pile(folder):
+    """A scene whose frames take 0.2 s or more, so a signal comes in the middle of one."""
     for path in SCENES.glob("*.obj"):
         shutil.copy(path, folder)
     scene = json.loads((SCENES / "pile.json").read_text())
     scene["dynamics"]["substeps"] = 1000000
-    (folder / "pile.json").write_text(json.dumps(scene))
+    path = folder / "pile.json"
+    path.write_text(json.dumps(scene))
+    return path
+
+
+def an_interrupt_in_a_frame(program, folder):
+    scene = slow_pile(folder)
     for number in (signal.SIGINT, signal.SIGTERM):
         recording = folder / f"{number}.ndjson"
-        running = subprocess.Popen([program, "simulate", folder / "pile.json", "--record", recording,
+        running = subprocess.Popen([program, "simulate", scene, "--record", recording,
                                     "--progress", "bar"], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
         in_a_later_frame(running)
         running.send_signal(number)
         _, told = running.communicate(timeout=20)
-        must(running.returncode == 130 and "stopped" in told, f"{running.returncode}: {told}")
+        must(running.returncode == 130 and re.search(r"stopped (within|before) frame \d+ of \d+;", told),
+             f"{running.returncode}: {told}")
         must(recording.exists(), f"signal {number} leaves no recording")
         lines = recording.read_text().splitlines()
         frames = json.loads(lines[-1])["frames"]
@@ -268,10 +275,31 @@ def an_interrupt_in_a_frame(program, folder):
         must(again.read_bytes() == recording.read_bytes(), "the replay differs")
 
 
+def an_interrupt_of_costs(program, folder):
+    """The frames are complete by then, and so are report and page: they lack the costs alone."""
+    scene = slow_pile(folder)
+    report, page = folder / "report.json", folder / "page.html"
+    running = subprocess.Popen([program, "simulate", scene, "--frames", "2", "--cost", "--format",
+                                "json", "-o", report, "--html", page, "--progress", "bar"],
+                               stderr=subprocess.PIPE, text=True)
+    told = ""
+    while not re.search(r"\] 0/2 cost", told):
+        piece = running.stderr.read(1)
+        must(piece, f"it ended: {told}")
+        told += piece
+    running.send_signal(signal.SIGINT)
+    _, told = running.communicate(timeout=60)
+    must(running.returncode == 130 and "stopped while --cost measured" in told,
+         f"{running.returncode}: {told}")
+    summary = json.loads(report.read_text())["summary"]
+    must(summary["frames"] == 2 and "costs" not in summary, f"{summary}")
+    must(page.read_text().rstrip().endswith("</html>"), "the page is not complete")
+
+
 def main():
     program = sys.argv[1]
     for check in (replays, moves_along, until, changed_recordings, imported_alike, dropped_effects,
-                  costs, names, an_interrupt, an_interrupt_in_a_frame):
+                  costs, names, an_interrupt, an_interrupt_in_a_frame, an_interrupt_of_costs):
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))
 

@@ -346,6 +346,26 @@ def check_left_out(browser, program, folder):
     clean(browser)
 
 
+def check_costs(browser, program, folder):
+    """The tab Cost has the numbers of the summary, and nothing where --cost did not run."""
+    report = folder / "costs.json"
+    page, _, _ = simulate(program, SCENES / "crates.json", folder, "--frames", 5, "--cost",
+                          "--format", "json", "-o", report)
+    costs = json.loads(report.read_text())["summary"]["costs"]
+    browser.open(page.as_uri())
+    browser.value("document.getElementById('tab-cost').click()")
+    rows = browser.value("[...document.querySelectorAll('#effect-costs tbody tr')]"
+                         ".map((row) => [...row.children].map((cell) => cell.textContent))")
+    must([row[0] for row in rows] == [cost["without"] for cost in costs] and rows, f"{rows} {costs}")
+    for row, cost in zip(rows, costs):
+        for text, value in zip(row[1:], (cost["change_of_time"], cost["spread_of_time"])):
+            must(abs(float(text.rstrip(" %")) - 100 * value) < 0.06, f"{row} is not {cost}")
+    clean(browser)
+    simulate(program, SCENES / "crates.json", folder, "--frames", 2)
+    browser.open(page.as_uri())
+    must(browser.value("document.querySelectorAll('#effect-costs').length") == 0, "no costs")
+
+
 def luminance(rgb):
     parts = [value / 255 for value in rgb]
     parts = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
@@ -425,6 +445,7 @@ def main():
         check_without_webgl(page)
         with Browser(WIDTH, HEIGHT) as browser:
             check_left_out(browser, program, folder)
+            check_costs(browser, program, folder)
     print("what begins in the run begins on its page")
 
 

@@ -74,6 +74,7 @@ def the_plans(program):
                                   "response"], f"{plan['not_computed']}")
     # Nobody asks for the debris: none of its 1770 pairs, nor those with other layers.
     must(plan["layers_in_no_pair"] == ["debris"], f"{plan['layers_in_no_pair']}")
+    must(plan["not_built"] == ["inside"], f"{plan['not_built']}")
     unpaired = {"-".join(layers["layers"]): layers["pairs"] for layers in plan["unpaired"]}
     must(unpaired == {"ground-triggers": 1, "ground-debris": 60, "crates-debris": 120,
                       "triggers-debris": 60, "debris-debris": 1770}, f"{unpaired}")

@@ -2,12 +2,15 @@
 #include "cli/command.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -304,29 +307,47 @@ private:
         report::SimulationReport report(scene_, plan, event_format(), frames);
         page_.begin(scene_, models_, frames);
         Progress progress(style_, frames);
-        Result<Done> done = output_.append(report.begin());
-        if (done) done = begin_recording();
-        for (std::uint64_t frame = 0; frame < frames && done; ++frame) {
-            if (is_interrupted()) done = stopped(frame, frames);
-            progress.advance(frame, "frame");
-            if (done) done = compute(frame, *simulation);
-            if (done) done = output_.append(report.add_frame(frame, *simulation));
-            if (done && record_) done = record_->add_frame(frame, *simulation);
-            if (done) done = page_.add_frame(frame, *simulation);
+        const Result<Done> done = run_frames(frames, *simulation, report, progress);
+        std::optional<Error> stop;
+        if (done && arguments_.cost) {
+            stop = measure_costs(frames, progress, [&] { write_end(report, *simulation, {}); });
         }
-        // What was recorded before an interrupt or an error can be replayed.
-        if (const Result<Done> kept = record_ ? record_->finish() : Done{}; done && !kept) {
-            done = kept;
-        }
-        if (done) done = page_.finish(*simulation);
-        if (done && arguments_.cost) done = measure_costs(frames, progress, report);
         progress.clear();
         if (!done) return fail("simulate", done.error());
-        const Exit exit = finish(report.finish(*simulation));
+        const Exit exit = write_end(report, *simulation, costs_);
         for (const std::string& warning : report.warnings(assembly_.has_value())) {
             std::cerr << "cdprep simulate: " << warning << '\n';
         }
-        return exit;
+        return stop && exit == Exit::success ? fail("simulate", *stop) : exit;
+    }
+
+    /// Computes the frames, and writes all but the end of the outputs.
+    Result<Done> run_frames(std::uint64_t frames, scenes::Simulation& simulation,
+                            report::SimulationReport& report, Progress& progress) {
+        std::atomic<std::uint64_t> at = 0;  // the frame in progress
+        const LastWords words([&] { return sentence_of(stopped("within frame ", at, frames)); });
+        Result<Done> done = output_.append(report.begin());
+        if (done) done = begin_recording();
+        for (std::uint64_t frame = 0; frame < frames && done; ++frame) {
+            if (is_interrupted()) done = stopped("before frame ", frame, frames);
+            at = frame;
+            progress.advance(frame, "frame");
+            if (done) done = compute(frame, simulation);
+            if (done) done = output_.append(report.add_frame(frame, simulation));
+            if (done && record_) done = record_->add_frame(frame, simulation);
+            if (done) done = page_.add_frame(frame, simulation);
+        }
+        // What was recorded before an interrupt or an error can be replayed.
+        const Result<Done> kept = record_ ? record_->finish() : Done{};
+        return done ? kept : done;
+    }
+
+    /// Writes the end of the outputs, after the last frame.
+    Exit write_end(report::SimulationReport& report, const scenes::Simulation& simulation,
+                   std::span<const report::EffectCost> costs) {
+        report.set_costs(costs);
+        const Result<Done> written = page_.finish(simulation, costs);
+        return written ? finish(report.finish(simulation)) : fail("simulate", written.error());
     }
 
     Result<Done> compute(std::uint64_t frame, scenes::Simulation& simulation) {
@@ -355,32 +376,46 @@ private:
         return fs::proximate(to.empty() ? here : to, from.empty() ? here : from);
     }
 
-    Result<Done> measure_costs(std::uint64_t frames, Progress& progress,
-                               report::SimulationReport& report) {
+    /// Returns the error that stopped it. Then the report lacks only the costs. If a signal does
+    /// not wait for the end of a frame, `write_end` is called, on another thread.
+    std::optional<Error> measure_costs(std::uint64_t frames, Progress& progress,
+                                       const std::function<void()>& write_end) {
+        const Error is_stopped = {ErrorCode::interrupted,
+                                  scene_.name +
+                                      ": stopped while --cost measured. The output is complete "
+                                      "but for the costs."};
+        const LastWords words([&] {
+            write_end();
+            return sentence_of(is_stopped);
+        });
         scenes::CostOptions options;
         options.frames = frames;
         options.threads = thread_count();
         options.parallel_for = threads_.parallel_for();
         options.begins = [&](std::uint64_t done, std::uint64_t all) -> Result<Done> {
-            if (is_interrupted()) {
-                return Error{ErrorCode::interrupted,
-                             scene_.name +
-                                 ": stopped while --cost measured; the output is "
-                                 "incomplete."};
-            }
+            if (is_interrupted()) return is_stopped;
             progress.advance(frames * done / all, "cost");
             return Done{};
         };
         auto costs = scenes::measure_costs(scene_, models_, options);
-        if (!costs) return costs.error();
-        report.set_costs(std::move(costs).value());
-        return Done{};
+        if (!costs) {
+            end_by_itself();  // the end of the output may take longer than an interrupt
+            return costs.error();
+        }
+        costs_ = std::move(costs).value();
+        return std::nullopt;
     }
 
-    [[nodiscard]] Error stopped(std::uint64_t frame, std::uint64_t frames) const {
-        return {ErrorCode::interrupted, scene_.name + ": stopped after " + std::to_string(frame) +
+    [[nodiscard]] Error stopped(const char* where, std::uint64_t frame,
+                                std::uint64_t frames) const {
+        return {ErrorCode::interrupted, scene_.name + ": stopped " + where + std::to_string(frame) +
                                             " of " + std::to_string(frames) +
-                                            " frames; the output is incomplete."};
+                                            "; the output is incomplete."};
+    }
+
+    /// Returns what fail() prints.
+    static std::string sentence_of(const Error& error) {
+        return "cdprep simulate: " + report::printable(error.message);
     }
 
     [[nodiscard]] report::EventFormat event_format() const {
@@ -408,6 +443,7 @@ private:
     std::vector<scenes::SceneModel> models_;
     std::optional<scenes::Recording> replay_;  ///< the scene is one
     std::unique_ptr<RecordingOutput> record_;  ///< null: nothing is recorded
+    std::vector<report::EffectCost> costs_;    ///< of --cost
 };
 
 Exit run(const Arguments& arguments) {

@@ -5,7 +5,6 @@
 #include <cstddef>
 
 #include "scene_file/compile_scene.h"
-#include "simulate/run/effect_counts.h"
 #include "text/number_text.h"
 
 namespace cdprep::scenes {
@@ -59,7 +58,7 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-EffectCost cost_of(Ask effect, const Variant& whole, const Variant& without_it) {
+report::EffectCost cost_of(Ask effect, const Variant& whole, const Variant& without_it) {
     std::vector<double> changes;
     for (std::size_t round = 0; round < whole.seconds.size(); ++round) {
         const double all = whole.seconds[round];
@@ -84,9 +83,9 @@ Result<Done> check_cost_room(const SceneFile& file, std::uint64_t frames) {
                      " are possible. Compute fewer frames."};
 }
 
-Result<std::vector<EffectCost>> measure_costs(const SceneFile& file,
-                                              std::span<const SceneModel> models,
-                                              const CostOptions& options) {
+Result<std::vector<report::EffectCost>> measure_costs(const SceneFile& file,
+                                                      std::span<const SceneModel> models,
+                                                      const CostOptions& options) {
     std::vector<Variant> variants = {{file}};
     std::vector<Ask> effects;
     for (const Ask effect : report::kSimulatedEffects) {
@@ -106,7 +105,7 @@ Result<std::vector<EffectCost>> measure_costs(const SceneFile& file,
         if (!seconds) return seconds.error();
         variant.seconds.push_back(*seconds);
     }
-    std::vector<EffectCost> costs;
+    std::vector<report::EffectCost> costs;
     for (std::size_t i = 0; i < effects.size(); ++i) {
         costs.push_back(cost_of(effects[i], variants[0], variants[i + 1]));
     }

@@ -6,16 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "simulate/run/effect_counts.h"
 #include "simulate/run/simulation.h"
 
 namespace cdprep::scenes {
-
-/// What a scene saves without one of its effects.
-struct EffectCost {
-    Ask effect;
-    double change;  ///< of the time of all frames: -0.25 for a quarter less; median of the rounds
-    double spread;  ///< the largest change of a round minus the smallest
-};
 
 struct CostOptions {
     std::uint64_t frames = 1;
@@ -32,9 +26,8 @@ struct CostOptions {
 /// and then each scene that lacks an effect, over the same frames. So slow changes of the machine
 /// do not count as costs. Every other round runs them backwards. Without `response`, the bodies
 /// move as in the whole scene: their poses are kept for all frames.
-[[nodiscard]] Result<std::vector<EffectCost>> measure_costs(const SceneFile& file,
-                                                            std::span<const SceneModel> models,
-                                                            const CostOptions& options);
+[[nodiscard]] Result<std::vector<report::EffectCost>> measure_costs(
+    const SceneFile& file, std::span<const SceneModel> models, const CostOptions& options);
 
 /// Fails with over_budget if these poses take more than a gigabyte.
 [[nodiscard]] Result<Done> check_cost_room(const SceneFile& file, std::uint64_t frames);

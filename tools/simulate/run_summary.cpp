@@ -127,8 +127,8 @@ std::string bytes_text(std::uint64_t bytes) {
 }
 
 /// Returns "-12.3 % (spread 0.6)": how the time of all frames changes without an effect.
-std::string cost_text(std::span<const scenes::EffectCost> costs, Ask effect) {
-    const auto at = std::ranges::find(costs, effect, &scenes::EffectCost::effect);
+std::string cost_text(std::span<const EffectCost> costs, Ask effect) {
+    const auto at = std::ranges::find(costs, effect, &EffectCost::effect);
     if (at == costs.end()) return "";
     const double percent = 100 * at->change;
     return (percent > 0 ? "+" : "") + fixed(percent, 1) + " % (spread " +
@@ -280,6 +280,7 @@ Json times_json(const TimeHistogram& times) {
 
 void add_not_computed(Json& json, const RunSummary& summary) {
     json["not_computed"] = summary.not_computed;
+    json["not_built"] = not_built();
     const AllSections sections = sections_of_models(summary.simulation.models());
     json["sections"] = {{"unread", sections.unread},
                         {"unread_bytes", sections.unread_bytes},
@@ -299,7 +300,7 @@ void add_changes(Json& json, const RunSummary& summary) {
 }
 
 void add_costs(Json& json, const RunSummary& summary) {
-    for (const scenes::EffectCost& cost : summary.costs) {
+    for (const EffectCost& cost : summary.costs) {
         json["costs"].push_back({{"without", scenes::effect_name(cost.effect)},
                                  {"change_of_time", rounded_share(cost.change)},
                                  {"spread_of_time", rounded_share(cost.spread)}});

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "simulate/cost_table.h"
-#include "simulate/effect_costs.h"
 
 namespace cdprep::report {
 
@@ -16,7 +15,7 @@ struct RunSummary {
     const scenes::SceneFile& scene;
     const scenes::Simulation& simulation;  ///< after the last frame
     const CostTable& table;
-    std::span<const scenes::EffectCost> costs;  ///< of --cost, else empty
+    std::span<const EffectCost> costs;          ///< of --cost, else empty
     std::span<const std::string> not_computed;  ///< effects
     std::uint64_t frames;                       ///< that were asked for
 };

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "simulate/cost_table.h"
-#include "simulate/effect_costs.h"
 #include "simulate/run/simulation.h"
 
 namespace cdprep::report {
@@ -28,8 +27,8 @@ public:
     /// text format.
     [[nodiscard]] std::string add_frame(std::uint64_t frame, const scenes::Simulation& simulation);
     /// Adds what the scene saves without single effects.
-    void set_costs(std::vector<scenes::EffectCost> costs) {
-        costs_ = std::move(costs);
+    void set_costs(std::span<const EffectCost> costs) {
+        costs_.assign(costs.begin(), costs.end());
     }
     /// Returns the text that ends the report: the summary of all frames.
     [[nodiscard]] std::string finish(const scenes::Simulation& simulation) const;
@@ -47,7 +46,7 @@ private:
     std::vector<const scenes::AskedPair*> pairs_;  ///< by their numbers in the plan
     CostTable table_;
     std::vector<std::string> not_computed_;
-    std::vector<scenes::EffectCost> costs_;
+    std::vector<EffectCost> costs_;
     bool has_event_ = false;
 };
 

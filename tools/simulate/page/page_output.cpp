@@ -58,7 +58,8 @@ Result<Done> PageOutput::add_frame(std::uint64_t frame, const scenes::Simulation
 }
 
 /// Writes both texts before either file appears. So no file is replaced without room for both.
-Result<Done> PageOutput::finish(const scenes::Simulation& simulation) {
+Result<Done> PageOutput::finish(const scenes::Simulation& simulation,
+                                std::span<const report::EffectCost> costs) {
     if (svg_) {
         const report::SceneTimeline& timeline = page_ ? page_->timeline() : timeline_;
         Result<Done> written =
@@ -66,7 +67,7 @@ Result<Done> PageOutput::finish(const scenes::Simulation& simulation) {
         if (!written) return written;
     }
     if (page_) {
-        if (Result<Done> written = html_->append(page_->finish(simulation)); !written) {
+        if (Result<Done> written = html_->append(page_->finish(simulation, costs)); !written) {
             return written;
         }
         if (Result<Done> written = html_->finish(); !written) return written;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cli/report_output.h"
@@ -31,8 +32,9 @@ public:
     [[nodiscard]] Result<Done> add_frame(std::uint64_t frame, const scenes::Simulation& simulation);
 
     /// Writes the files and prints on stderr what the page leaves out. Call it once, after the
-    /// last frame; otherwise no file appears.
-    [[nodiscard]] Result<Done> finish(const scenes::Simulation& simulation);
+    /// last frame; otherwise no file appears. `costs` are those of --cost.
+    [[nodiscard]] Result<Done> finish(const scenes::Simulation& simulation,
+                                      std::span<const report::EffectCost> costs);
 
 private:
     const scenes::SceneFile* file_ = nullptr;

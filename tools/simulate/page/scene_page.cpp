@@ -211,13 +211,17 @@ Json changing_json(const SceneFrames& frames, std::span<const scenes::ChangingOb
 
 /// `asked` are those of the scene file, `dropped` those that it asked for before, and `computed`
 /// those of the run.
-Json effects_json(Ask asked, Ask dropped, Ask computed) {
+Json effects_json(Ask asked, Ask dropped, Ask computed, std::span<const EffectCost> costs) {
     Json json = Json::array();
     for (const Ask effect : kSimulatedEffects) {
         json.push_back({{"name", scenes::effect_name(effect)},
                         {"asked", contains(computed, effect)},
                         {"is_dropped", contains(dropped, effect)},
                         {"is_replayed", contains(asked, effect) && !contains(computed, effect)}});
+        const auto cost = std::ranges::find(costs, effect, &EffectCost::effect);
+        if (cost == costs.end()) continue;
+        json.back()["change_of_time"] = cost->change;
+        json.back()["spread_of_time"] = cost->spread;
     }
     return json;
 }
@@ -383,7 +387,8 @@ Result<Done> ScenePage::add_frame(std::uint64_t frame, const scenes::Simulation&
     return frames_.add(frame, simulation);
 }
 
-std::string ScenePage::finish(const scenes::Simulation& simulation) {
+std::string ScenePage::finish(const scenes::Simulation& simulation,
+                              std::span<const EffectCost> costs) {
     const Plan& plan = simulation.plan();
     const SceneGeometry geometry =
         draw_scene(file_, models_, frames_, simulation.changing(), options_.triangles);
@@ -404,7 +409,7 @@ std::string ScenePage::finish(const scenes::Simulation& simulation) {
                        {"half", geometry.frame.half_box},
                        {"layers", file_.layers},
                        {"effects", effects_json(asked_effects(file_, plan), file_.dropped,
-                                                computed_effects(simulation))},
+                                                computed_effects(simulation), costs)},
                        {"models", models_json(file_, geometry)},
                        {"objects", objects_json(file_, plan, frames_.objects())},
                        {"object_count", file_.objects.size()},

@@ -8,6 +8,7 @@
 
 #include "simulate/page/scene_frames.h"
 #include "simulate/page/scene_timeline.h"
+#include "simulate/run/effect_counts.h"
 
 namespace cdprep::report {
 
@@ -48,8 +49,9 @@ public:
     /// coordinates.
     [[nodiscard]] Result<Done> add_frame(std::uint64_t frame, const scenes::Simulation& simulation);
 
-    /// Returns the page. Call it once, after the last frame.
-    [[nodiscard]] std::string finish(const scenes::Simulation& simulation);
+    /// Returns the page. Call it once, after the last frame. `costs` are those of --cost.
+    [[nodiscard]] std::string finish(const scenes::Simulation& simulation,
+                                     std::span<const EffectCost> costs = {});
 
     [[nodiscard]] const SceneTimeline& timeline() const noexcept {
         return timeline_;
@@ -65,7 +67,7 @@ private:
         std::uint32_t frame;
         std::uint32_t a;  ///< in SceneFile::objects
         std::uint32_t b;
-        std::uint32_t what;  ///< effect number, 8 times EventKind, 32 times EventReason
+        std::uint32_t what;  ///< effect number, 16 times EventKind, 64 times EventReason
     };
 
     void list_events(std::uint64_t frame, const scenes::Simulation& simulation);

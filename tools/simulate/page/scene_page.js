@@ -358,7 +358,24 @@ function write_costs() {
   const head = ['Stage', 'Mean, us a frame', most].map((name) => make('th', {scope: 'col'}, name));
   $('costs').replaceChildren(make('table', {class: 'plain'}, make('thead', {}, make('tr', {}, ...head)),
                                   make('tbody', {}, ...rows)),
-      make('p', {class: 'note'}, 'The time that the library took on this run. Poses, output and the page are not in it.'));
+      make('p', {class: 'note'}, 'The time that the library took on this run. Poses, output and the page are not in it.'),
+      ...changes_of_time());
+}
+
+// What --cost measured, if it did: how the time of all frames changes without an effect.
+function changes_of_time() {
+  const measured = run.effects.filter((effect) => 'change_of_time' in effect);
+  if (!measured.length) return [];
+  const percent = (share) => (100 * share).toFixed(1) + ' %';
+  const rows = measured.map((effect) => make('tr', {}, make('td', {}, effect.name),
+      make('td', {}, (effect.change_of_time > 0 ? '+' : '') + percent(effect.change_of_time)),
+      make('td', {}, percent(effect.spread_of_time))));
+  const head = ['Without', 'Change of time', 'Spread'].map((name) => make('th', {scope: 'col'}, name));
+  return [make('h3', {}, 'The price of each effect'),
+          make('table', {class: 'plain', id: 'effect-costs'}, make('thead', {}, make('tr', {}, ...head)),
+               make('tbody', {}, ...rows)),
+          make('p', {class: 'note'}, 'The time of all frames when the scene runs without the effect, against the whole ' +
+               'scene: the median of rounds that alternate. The spread is the largest change minus the smallest.')];
 }
 
 // ---- The address: #frame=12&object=3

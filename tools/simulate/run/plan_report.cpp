@@ -331,6 +331,7 @@ std::string plan_json(const SceneFile& scene, const Plan& plan, std::span<const 
     }
     if (scenes::has_response(scene)) json["response"] = response_json(scene);
     json["not_computed"] = not_computed(scene, plan);
+    json["not_built"] = not_built();
     json["layers_in_no_pair"] = layers_in_no_pair(scene);
     json["unpaired"] = unpaired_json(scene);
     json["state"] = state_json(plan);
