@@ -555,8 +555,9 @@ private:
                               report::number_text(assembly_.rounding));
         }
         findings_.assumed("a step is 1/60 s, and a run takes 1 s without --frames or --until");
-        if (scene().bodies.empty()) return;
         const format::UpAxis up = options_.up_axis.value_or(format::UpAxis::y);
+        scene().y_is_up = up == format::UpAxis::y;
+        if (scene().bodies.empty()) return;
         const double g = -kGravity / metres_per_unit_;
         const bool is_x = up == format::UpAxis::x, is_z = up == format::UpAxis::z;
         scene().dynamics.gravity = Double3{is_x ? g : 0, is_x || is_z ? 0 : g, is_z ? g : 0};

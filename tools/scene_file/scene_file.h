@@ -88,6 +88,7 @@ struct SceneFile {
     std::string name;            ///< the file, for messages
     std::string text;            ///< of the file
     double metres_per_unit = 0;  ///< of every model; 0: not stated
+    bool y_is_up = false;        ///< in pictures, as in glTF; else z is, or what gravity says
     double step_s = 1.0 / 60;
     double duration_s = 0;
     std::optional<std::uint32_t> most_pairs;  ///< SceneLimits::pairs

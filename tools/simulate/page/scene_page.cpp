@@ -149,6 +149,12 @@ private:
     const SceneGeometry& geometry_;
 };
 
+bool has_y_up(const scenes::SceneFile& file) {
+    const Double3 gravity = file.dynamics.gravity.value_or(Double3{});
+    const double y = std::abs(gravity.y), z = std::abs(gravity.z);
+    return y == z ? file.y_is_up : y > z;
+}
+
 const char* state_of(const ModelDrawing& model) {
     if (!model.is_drawn) return "none";
     return model.is_exact ? "exact" : "coarse";
@@ -404,6 +410,7 @@ std::string ScenePage::finish(const scenes::Simulation& simulation,
                        {"frames", count_},
                        {"step_s", file_.step_s},
                        {"metres_per_unit", file_.metres_per_unit},
+                       {"y_is_up", has_y_up(file_)},
                        {"centre", point_json(geometry.frame.centre)},
                        {"exponent", geometry.frame.exponent},
                        {"half", geometry.frame.half_box},

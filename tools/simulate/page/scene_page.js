@@ -426,9 +426,11 @@ function start_view() {
   $('fit').onclick = () => { choose(null, false); view.fit(true); };
   $('edges').onclick = () => press('edges', view.toggle('edges'));
   $('glass').onclick = () => press('glass', view.toggle('glass'));
+  const name_up = () => { $('up').textContent = view.z_up ? 'Z is up' : 'Y is up'; };
+  name_up();
   $('up').onclick = () => {
     view.set_up(!view.z_up);
-    $('up').textContent = view.z_up ? 'Z is up' : 'Y is up';
+    name_up();
     view.fit(true);
   };
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => view.restyle());

@@ -131,7 +131,7 @@ class SceneView extends View {
   constructor(holder, run, on_pick) {
     super(holder, on_pick);
     this.run = run;
-    this.set_up(true);
+    this.set_up(!run.y_is_up);
     this.half.fromArray(run.half);
     this.radius = Math.max(this.half.length(), 1e-3);
     this.edge = new THREE.ShaderMaterial({vertexShader: EDGE_VERTEX, fragmentShader: EDGE_FRAGMENT,

@@ -199,6 +199,8 @@ TEST(GltfScene, GravityIsAgainstTheChosenAxis) {
         has_finding(reading, "assumed: a collider without a material has a friction of 0.6."));
     EXPECT_TRUE(has_finding(reading, "assumed: a body without a mass has the density of water."));
     EXPECT_TRUE(has_finding(reading, "assumed: gravity is 9.81 m/s^2 along -z."));
+    EXPECT_FALSE(reading.assembly->scene.y_is_up);
+    EXPECT_TRUE(read_nodes(node("", kMotion + kCollider), "{}", {}).assembly->scene.y_is_up);
 }
 
 TEST(GltfScene, TheColliderOfABodyMayBeBelowItsMotion) {

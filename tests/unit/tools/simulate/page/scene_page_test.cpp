@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -347,6 +348,19 @@ TEST(ScenePage, TouchingTrianglesOfACoarseModelAreExact) {
             EXPECT_EQ(corners[9 * i + k], positions[3 * indices[3 * numbers[i] + k / 3] + k % 3]);
         }
     }
+}
+
+TEST(ScenePage, UpIsAgainstGravityOrAsTheFileSays) {
+    PageScene scene;
+    const auto y_is_up = [&](bool of_file, std::optional<Double3> gravity) -> bool {
+        scene.file().y_is_up = of_file;
+        scene.file().dynamics.gravity = gravity;
+        return element_of(page_of_run(scene), "scene-data")["y_is_up"];
+    };
+    EXPECT_FALSE(y_is_up(false, std::nullopt));
+    EXPECT_TRUE(y_is_up(true, std::nullopt));
+    EXPECT_TRUE(y_is_up(false, Double3{0, -9.81, 1}));
+    EXPECT_FALSE(y_is_up(true, Double3{0, 0, -9.81}));
 }
 
 TEST(ScenePage, NamesCannotEndTheirElement) {
