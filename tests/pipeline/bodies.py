@@ -239,15 +239,30 @@ def what_to_bake(program, folder):
     simulate(program, alone, "--frames", 2)
 
 
+def the_dominoes(program, _):
+    """They fall one after the other, and the last one into the trigger."""
+    done = run(program, "simulate", SCENES / "dominoes.gltf", "--until", 2)
+    must(done.returncode == 0, done.stderr)
+    events = [json.loads(line) for line in done.stdout.splitlines()[:-1]]
+    first = {}
+    for event in events:
+        first.setdefault(frozenset((event["a"], event["b"])), event["frame"])
+    hits = [first.get(frozenset((a, b))) for a, b in
+            zip(["ball"] + [f"domino {i}" for i in range(7)], [f"domino {i}" for i in range(8)])]
+    must(None not in hits and hits == sorted(set(hits)), f"the dominoes are hit in frames {hits}")
+    must(first.get(frozenset(("domino 7", "end")), 0) > hits[-1], f"{hits}, the trigger: {first}")
+
+
 def generated(program):
     """The kept meshes and scenes are those that the scripts write."""
-    for script in ("make_pile.py", "make_bolt.py", "make_probe.py"):
+    for script, count in (("make_pile.py", 3), ("make_bolt.py", 3), ("make_probe.py", 3),
+                          ("make_dominoes.py", 1)):
         with tempfile.TemporaryDirectory() as scratch:
             folder = pathlib.Path(scratch)
             done = run(sys.executable, SCENES / script, folder)
             must(done.returncode == 0, done.stderr)
             written_files = list(folder.iterdir())
-            must(len(written_files) == 3, f"{script} wrote {written_files}")
+            must(len(written_files) == count, f"{script} wrote {written_files}")
             for written in written_files:
                 must(written.read_text() == (SCENES / written.name).read_text(), f"{written.name}")
 
@@ -300,7 +315,7 @@ def main():
     generated(program)
     with tempfile.TemporaryDirectory() as scratch:
         piles_of_models(pathlib.Path(scratch))
-    for check in (the_pile, falls, warnings, costs, the_plan, refusals, the_bolt):
+    for check in (the_pile, falls, warnings, costs, the_plan, refusals, the_bolt, the_dominoes):
         with tempfile.TemporaryDirectory() as scratch:
             check(program, pathlib.Path(scratch))
 

@@ -366,6 +366,16 @@ def check_costs(browser, program, folder):
     must(browser.value("document.querySelectorAll('#effect-costs').length") == 0, "no costs")
 
 
+def check_up(browser, program, folder):
+    """In glTF, y is up; in a scene file without gravity, z."""
+    for scene, words in (("dominoes.gltf", "Y is up"), ("crates.json", "Z is up")):
+        page, _, _ = simulate(program, SCENES / scene, folder, "--frames", 2)
+        browser.open(page.as_uri())
+        must(text_of(browser, "up") == words, f"{scene}: {text_of(browser, 'up')}")
+        must(browser.value("state.view.camera.up.y") == int(words[0] == "Y"), f"{scene}: the camera")
+    clean(browser)
+
+
 def luminance(rgb):
     parts = [value / 255 for value in rgb]
     parts = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
@@ -446,6 +456,7 @@ def main():
         with Browser(WIDTH, HEIGHT) as browser:
             check_left_out(browser, program, folder)
             check_costs(browser, program, folder)
+            check_up(browser, program, folder)
     print("what begins in the run begins on its page")
 
 

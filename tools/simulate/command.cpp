@@ -554,7 +554,7 @@ void add_notes(const Command& command) {
          "cdprep simulate samples/scenes/pile.json --html pile.html",
          "cdprep simulate samples/scenes/crates.json -o events.ndjson --html crates.html",
          "cdprep simulate samples/scenes/crates.json --format text --cost",
-         "cdprep simulate level.glb --plan"});
+         "cdprep simulate samples/scenes/dominoes.gltf --until 3 --html dominoes.html"});
 }
 
 }  // namespace
