@@ -278,26 +278,34 @@ private:
             return 0;
         }
         if constexpr (Source::kIsOfKernel) {
-            if (lanes == kFull && room_.exact) return make_full(leaf);
+            if (room_.exact) return make_of_floats(leaf, lanes);
         }
-        return make_some(leaf, lanes);
+        return make_of_any(leaf, lanes);
     }
 
-    /// As above, for eight triangles of floats.
-    unsigned make_full(std::size_t leaf) const {
+    /// As above, for triangles of floats.
+    unsigned make_of_floats(std::size_t leaf, unsigned lanes) const {
+        const Triangle* triangles = &source_.triangle(leaf * kBvhWidth);
+        std::array<Triangle, kBvhWidth> stored;
+        if (lanes != kFull) {
+            for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
+                stored[lane] = triangles[lane_for(lane, lanes)];
+            }
+            triangles = stored.data();
+        }
         BvhLeaf& to = room_.leaves[leaf];
         const unsigned with_area =
-            maker_.make(source_.positions(), &source_.triangle(leaf * kBvhWidth), to, node(leaf),
-                        leaf % kBvhWidth);
+            maker_.make(source_.positions(), triangles, to, node(leaf), leaf % kBvhWidth);
+        to.count = static_cast<std::uint32_t>(std::popcount(lanes));
         if (room_.degenerate_bits.empty()) return 0;
-        return degenerate_lanes(kFull & ~with_area, [&](std::size_t lane, std::size_t k) {
+        return degenerate_lanes(lanes & ~with_area, [&](std::size_t lane, std::size_t k) {
             const auto& x = to.corner[k];
             return Double3{double{x[0][lane]}, double{x[1][lane]}, double{x[2][lane]}};
         });
     }
 
     /// As above, for triangles of any kind.
-    unsigned make_some(std::size_t leaf, unsigned lanes) {
+    unsigned make_of_any(std::size_t leaf, unsigned lanes) {
         for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
             const Triangle& t = source_.triangle(leaf * kBvhWidth + lane_for(lane, lanes));
             for (std::size_t k = 0; k < 3; ++k) {
