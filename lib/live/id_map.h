@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/carver.h"
+#include "core/prefetch.h"
 
 namespace cdprep {
 
@@ -30,6 +31,10 @@ public:
     void set(std::uint32_t id, std::uint32_t place) noexcept {
         assert(id != kNone);
         entries_[slot_of(id)] = {id, place};
+    }
+    /// Prefetches what set() of a number needs.
+    void ask(std::uint32_t id) const noexcept {
+        prefetch(&entries_[home_of(id)]);
     }
     void erase(std::uint32_t id) noexcept {
         std::size_t hole = slot_of(id);

@@ -23,8 +23,9 @@ namespace cdprep {
 /// The number of a vertex of the imported file that no triangle uses.
 inline constexpr std::uint32_t kUnusedVertex = 0xffffffff;
 
-/// The leaves of the subtrees that a rebuild distributes anew, one at a time: three levels.
-inline constexpr std::uint32_t kSubtreeLeaves = 512;
+/// The subtrees that a rebuild distributes anew, one at a time. No redistribution is larger.
+inline constexpr std::uint32_t kSubtreeLevels = 3;
+inline constexpr std::uint32_t kSubtreeLeaves = 1U << (3 * kSubtreeLevels);
 
 /// Consecutive leaves.
 struct LeafRange {
@@ -61,9 +62,7 @@ struct LiveTables {
             (std::size_t{counts.places} + format::kBvhWidth - 1) / format::kBvhWidth;
         const std::size_t subtrees = (leaves + kSubtreeLeaves - 1) / kSubtreeLeaves;
         const std::size_t most =
-            counts.can_tear ? counts.places
-                            : std::min<std::size_t>(
-                                  counts.places, std::size_t{kSubtreeLeaves} * format::kBvhWidth);
+            std::min<std::size_t>(counts.places, std::size_t{kSubtreeLeaves} * format::kBvhWidth);
         built_cost = {carver.take<float>(subtrees), subtrees};
         growth = {carver.take<float>(subtrees), subtrees};
         items = {carver.take<SpreadItem>(most), most};
@@ -180,13 +179,11 @@ private:
     /// Returns the bounds of all vertices that triangles use.
     [[nodiscard]] build::Extent used_extent() const;
     void widen_frame(std::span<const format::Triangle> added);
-    /// Chooses a leaf for each new triangle.
-    void choose_leaves(std::span<const format::Triangle> added);
-    /// Gives new triangles places in their leaves, or in the smallest subtrees with enough free
-    /// places. The triangles of these are distributed anew.
-    void place(std::span<NewTriangle> fresh);
-    /// Returns whether new triangles found places in a subtree: a leaf if `height` is 0.
-    bool place_in(std::uint32_t height, std::uint32_t subtree, std::span<const NewTriangle> fresh);
+    void insert(const format::Triangle& triangle);
+    /// Returns a leaf with a free place, and grows the boxes around it. Marks nodes that should be
+    /// distributed anew.
+    [[nodiscard]] std::uint32_t choose_leaf(const format::Triangle& triangle);
+    void redistribute_marked();
     /// Returns whether a place has a triangle, also while the header does not count it yet.
     [[nodiscard]] bool is_taken(std::uint32_t place) const {
         return !tables.tear ||
@@ -198,12 +195,11 @@ private:
     /// Adds to the counts of the subtrees around a place.
     void count_at(std::uint32_t place, std::int32_t by);
     /// Returns the number of places of a subtree that stay free, so that the next redistribution is
-    /// far off.
-    [[nodiscard]] std::uint64_t to_be_free(std::uint64_t places, std::uint32_t level) const;
-    [[nodiscard]] bool has_room(std::uint32_t level, std::uint32_t node) const;
-    [[nodiscard]] std::uint32_t nearest_leaf(const format::Triangle& triangle) const;
-    /// Distributes the triangles of a subtree anew, and new ones. Fits no boxes.
-    void redistribute(const LeafRange& range, std::span<const NewTriangle> fresh);
+    /// far off. A leaf has the height 0.
+    [[nodiscard]] std::uint64_t to_be_free(std::uint64_t places, std::uint32_t height) const;
+    [[nodiscard]] bool has_room(std::uint32_t height, std::uint32_t subtree) const;
+    /// Distributes the triangles of a subtree anew. Fits no boxes.
+    void redistribute(const LeafRange& range);
     [[nodiscard]] Corners corners(const format::Triangle& triangle) const;
     void fit_leaves(const LeafRange& range);
     void note_tear();

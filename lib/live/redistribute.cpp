@@ -18,24 +18,23 @@ using format::kBvhWidth;
 constexpr float kBegin = 1.4F;
 constexpr float kEnd = 1.2F;
 
+/// How many triangles later the place of one is needed whose memory is asked for.
+constexpr std::size_t kAhead = 8;
+
 }  // namespace
 
-void LiveModel::State::redistribute(const LeafRange& range, std::span<const NewTriangle> fresh) {
+void LiveModel::State::redistribute(const LeafRange& range) {
     const build::FrameMap map(frame_);
     std::uint32_t count = 0;
-    const auto add = [&](const NumberedTriangle& each) {
-        const Corners c = corners(each.triangle);
-        tables.items[count] = {middle_of(map, c[0], c[1], c[2]), each.number, count};
-        tables.item_triangles[count++] = each.triangle;
-    };
     const auto end =
         static_cast<std::uint32_t>(std::min(std::size_t{range.last} * kBvhWidth, triangles.size()));
     for (std::uint32_t place = range.first * kBvhWidth; place < end; ++place) {
         if (!is_taken(place)) continue;
-        add({triangles[place], source_triangle[place]});
+        const Corners c = corners(triangles[place]);
+        tables.items[count] = {middle_of(map, c[0], c[1], c[2]), source_triangle[place], count};
+        tables.item_triangles[count++] = triangles[place];
         take_out(place);
     }
-    for (const NewTriangle& each : fresh) add(each.added);
     const std::uint32_t leaf_count = range.last - range.first;
     const Fill fill = tables.tear ? Fill::even : Fill::full;
     const std::span<SpreadItem> items = tables.items.first(count);
@@ -45,6 +44,7 @@ void LiveModel::State::redistribute(const LeafRange& range, std::span<const NewT
         const std::size_t last = first_in_leaf(count, leaf + 1, leaf_count, fill);
         assert(last - first <= kBvhWidth);
         for (std::size_t i = first; i < last; ++i) {
+            if (tables.tear && i + kAhead < count) tables.tear->ids.ask(items[i + kAhead].id);
             const std::size_t place = std::size_t{range.first + leaf} * kBvhWidth + (i - first);
             put(static_cast<std::uint32_t>(place),
                 {tables.item_triangles[items[i].from], items[i].id});
@@ -80,7 +80,7 @@ std::uint32_t LiveModel::State::rebuild(std::uint32_t most) {
         const LeafRange range = subtree(worst);
         const std::uint32_t size = count_in(range);
         if (!is_rebuilding_ || size > most - done) break;
-        redistribute(range, {});
+        redistribute(range);
         fit_leaves(range);
         tables.built_cost[worst] = cost_of(worst);
         tables.growth[worst] = 1;

@@ -2,22 +2,22 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <limits>
 #include <string>
 
 #include "build/bad_argument.h"
 #include "build/frame_map.h"
+#include "build/lanes.h"
 #include "build/make_nodes.h"
 #include "build/mesh_fault.h"
 #include "core/numbers.h"
 #include "live/live_state.h"
 
-// Triangles lie in an implicit tree, of whose places some are free. A new one takes a free place
-// in the leaf whose box grows least. If that leaf is full, the triangles of the smallest subtree
-// with enough free places are distributed anew. The higher the subtree, the more must be free, so
-// the next time is far off. This is a packed-memory array (Bender, Demaine and Farach-Colton 2005).
-// Triangles that come together choose their leaves first. So a subtree is distributed once for all
-// of them.
+// Triangles lie in an implicit tree, of whose places some are free. A new one descends from the
+// root to a leaf, each time into the box that grows least of those with room. The higher a subtree,
+// the more of its places must be free; so below a node with room there is always a child with room.
+// If a box without room would grow much less, the triangles of the node are distributed anew, once
+// for all that came together. So does a packed-memory array (Bender, Demaine and Farach-Colton
+// 2005). Here boxes decide too, and large subtrees stay as they are, so that no change takes long.
 
 namespace cdprep {
 namespace {
@@ -30,6 +30,9 @@ using format::Triangle;
 
 /// Ids count upward to this.
 constexpr std::uint32_t kIdLimit = 0x7fffffff;
+
+/// The lanes of a leaf without a free place.
+constexpr std::uint8_t kFullLeaf = 0xff;
 
 /// What stands at a place without a triangle.
 constexpr Triangle kNoTriangle = {{0, 0, 0}};
@@ -44,19 +47,60 @@ std::uint64_t hash_of(std::uint32_t id, const Triangle& triangle) {
     return hash ^ (hash >> 32);
 }
 
-/// Returns a quarter of the sum of the edges by which a box of a node grows with a triangle's box.
-float growth(const BvhNode& node, std::size_t box, const std::array<build::Interval, 3>& around) {
-    const bool is_empty = node.lower[0][box] > node.upper[0][box];
+/// A triangle is worth a redistribution if a box without room would grow less, by more than this
+/// share of the extents of the box with room. With less, appending takes longer; with more, boxes
+/// become larger.
+constexpr float kFar = 0.25;
+
+/// The box of a triangle in the frame, and the sum of its extents.
+struct TriangleBox {
+    std::array<build::Interval, 3> around;
+    float size = 0;
+};
+
+using Growths = build::Lanes<float, kBvhWidth>;
+
+/// Returns by how much the extents of each box of a node grow, in sum, with a triangle.
+Growths growths_of(const BvhNode& node, const TriangleBox& box) {
+    Growths sums = build::all_lanes<float, kBvhWidth>(0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const build::Interval& around = box.around[axis];
+        build::for_lanes<kBvhWidth>([&](std::size_t lane) {
+            const float below = node.lower[axis][lane] - around.lower;
+            const float above = around.upper - node.upper[axis][lane];
+            sums[lane] += (below > 0 ? below : 0) + (above > 0 ? above : 0);
+        });
+    }
+    // An unused box has a lower bound above its upper one.
+    build::for_lanes<kBvhWidth>([&](std::size_t lane) {
+        sums[lane] = node.lower[0][lane] > node.upper[0][lane] ? box.size : sums[lane];
+    });
+    return sums;
+}
+
+bool is_unused(const BvhNode& node, std::size_t box) {
+    return node.lower[0][box] > node.upper[0][box];
+}
+
+/// Returns the sum of the extents of a box, 0 if it is unused.
+float extents_of(const BvhNode& node, std::size_t box) {
+    if (is_unused(node, box)) return 0;
     float sum = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (is_empty) {
-            sum += around[axis].upper - around[axis].lower;
-            continue;
-        }
-        sum += std::max(0.0F, node.lower[axis][box] - around[axis].lower) +
-               std::max(0.0F, around[axis].upper - node.upper[axis][box]);
+        sum += node.upper[axis][box] - node.lower[axis][box];
     }
     return sum;
+}
+
+void grow(BvhNode& node, std::size_t box, const TriangleBox& by) {
+    const bool is_first = is_unused(node, box);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        float& lower = node.lower[axis][box];
+        float& upper = node.upper[axis][box];
+        const auto [below, above] = by.around[axis];
+        lower = is_first ? below : std::min(lower, below);
+        upper = is_first ? above : std::max(upper, above);
+    }
 }
 
 constexpr build::Extent kNoExtent = {
@@ -67,6 +111,19 @@ void grow(build::Extent& extent, const Double3& p) {
         extent.lower[axis] = std::min(extent.lower[axis], build::coordinate(p, axis));
         extent.upper[axis] = std::max(extent.upper[axis], build::coordinate(p, axis));
     }
+}
+
+TriangleBox box_of(const build::Frame& frame, const Corners& c) {
+    const build::FrameMap map(frame);
+    TriangleBox box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto [low, high] =
+            std::minmax({build::coordinate(c[0], axis), build::coordinate(c[1], axis),
+                         build::coordinate(c[2], axis)});
+        box.around[axis] = {map.around(low, axis).lower, map.around(high, axis).upper};
+        box.size += box.around[axis].upper - box.around[axis].lower;
+    }
+    return box;
 }
 
 }  // namespace
@@ -153,8 +210,8 @@ std::optional<Error> LiveModel::State::find_fault(std::span<const std::uint32_t>
 void LiveModel::State::append(std::span<const Triangle> added) {
     if (added.empty()) return;
     widen_frame(added);
-    choose_leaves(added);
-    place(tables.tear->fresh.first(added.size()));
+    for (const Triangle& triangle : added) insert(triangle);
+    redistribute_marked();
     fit_changed(serial_for);
     note_tear();
 }
@@ -205,56 +262,60 @@ void LiveModel::State::widen_frame(std::span<const Triangle> added) {
     fit_all(serial_for);
 }
 
-void LiveModel::State::choose_leaves(std::span<const Triangle> added) {
+void LiveModel::State::insert(const Triangle& triangle) {
     TearTables& tear = *tables.tear;
-    const std::span<NewTriangle> fresh = tear.fresh.first(added.size());
-    for (std::size_t i = 0; i < added.size(); ++i) {
-        fresh[i] = {nearest_leaf(added[i]), {added[i], tear.next_id++}};
-        tear.hash += hash_of(fresh[i].added.number, added[i]);
-        count_at(fresh[i].leaf * kBvhWidth, 1);  // until it has a place: others see less room
-    }
-    for (const NewTriangle& each : fresh) count_at(each.leaf * kBvhWidth, -1);
-    tear.count += static_cast<std::uint32_t>(added.size());
-    std::ranges::sort(fresh, {}, [](const NewTriangle& each) {
-        return std::uint64_t{each.leaf} << 32 | each.added.number;
-    });
+    const NumberedTriangle added = {triangle, tear.next_id++};
+    tear.hash += hash_of(added.number, triangle);
+    ++tear.count;
+    const std::uint32_t leaf = choose_leaf(triangle);
+    const auto lane = static_cast<std::uint32_t>(std::countr_one(tear.lanes[leaf]));
+    assert(lane < kBvhWidth);
+    put(leaf * kBvhWidth + lane, added);
+    tables.changed.mark(leaf);
 }
 
-void LiveModel::State::place(std::span<NewTriangle> fresh) {
-    for (std::uint32_t height = 0; !fresh.empty(); ++height) {
-        assert(height <= model.bvh().shape.levels);  // the whole tree has room
-        const auto subtree_of = [&](std::size_t i) { return fresh[i].leaf >> (3 * height); };
-        std::size_t left = 0;
-        for (std::size_t first = 0, last = 0; first < fresh.size(); first = last) {
-            while (last < fresh.size() && subtree_of(last) == subtree_of(first)) ++last;
-            const std::span<NewTriangle> of_subtree = fresh.subspan(first, last - first);
-            if (place_in(height, subtree_of(first), of_subtree)) continue;
-            std::ranges::copy(of_subtree, fresh.begin() + static_cast<std::ptrdiff_t>(left));
-            left += of_subtree.size();
-        }
-        fresh = fresh.first(left);
-    }
-}
-
-bool LiveModel::State::place_in(std::uint32_t height, std::uint32_t subtree,
-                                std::span<const NewTriangle> fresh) {
+std::uint32_t LiveModel::State::choose_leaf(const Triangle& triangle) {
+    const TriangleBox box = box_of(frame_, corners(triangle));
     const format::BvhShape& shape = model.bvh().shape;
-    const std::uint32_t size = 1U << (3 * height);
-    const LeafRange range = {subtree * size, std::min((subtree + 1) * size, shape.leaf_count)};
-    const std::uint64_t places = std::uint64_t{range.last - range.first} * kBvhWidth;
-    const std::uint64_t free = height == 0 ? 0 : to_be_free(places, height - 1);
-    const bool is_root = height == shape.levels;
-    if (!is_root && count_in(range) + fresh.size() + free > places) return false;
-    if (height > 0) {
-        redistribute(range, fresh);
-    } else {
-        for (const NewTriangle& each : fresh) {
-            const auto lane = std::countr_one(tables.tear->lanes[range.first]);
-            put(range.first * kBvhWidth + static_cast<std::uint32_t>(lane), each.added);
+    std::uint32_t place = 0;
+    for (std::uint32_t level = shape.levels; level-- > 0;) {
+        const std::uint32_t number = shape.first[level] + place;
+        const Growths growths = growths_of(nodes[number], box);
+        const std::uint32_t used = shape.used_boxes(level, place);
+        const auto least = *std::min_element(growths.begin(), growths.begin() + used);
+        std::uint32_t best = kBvhWidth;
+        for (std::uint32_t child = 0; child < used; ++child) {
+            const bool is_better = best == kBvhWidth || growths[child] < growths[best];
+            if (is_better && has_room(level, place * kBvhWidth + child)) best = child;
         }
+        assert(best < kBvhWidth);
+        const bool is_far = growths[best] - least > kFar * extents_of(nodes[number], best);
+        if (is_far && level < kSubtreeLevels) tables.tear->marked.set(number);
+        // The boxes are fitted when all triangles have come. Until then, only those of leaves grow:
+        // a large box would attract triangles that are far away.
+        if (level == 0) grow(nodes[number], best, box);
+        place = place * kBvhWidth + best;
     }
-    for (std::uint32_t leaf = range.first; leaf < range.last; ++leaf) tables.changed.mark(leaf);
-    return true;
+    return place;
+}
+
+void LiveModel::State::redistribute_marked() {
+    const format::BvhShape& shape = model.bvh().shape;
+    // Nodes are in the order of their levels, the highest first.
+    tables.tear->marked.take_all([&](std::uint32_t number) {
+        std::uint32_t level = 0;
+        while (number < shape.first[level]) ++level;
+        const std::uint32_t bits = 3 * (level + 1);
+        const std::uint32_t first = (number - shape.first[level]) << bits;
+        const LeafRange range = {first, std::min(first + (1U << bits), shape.leaf_count)};
+        redistribute(range);
+        for (std::uint32_t leaf = range.first; leaf < range.last; ++leaf) tables.changed.mark(leaf);
+        for (std::uint32_t below = 0; below < level; ++below) {
+            const std::uint32_t start = shape.first[below];
+            tables.tear->marked.clear(start + (range.first >> (3 * (below + 1))),
+                                      start + ((range.last - 1) >> (3 * (below + 1))) + 1);
+        }
+    });
 }
 
 void LiveModel::State::put(std::uint32_t place, const NumberedTriangle& added) {
@@ -279,53 +340,23 @@ void LiveModel::State::take_out(std::uint32_t place) {
 void LiveModel::State::count_at(std::uint32_t place, std::int32_t by) {
     const format::BvhShape& shape = model.bvh().shape;
     // The whole tree is not counted.
-    for (std::uint32_t level = kCountedLevel; level + 1 < shape.levels; ++level) {
+    for (std::uint32_t level = 0; level + 1 < shape.levels; ++level) {
         tables.tear->taken[shape.first[level] + (place >> (3 * (level + 2)))] +=
             static_cast<std::uint32_t>(by);
     }
 }
 
-std::uint64_t LiveModel::State::to_be_free(std::uint64_t places, std::uint32_t level) const {
-    return places * (level + 1) / (kFreeShare * model.bvh().shape.levels);
+std::uint64_t LiveModel::State::to_be_free(std::uint64_t places, std::uint32_t height) const {
+    return places * height / (kFreeShare * model.bvh().shape.levels);
 }
 
-bool LiveModel::State::has_room(std::uint32_t level, std::uint32_t node) const {
-    if (level < kCountedLevel) return true;
-    const std::uint32_t bits = 3 * (level + 2);  // of the places of a whole subtree
-    const std::uint64_t first = std::uint64_t{node} << bits;
-    const std::uint64_t places = std::min<std::uint64_t>(triangles.size() - first, 1ULL << bits);
-    const std::uint32_t taken = tables.tear->taken[model.bvh().shape.first[level] + node];
-    return taken + to_be_free(places, level) < places;
-}
-
-std::uint32_t LiveModel::State::nearest_leaf(const Triangle& triangle) const {
-    const build::FrameMap map(frame_);
-    const Corners c = corners(triangle);
-    std::array<build::Interval, 3> around{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto [low, high] =
-            std::minmax({build::coordinate(c[0], axis), build::coordinate(c[1], axis),
-                         build::coordinate(c[2], axis)});
-        around[axis] = {map.around(low, axis).lower, map.around(high, axis).upper};
-    }
+bool LiveModel::State::has_room(std::uint32_t height, std::uint32_t subtree) const {
+    if (height == 0) return tables.tear->lanes[subtree] != kFullLeaf;
     const format::BvhShape& shape = model.bvh().shape;
-    std::uint32_t place = 0;
-    for (std::uint32_t level = shape.levels; level-- > 0;) {
-        const BvhNode& node = nodes[shape.first[level] + place];
-        const std::uint32_t used = shape.used_boxes(level, place);
-        std::uint32_t best = 0;
-        float least = std::numeric_limits<float>::infinity();
-        for (std::uint32_t box = 0; box < used; ++box) {
-            const float grown = growth(node, box, around);
-            if (grown >= least) continue;
-            // A large subtree without room would have to be distributed as a whole.
-            if (level > 0 && !has_room(level - 1, place * kBvhWidth + box)) continue;
-            least = grown;
-            best = box;
-        }
-        place = place * kBvhWidth + best;
-    }
-    return place;
+    const std::uint64_t size = std::uint64_t{kBvhWidth} << (3 * height);
+    const std::uint64_t places = std::min<std::uint64_t>(size, triangles.size() - subtree * size);
+    return tables.tear->taken[shape.first[height - 1] + subtree] + to_be_free(places, height) <
+           places;
 }
 
 Corners LiveModel::State::corners(const Triangle& triangle) const {

@@ -99,7 +99,6 @@ def the_cut(program, folder):
     changes = summary["changes"]
     must(changes["deform"] == changes["tear"] == 1 and changes["missed"] == [], f"{changes}")
     must(changes["refits"] == 24 and 0 < changes["torn"] < changes["parts"], f"{changes}")
-    must(changes["rebuilt"] > 0, f"{changes}")
 
     plan = plan_of(program, folder / "cut.json")
     must(plan["models"][0]["serves"] == ["tear"], f"{plan['models']}")
@@ -117,6 +116,8 @@ def the_cut(program, folder):
 
 def the_cloth(program, folder):
     """Distances of frames are those of meshes with the positions of the stream and the twist."""
+    changes = simulate(program, SCENES / "cloth.json")[1]["changes"]
+    must(changes["rebuilt"] > 0 and changes["tear"] == 0, f"{changes}")
     scene = json.loads((SCENES / "cloth.json").read_text())
     for name in ("sheet.obj", "crate.obj", "loop.pc2"):
         shutil.copy(SCENES / name, folder / name)

@@ -68,7 +68,7 @@ struct LiveTriangle {
 class LiveModel {
 public:
     /// Returns the number of bytes that in() takes: those of the base's sections, and about 40 per
-    /// triangle. With limits, there are about 200 per triangle of the limit. Takes as much time and
+    /// triangle. With limits, there are about 140 per triangle of the limit. Takes as much time and
     /// temporary memory as in(). Fails if in() rejects `base` or `limits`.
     [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const build::ModelArrays& base,
                                                               const LiveLimits& limits = {});
@@ -159,8 +159,9 @@ public:
     /// Fails with `bad_argument`, and then changes nothing, if the model cannot tear or would have
     /// more triangles than LiveLimits::triangles. Also fails if a vertex does not exist or has no
     /// position. Fails if triangle numbers would exceed 2^31 - 1, or `triangles` are those of
-    /// model(). Takes O(m log^2 n) time for m triangles, amortised. Takes O(n) more if a vertex
-    /// lies outside the frame of the boxes. Allocates only on failure.
+    /// model(). Takes O(m log n) time for m triangles. Besides, triangles of full subtrees are
+    /// distributed anew: each subtree at most once, and at most 4096 triangles at a time. Takes
+    /// O(n) more if a vertex lies outside the frame of the boxes. Allocates only on failure.
     CDPREP_API Result<std::uint32_t> append(std::span<const format::Triangle> triangles);
 
     /// Removes triangles by their numbers. A number that is listed twice counts once. Fails with

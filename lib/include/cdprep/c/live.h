@@ -29,7 +29,7 @@ typedef struct cdprep_live_options {
 CDPREP_API void cdprep_live_options_init(cdprep_live_options* options, size_t size);
 
 /* Stores the number of bytes that cdprep_live_make() needs for these options. On failure *size is
- * 0. Without max_triangles, it is about 120 for each triangle. With max_triangles, it is about 200
+ * 0. Without max_triangles, it is about 120 for each triangle. With max_triangles, it is about 150
  * for each triangle of this limit. Takes as long as cdprep_live_make(), and as much memory while it
  * runs.
  * Errors: those of cdprep_live_make(). */
@@ -113,7 +113,9 @@ CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* move
 
 /* Adds `count` triangles: 3 vertices each, numbered as in cdprep_live_refit(). *first is the number
  * of the first triangle; the others get the next numbers. Answers name a triangle by its number,
- * which no other triangle gets later. Takes O(m log^2 n) time for m triangles, amortised.
+ * which no other triangle gets later. Takes O(m log n) time for m triangles. Besides, triangles of
+ * full subtrees are distributed anew: each subtree at most once, and at most 4096 triangles at a
+ * time.
  *
  * On failure, nothing changes and *first is CDPREP_NONE. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.
