@@ -135,9 +135,9 @@ public:
     ///
     /// In a model that can tear, a vertex that no triangle uses may get its first position.
     ///
-    /// Fails like the refit() of all vertices. Also fails if `vertices` and `positions` differ in
-    /// length. Numbers in `vertices` must be less than position_count() or, in a model that can
-    /// tear, LiveLimits::vertices.
+    /// Fails for the positions for which a refit of all vertices fails. Also fails if `vertices`
+    /// and `positions` differ in length. Numbers in `vertices` must be less than position_count()
+    /// or, in a model that can tear, LiveLimits::vertices.
     ///
     /// Takes O(m log n) time for m triangles at these vertices, of n in all. Also reads one bit per
     /// leaf. Takes O(n) in three cases:

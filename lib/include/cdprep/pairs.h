@@ -81,8 +81,8 @@ struct Containment {
 
 /// The result of collide().
 struct Collision {
-    /// yes: the surfaces touch or, with Body::solid, one model is proven inside the other.
-    /// unknown: the surfaces do not touch, and `containment` is unknown.
+    /// yes: the surfaces touch or, with Body::solid, a component of one model is proven inside the
+    /// other. unknown: the surfaces do not touch, and `containment` is unknown.
     Answer hit = Answer::no;
     /// Computed only with Body::solid, if the surfaces do not touch. Otherwise containment.answer
     /// is no.
@@ -92,8 +92,8 @@ struct Collision {
 /// Returns whether two models collide. Stops at the first pair of triangles found.
 ///
 /// With Body::surface, nested surfaces that do not touch do not collide. With Body::solid they
-/// collide if a nonzero winding number proves that one is inside the other. See containment() for
-/// open models. The answer is as exact as that of overlaps().
+/// collide if a nonzero winding number proves that a component of one is inside the other. See
+/// containment() for open models. The answer is as exact as that of overlaps().
 ///
 /// Reads all options. Needs Ask::collide of both models, Ask::solid with Body::solid, and
 /// ask_of(options.through). Takes O(log n) time for most poses. With a cache, takes O(1) time if

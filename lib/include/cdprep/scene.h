@@ -117,8 +117,8 @@ enum class EventKind : std::uint32_t {
 
 /// The reason for an event.
 enum class EventReason : std::uint32_t {
-    /// An object moved, changed or was added, or step_with() got other pairs. With `continuous`, an
-    /// object also counts as moved in the step after its last motion.
+    /// An object moved, changed or was added, or step_with() got other pairs than in the last step.
+    /// With `continuous`, an object also counts as moved in the step after its last motion.
     moved,
     removed,    ///< an object was removed
     relayered,  ///< an object is in another layer than in the last step

@@ -103,8 +103,8 @@ public:
     [[nodiscard]] CDPREP_API double margin(const Model& probe,
                                            const Placement& placement) const noexcept;
 
-    /// Returns the distance of A, as it was when the window was filled, and pair.b. Requires that
-    /// pair.a is model(): otherwise the program stops with a message.
+    /// Returns the distance between A and pair.b. A is taken as it was when the window was filled.
+    /// Requires that pair.a is model(): otherwise the program stops with a message.
     ///
     /// Complete if bounded_distance() of the window is complete, and the distance or max_distance
     /// is less than margin(). Also complete if triangles touch, but then the answer may name

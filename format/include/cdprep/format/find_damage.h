@@ -71,7 +71,7 @@ struct Damage {
 ///
 /// Sections outside `wanted` are not read. Sections that depend on each other are checked together,
 /// such as an octree's tables, nodes, grid and references. If `wanted` lacks a section on which
-/// another one depends, the dependent section is not proven safe. In general, only its checksum is
+/// another one depends, the dependent section is not proven safe. Usually, only its checksum is
 /// then checked.
 ///
 /// Safe means that no query reads outside the file or runs forever. To check that the content is

@@ -20,7 +20,8 @@ enum class Precision : std::uint8_t {
 };
 
 /// The arrays of a model that queries read. `cdprep bake` makes the same arrays from a mesh. It
-/// also adds hulls, pieces, octrees, bounds, mass, and notes about the imported file.
+/// also adds notes about the imported file and, as its options say, hulls, pieces, octrees, bounds
+/// and mass.
 struct ModelArrays {
     format::FileHeader facts{};
     Bvh bvh;

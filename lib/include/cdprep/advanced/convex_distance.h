@@ -52,10 +52,10 @@ struct ConvexDistance {
     Double3 witness_b;  ///< on B as moved, up to rounding; at distance `upper` from witness_a
 };
 
-/// Returns the distance of two hulls. Returns nothing if the distance exceeds `max_distance` or a
-/// hull has no points. If the hulls touch, both bounds are 0 and the witnesses are a common point.
-/// Otherwise, lower is above 0, except for gaps near the smallest doubles. If faces or edges are
-/// parallel, many pairs of points are nearest; the witnesses are one of them.
+/// Returns the distance between two hulls. Returns nothing if the distance exceeds `max_distance`
+/// or a hull has no points. If the hulls touch, both bounds are 0 and the witnesses are a common
+/// point. Otherwise, lower is above 0, except for gaps near the smallest doubles. If faces or edges
+/// are parallel, many pairs of points are nearest; the witnesses are one of them.
 ///
 /// upper - lower is at most the error that `options` permits. It may exceed permitted relative
 /// errors below 1e-14. Here, options.relative_error is a share of upper. Without permitted errors,

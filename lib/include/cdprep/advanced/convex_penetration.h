@@ -33,7 +33,8 @@ struct Penetration {
 /// Uses the expanding polytope of van den Bergen (2001) with exact signs. The polytope lies within
 /// A - B. Its corners are differences of a point of A and a point of B. The polytope grows where
 /// its boundary is nearest to the origin. The distance from the origin to this boundary proves
-/// `lower`. The farthest points of A and B along a direction prove `upper`.
+/// `lower`. The reach of A - B along the normal proves `upper`: from A's farthest point along it to
+/// B's farthest point against it.
 ///
 /// Takes ten to a hundred times as long as convex_distance(). Never allocates; uses 30 kB of stack.
 [[nodiscard]] CDPREP_API std::optional<Penetration> convex_penetration(

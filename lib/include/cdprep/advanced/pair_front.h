@@ -15,8 +15,8 @@ inline constexpr std::uint32_t kFrontRoom = 512;
 /// They come from earlier queries, and the node pairs together cover both models. If the models
 /// move little from query to query, few planes have to be updated. If there is no room for more
 /// pairs, the search descends from the pairs that are kept. If the room is too small when a front
-/// is started, or if the models jump, the front is emptied. It then stays unused for a number of
-/// queries.
+/// is started, or if the models jump, the front is emptied. It then stays unused for `wait`
+/// queries: more after each failure.
 ///
 /// The members belong to the library; a new front is all zero.
 struct PairFront {

@@ -184,8 +184,8 @@ enum {
 
 /* Stores the address and the length of a UTF-8 text, valid as long as the model. It does not end
  * with a zero: use the length. If the model has no text of the first two kinds, *text is null and
- * *length is 0. `number` must be 0 for these kinds.
- * Errors: CDPREP_WHY_OUT_OF_RANGE for a kind, or for the number of a name, that does not exist. */
+ * *length is 0. `number` must be 0 for these kinds. Errors: CDPREP_WHY_OUT_OF_RANGE for a kind that
+ * does not exist, and for a number without a name. */
 CDPREP_API int cdprep_model_text(const cdprep_model* model, uint32_t kind, uint32_t number,
                                  const char** text, size_t* length, cdprep_error* error);
 

@@ -372,8 +372,9 @@ enum {
 };
 /* The reason of an event. */
 enum {
-    /* An object moved, changed or was added, or cdprep_scene_step_with() got other pairs. With
-     * CDPREP_ASK_CONTINUOUS, an object also counts as moved in the step after its last motion. */
+    /* An object moved, changed or was added, or cdprep_scene_step_with() got other pairs than in
+     * the last step. With CDPREP_ASK_CONTINUOUS, an object also counts as moved in the step after
+     * its last motion. */
     CDPREP_REASON_MOVED = 0,
     CDPREP_REASON_REMOVED = 1,   /* an object was removed */
     CDPREP_REASON_RELAYERED = 2, /* an object is in another layer than in the last step */
