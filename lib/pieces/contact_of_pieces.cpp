@@ -123,12 +123,14 @@ private:
         return triangle_features();
     }
     [[nodiscard]] NearMeeting triangle_features() const noexcept {
-        const TreePair pair =
-            near_.touch ? TreePair{near_.a, near_.b}
-                        : nearest_triangles(a_, b_, {near_.a, near_.b}, question_.degenerate);
+        const TreePair start = {near_.a, near_.b};
+        const auto [pair, least] = near_.touch
+                                       ? NearestTriangles{start, kInfinity}
+                                       : nearest_triangles(a_, b_, start, question_.degenerate);
         const ConvexPoints of_a = a_.points_of(pair.a), of_b = b_.points_of(pair.b);
         const TwoHulls triangles(of_a, of_b, *question_.placement);
-        const auto nearest = hull_nearest(triangles.a, triangles.b, {}, nullptr, question_.counts);
+        auto nearest = hull_nearest(triangles.a, triangles.b, {}, nullptr, question_.counts);
+        nearest->bounds.lower = std::min(nearest->bounds.lower, least);
         const VertexSet at_a = vertices_of(nearest->simplex, &Difference::a, of_a.corners);
         const VertexSet at_b = vertices_of(nearest->simplex, &Difference::b, of_b.corners);
         return {{feature_of(a_, pair.a, at_a), feature_of(b_, pair.b, at_b)}, *nearest};

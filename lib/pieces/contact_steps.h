@@ -15,11 +15,20 @@ namespace cdprep {
 void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature& feature_a,
                   const PieceFeature& feature_b, double tolerance, Contact& contact) noexcept;
 
+/// Two triangles of two pieces.
+struct NearestTriangles {
+    TreePair pair;
+    double least;  ///< a lower bound of the distance of the pieces
+};
+
 /// Returns the two nearest triangles of two pieces whose triangles do not touch, as computed by
-/// triangle_distance(). Of several pairs it returns the first, by A's and then by B's triangle.
-/// `start` is a pair of triangles near each other. All numbers are in tree order.
-[[nodiscard]] TreePair nearest_triangles(const ContactSide& a, const ContactSide& b,
-                                         const TreePair& start, Degenerate degenerate) noexcept;
+/// triangle_distance(). Distances are equal if they differ by less than 2^-41 of them. Of equal
+/// pairs it returns the first, by the triangle of the piece with more of them (A, if both have as
+/// many), and then by the other one. `start` is a pair of triangles near each other. All numbers
+/// are in tree order.
+[[nodiscard]] NearestTriangles nearest_triangles(const ContactSide& a, const ContactSide& b,
+                                                 const TreePair& start,
+                                                 Degenerate degenerate) noexcept;
 
 /// The values that all pairs of pieces of a query share.
 struct ContactQuestion {

@@ -3,12 +3,18 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "core/triangle_facts.h"
 #include "exact/triangle_distance.h"
 
 namespace cdprep {
 namespace {
+
+/// Distances that differ by less than this share of them count as equal.
+constexpr double kAsNear = 0x1p-41;
+/// The share of a distance that its rounding takes, generously.
+constexpr double kRounding = 0x1p-48;
 
 Box3 around_both(const Box3& x, const Box3& y) {
     return {{std::min(x.lower.x, y.lower.x), std::min(x.lower.y, y.lower.y),
@@ -37,8 +43,8 @@ public:
     explicit Gap(const TriangleDistance& nearest)
         : from_(nearest.on_a), way_(unit(nearest.on_b - nearest.on_a)) {}
 
-    /// Returns whether a triangle of A and one of B are certainly farther apart than `distance`.
-    [[nodiscard]] bool parts(const Corners& a, const Corners& b, double distance) const {
+    /// Returns a lower bound of the distance of a triangle of A and one of B.
+    [[nodiscard]] double least_distance(const Corners& a, const Corners& b) const {
         double most = -std::numeric_limits<double>::infinity(), least = -most, size = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const Double3 p = a[i] - from_, q = b[i] - from_;
@@ -49,7 +55,7 @@ public:
         // Each height is off by at most 15 u of the size. Products below the range of double round
         // by more.
         constexpr double kSubnormal = 0x1p-1070;
-        return least - most - 0x1p-48 * size - kSubnormal > distance * (1 + 0x1p-50);
+        return least - most - 0x1p-48 * size - kSubnormal;
     }
 
 private:
@@ -59,17 +65,18 @@ private:
 
 }  // namespace
 
-TreePair nearest_triangles(const ContactSide& a, const ContactSide& b, const TreePair& start,
-                           Degenerate degenerate) noexcept {
+NearestTriangles nearest_triangles(const ContactSide& a, const ContactSide& b,
+                                   const TreePair& start, Degenerate degenerate) noexcept {
     const auto is_left_out = [&](const ContactSide& side, std::uint32_t triangle) {
         return degenerate == Degenerate::skip &&
                is_marked_degenerate(*side.model().model, triangle);
     };
-    TreePair best = start;
     const TriangleDistance first =
         triangle_distance(a.model().corners(start.a), b.model().corners(start.b), false);
-    double least = first.upper;
+    double distance = first.upper, as_near = distance * (1 + kAsNear);
+    double least = std::numeric_limits<double>::infinity();  // of pairs that are not measured
     Gap gap(first);
+    std::optional<TreePair> best;
     // Most triangles of a large piece are far from all of a small one.
     const bool b_is_large = b.triangles().size() > a.triangles().size();
     const ContactSide &large = b_is_large ? b : a, &small = b_is_large ? a : b;
@@ -78,27 +85,33 @@ TreePair nearest_triangles(const ContactSide& a, const ContactSide& b, const Tre
         const std::uint32_t of_large = large.triangles()[i];
         const Corners at_large = large.corners_of(i);
         const Box3 box = box_around(at_large);
-        if (is_beyond(box, around_small, least) || is_left_out(large, of_large)) continue;
+        if (is_beyond(box, around_small, as_near) || is_left_out(large, of_large)) continue;
         for (std::size_t j = 0; j < small.triangles().size(); ++j) {
             const std::uint32_t of_small = small.triangles()[j];
             const Corners at_small = small.corners_of(j);
-            if (is_beyond(box, box_around(at_small), least) || is_left_out(small, of_small)) {
+            if (is_beyond(box, box_around(at_small), as_near) || is_left_out(small, of_small)) {
                 continue;
             }
-            const TreePair pair =
-                b_is_large ? TreePair{of_small, of_large} : TreePair{of_large, of_small};
             const Corners &at_a = b_is_large ? at_small : at_large,
                           &at_b = b_is_large ? at_large : at_small;
-            if (gap.parts(at_a, at_b, least)) continue;
+            const double bound = gap.least_distance(at_a, at_b);
+            if (bound > as_near) continue;
+            // The triangles around a corner or an edge are as near as the first of them.
+            if (best && bound > distance * (1 - kAsNear)) {
+                least = std::min(least, bound);
+                continue;
+            }
             const TriangleDistance found = triangle_distance(at_a, at_b, false);
-            const bool is_first = pair.a != best.a ? pair.a < best.a : pair.b < best.b;
-            if (found.upper > least || (found.upper == least && !is_first)) continue;
-            least = found.upper;
-            best = pair;
+            if (found.upper > as_near) continue;
+            const bool is_first = !best || found.upper < distance * (1 - kAsNear);
+            distance = std::min(distance, found.upper);
+            as_near = distance * (1 + kAsNear);
+            if (!is_first) continue;
+            best = b_is_large ? TreePair{of_small, of_large} : TreePair{of_large, of_small};
             gap = Gap(found);
         }
     }
-    return best;
+    return {best.value_or(start), std::min(least, distance * (1 - kRounding))};
 }
 
 }  // namespace cdprep

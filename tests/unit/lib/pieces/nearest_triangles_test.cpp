@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "core/moved_model.h"
 #include "exact/triangle_distance.h"
+#include "hull/exact_nearest.h"
 #include "pieces/contact_side.h"
 #include "pieces/contact_steps.h"
 #include "support/more_sections.h"
@@ -34,18 +36,29 @@ test::OpenModel piece_of(const test::TestMesh& mesh, double scale) {
         test::bake_tiny(scaled.positions, scaled.triangles, {.double_precision = true}))));
 }
 
-/// As nearest_triangles() is defined: all pairs, and the first of those that are equally near.
-TreePair nearest_of_all(const ContactSide& a, const ContactSide& b) {
-    TreePair best{};
-    double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = 0; i < a.triangles().size(); ++i) {
-        for (std::uint32_t j = 0; j < b.triangles().size(); ++j) {
-            const double upper =
-                triangle_distance(a.model().corners(i), b.model().corners(j), false).upper;
-            if (upper < least) least = upper, best = {i, j};
+/// As nearest_triangles() is defined: all pairs, and the first of those that are equally near. Also
+/// returns bounds of their distance.
+std::pair<TreePair, DistanceBounds> nearest_of_all(const ContactSide& a, const ContactSide& b) {
+    std::vector<std::pair<TriangleDistance, TreePair>> all;
+    const bool b_is_large = b.triangles().size() > a.triangles().size();
+    const std::size_t large = (b_is_large ? b : a).triangles().size();
+    const std::size_t small = (b_is_large ? a : b).triangles().size();
+    for (std::uint32_t i = 0; i < large; ++i) {
+        for (std::uint32_t j = 0; j < small; ++j) {
+            const TreePair pair = b_is_large ? TreePair{j, i} : TreePair{i, j};
+            all.push_back(
+                {triangle_distance(a.model().corners(pair.a), b.model().corners(pair.b), false),
+                 pair});
         }
     }
-    return best;
+    const auto by = [](auto member) {
+        return [member](const auto& x, const auto& y) { return x.first.*member < y.first.*member; };
+    };
+    const double upper = std::ranges::min(all, by(&TriangleDistance::upper)).first.upper;
+    const double lower = std::ranges::min(all, by(&TriangleDistance::lower)).first.lower;
+    const auto first = std::ranges::find_if(
+        all, [&](const auto& one) { return one.first.upper <= upper * (1 + 0x1p-41); });
+    return {first->second, {lower, upper}};
 }
 
 // Scales reach from the smallest numbers, where products round to nothing, to large ones.
@@ -71,10 +84,12 @@ TEST(NearestTriangles, AreTheFirstOfTheNearestFromAnyStart) {
                                       triangles_b = b.triangles().size();
                     const TreePair start = {static_cast<std::uint32_t>(random() % triangles_a),
                                             static_cast<std::uint32_t>(random() % triangles_b)};
-                    const TreePair found = nearest_triangles(a, b, start, Degenerate::keep);
-                    const TreePair expected = nearest_of_all(a, b);
+                    const auto [found, least] = nearest_triangles(a, b, start, Degenerate::keep);
+                    const auto [expected, bounds] = nearest_of_all(a, b);
                     ASSERT_EQ(found.a, expected.a) << scale;
                     ASSERT_EQ(found.b, expected.b) << scale;
+                    ASSERT_LE(least, bounds.upper) << scale;
+                    ASSERT_GE(least, bounds.lower * (1 - 0x1p-40)) << scale;
                 }
             }
         }
