@@ -47,12 +47,12 @@ ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece, PlacedHul
                          Workspace::Storage& scratch) noexcept
     : model_(&model),
       scratch_(&scratch),
-      piece_(piece),
       triangles_(part_of_piece(model.model->pieces().triangles, *model.model, piece,
                                &format::Piece::first_triangle)),
+      hull_(feature_hull(*model.model, piece)),
+      piece_(piece),
       contained_((model.model->pieces().pieces[piece].flags & format::piece_contained) != 0),
-      is_exact_(model.model->pieces().pieces[piece].outer_error == 0),
-      hull_(feature_hull(*model.model, piece)) {
+      is_exact_(model.model->pieces().pieces[piece].outer_error == 0) {
     assert(!triangles_.empty());
     place(piece, large);
 }

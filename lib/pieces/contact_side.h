@@ -269,23 +269,24 @@ private:
     [[nodiscard]] bool goes_on_beyond(const PieceFeature& feature,
                                       const Double3& direction) const noexcept;
 
-    // The first two are aligned to 64 bytes.
+    static constexpr std::size_t kMostPlacedTriangles = 32;
+    enum class HasShape : std::uint8_t { unknown, no, yes };
+
+    // In falling order of their alignment.
     std::array<format::HullBlock, kMostPlaced> placed_;
     PieceShape shape_;
     const MovedModel* model_;
     Workspace::Storage* scratch_;
-    std::uint32_t piece_;
+    PlacedHull* large_ = nullptr;  ///< or null: the hull is not in a PlacedHull
+    std::size_t placed_triangles_count_ = 0;
     std::span<const std::uint32_t> triangles_;  ///< tree order
-    bool contained_;
-    bool is_exact_;  ///< all triangles lie on the hull's boundary
-    FeatureHull hull_;
     ConvexPoints
         placed_points_;  ///< in placed_ or a PlacedHull; empty for a hull too large for both
-    PlacedHull* large_ = nullptr;  ///< or null: the hull is not in a PlacedHull
-    static constexpr std::size_t kMostPlacedTriangles = 32;
-    std::size_t placed_triangles_count_ = 0;
+    FeatureHull hull_;
     std::array<PlacedTriangle, kMostPlacedTriangles> placed_triangle_;
-    enum class HasShape : std::uint8_t { unknown, no, yes };
+    std::uint32_t piece_;
+    bool contained_;
+    bool is_exact_;  ///< all triangles lie on the hull's boundary
     HasShape has_shape_ = HasShape::unknown;
 };
 

@@ -252,8 +252,10 @@ private:
     Exit refuse(std::vector<std::string> refusals, const std::vector<Error>& errors = {}) {
         const bool is_json = arguments_.plan && arguments_.format == "json";
         std::vector<Error> all;
-        for (const std::string& refusal : refusals)
+        all.reserve(refusals.size() + errors.size());
+        for (const std::string& refusal : refusals) {
             all.push_back({ErrorCode::bad_argument, refusal});
+        }
         all.insert(all.end(), errors.begin(), errors.end());
         if (is_json) {
             for (const Error& error : errors) refusals.push_back(error.message);
