@@ -41,7 +41,7 @@ struct LoadOptions {
     std::filesystem::path cache;  ///< the folder of baked meshes; empty: bake into memory
     import::ImportOptions import;
     const AssemblyScene* assembly = nullptr;  ///< whose models are loaded; null: models are files
-    bool bakes = true;  ///< false: the models of mesh files stay closed
+    bool bakes = true;                        ///< false: the models of mesh files stay closed
     /// Called as a stage of a bake begins, with the number of models before and "FILE: STAGE".
     std::function<void(std::size_t done, const std::string& what)> begins =
         [](std::size_t /*done*/, const std::string& /*what*/) {};
