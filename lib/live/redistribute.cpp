@@ -18,7 +18,7 @@ using format::kBvhWidth;
 constexpr float kBegin = 1.4F;
 constexpr float kEnd = 1.2F;
 
-/// How many triangles later the place of one is needed whose memory is asked for.
+/// The memory of a triangle is prefetched this many triangles ahead.
 constexpr std::size_t kAhead = 8;
 
 }  // namespace

@@ -60,6 +60,11 @@ struct TriangleBox {
 
 using Growths = build::Lanes<float, kBvhWidth>;
 
+/// An unused box has a lower bound above its upper one.
+bool is_unused(const BvhNode& node, std::size_t box) {
+    return node.lower[0][box] > node.upper[0][box];
+}
+
 /// Returns by how much the extents of each box of a node grow, in sum, with a triangle.
 Growths growths_of(const BvhNode& node, const TriangleBox& box) {
     Growths sums = build::all_lanes<float, kBvhWidth>(0);
@@ -71,15 +76,9 @@ Growths growths_of(const BvhNode& node, const TriangleBox& box) {
             sums[lane] += (below > 0 ? below : 0) + (above > 0 ? above : 0);
         });
     }
-    // An unused box has a lower bound above its upper one.
-    build::for_lanes<kBvhWidth>([&](std::size_t lane) {
-        sums[lane] = node.lower[0][lane] > node.upper[0][lane] ? box.size : sums[lane];
-    });
+    build::for_lanes<kBvhWidth>(
+        [&](std::size_t lane) { sums[lane] = is_unused(node, lane) ? box.size : sums[lane]; });
     return sums;
-}
-
-bool is_unused(const BvhNode& node, std::size_t box) {
-    return node.lower[0][box] > node.upper[0][box];
 }
 
 /// Returns the sum of the extents of a box, 0 if it is unused.

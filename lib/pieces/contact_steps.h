@@ -18,11 +18,11 @@ void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature
 /// Two triangles of two pieces.
 struct NearestTriangles {
     TreePair pair;
-    double least;  ///< a lower bound of the distance of the pieces
+    double least;  ///< no pair is nearer, up to the rounding of triangle_distance()
 };
 
 /// Returns the two nearest triangles of two pieces whose triangles do not touch, as computed by
-/// triangle_distance(). Distances are equal if they differ by less than 2^-41 of them. Of equal
+/// triangle_distance(). Distances that differ by less than 2^-41 of them count as equal. Of equal
 /// pairs it returns the first, by the triangle of the piece with more of them (A, if both have as
 /// many), and then by the other one. `start` is a pair of triangles near each other. All numbers
 /// are in tree order.

@@ -13,7 +13,7 @@ namespace {
 
 /// Distances that differ by less than this share of them count as equal.
 constexpr double kAsNear = 0x1p-41;
-/// The share of a distance that its rounding takes, generously.
+/// A generous estimate of the rounding error of a distance, as a share of it.
 constexpr double kRounding = 0x1p-48;
 
 Box3 around_both(const Box3& x, const Box3& y) {

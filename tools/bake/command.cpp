@@ -260,9 +260,8 @@ void add_bake(const Command& app, Exit& exit) {
     const Command command = app.add_command("bake", "Convert mesh files to baked files");
     command.set_notes(
         "The same input, options and version give the same sections, byte for byte. Answers about "
-        "meshes never depend on --bounds and --structures, which change speed alone. Answers about "
-        "hulls depend on --hull-vertices. Where a scene permits a max_error, they may depend on "
-        "parts.\n\n"
+        "meshes never depend on --bounds or --structures, which change speed alone. Answers about "
+        "hulls depend on --hull-vertices. Scenes that permit a max_error may depend on --parts.\n\n"
         "Colliders of engines are left out, and the report lists them. They are nodes and groups "
         "named UCX_..., UBX_..., USP_..., UCP_..., ...-colonly or ...-convcolonly, and all nodes "
         "below one named colliders. Triangles and vertices are then numbered without them. "

@@ -38,7 +38,7 @@ public:
         begin_ = recent_ = next_ = now;
     }
     void advance(const Mark& now);
-    /// Returns the mark to measure the pace from: the begin if no step is done since.
+    /// Returns the mark from which to measure the pace: the begin, if no step is done since.
     [[nodiscard]] const Mark& base(std::size_t done) const noexcept {
         return done > recent_.done ? recent_ : begin_;
     }

@@ -47,7 +47,7 @@ using LayerAsks = std::array<Ask, kLayers>;
 /// Returns whether a pair of layers asks that objects of a layer push others.
 [[nodiscard]] bool responds(const SceneFile& scene, std::uint32_t layer);
 
-/// Compiles the plan of a scene file, but for `response`, which the library does not compute. Every
+/// Compiles the plan of a scene file, without `response`, which the library does not compute. Every
 /// refusal begins with the name of the file, and names the line of a pair. Whether models serve
 /// their layers is checked by model_refusals(). Also refuses objects that deform or tear unless
 /// each pair of their layer asks for it. Refuses bodies that nothing can push, and `response` of

@@ -376,7 +376,7 @@ private:
 
     using Keys = std::initializer_list<std::string_view>;
 
-    /// Lists the keys of an object that the draft does not have, but for those of any glTF object.
+    /// Lists the keys of an object that neither the draft nor every glTF object has.
     void list_unknown(const Element& element, Keys known) {
         const auto keys = element ? element->keys() : std::nullopt;
         if (!keys) return;

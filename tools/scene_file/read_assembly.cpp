@@ -148,7 +148,7 @@ private:
         return static_cast<bool>(exact);
     }
 
-    /// Returns whether a transform divided by a size is rigid, but for rounding.
+    /// Returns whether a transform divided by a size is rigid, up to rounding.
     bool is_pose(Linear linear, double size, const Affine& m, Pose& pose) {
         for (double& x : linear) x /= size;
         const double off = deviation(linear);

@@ -38,9 +38,9 @@ inline constexpr double kFloatRounding = 1e-5;
 
 /// Reads a mesh file with nodes. Nodes that use the same meshes share a model.
 ///
-/// A node's transform becomes its pose if it is rigid, but for kFloatRounding. The size of a
+/// A node's transform becomes its pose if it is rigid, up to kFloatRounding. The size of a
 /// uniform scale is applied to the vertices of the model. Nodes of the same size share it. Any
-/// other transform (shear, mirror, unequal scales) is applied to the vertices but for its
+/// other transform (shear, mirror, unequal scales) is applied to the vertices, without its
 /// translation. Nodes share such a model only if these parts of their transforms are equal.
 ///
 /// An object is named by the path of its node, "root/arm/hand". If nodes have the same path, the

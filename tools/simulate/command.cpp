@@ -266,8 +266,8 @@ private:
         return fail_all("simulate", all);
     }
 
-    /// Opens the models. Without a plan it opens baked files, as far as they can be told, and bakes
-    /// nothing.
+    /// Opens the models. Without a plan, it opens baked files for the pairs of layers that are
+    /// valid, and bakes nothing.
     std::vector<Error> load(const std::optional<Plan>& plan) {
         scenes::LoadOptions options;
         options.cache = arguments_.cache;
@@ -384,8 +384,8 @@ private:
                                        const std::function<void()>& write_end) {
         const Error is_stopped = {ErrorCode::interrupted,
                                   scene_.name +
-                                      ": stopped while --cost measured. The output is complete "
-                                      "but for the costs."};
+                                      ": stopped while --cost measured. The output has no costs; "
+                                      "all else is complete."};
         const LastWords words([&] {
             write_end();
             return sentence_of(is_stopped);
