@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "cdprep/pairs.h"
@@ -220,6 +221,52 @@ TEST_F(ContactList, ABudgetEndsAVisitToo) {
     EXPECT_FALSE(visit_contacts(pair(), workspace, visit, options));
     EXPECT_LT(seen, all_.contacts.size());
     EXPECT_GT(seen, 0U);
+}
+
+// By the full list: `most` beyond the greatest length means that length, and bounds still spare the
+// contacts that cannot be among the deepest.
+TEST(ContactLists, HaveAGreatestLength) {
+    const OpenModel ring = open_with_pieces(torus(1, 0.4, 32, 18), PiecesOf::triangles);
+    const Pose turned = Pose::from_quaternion(1, 2, 3, 4, {0.5, 0.25, 0.125}).value();
+    const Pair pair = {ring.model, ring.model, Placement::b_moves(turned)};
+    const List all = ask(pair, {.tolerance = 0.01});
+    ASSERT_GT(all.contacts.size(), kMostListedContacts + 100);
+    ASSERT_LT(all.contacts.size(), 2 * kMostListedContacts);
+    const List list = ask(pair, {.tolerance = 0.01, .most = 1000});
+    EXPECT_EQ(list.contacts.size(), kMostListedContacts);
+    EXPECT_EQ(list.verdict.found, all.contacts.size());
+    EXPECT_LT(list.verdict.computed, list.verdict.found);
+    EXPECT_FALSE(list.verdict.complete);
+    const auto deepest =
+        std::min_element(all.contacts.begin(), all.contacts.end(),
+                         [](const Contact& x, const Contact& y) { return x.upper < y.upper; });
+    EXPECT_EQ(list.contacts[0].upper, deepest->upper);
+}
+
+// A tilted bar floats over a box in small triangles, and cubes are inside the box. They take places
+// of a list that would hold all pairs of pieces: bounds still spare the shallow ones.
+TEST(ContactLists, EnclosedComponentsTakePlaces) {
+    constexpr std::uint32_t kCubes = 12;
+    TestMesh mesh = unit_cube();
+    for (Double3& p : mesh.positions) p = {14 * p.x + 1, p.y + 0.5, p.z + 0.03125 * (1 + p.x)};
+    for (std::uint32_t i = 0; i < kCubes; ++i) {
+        mesh = joined(mesh, moved_by(unit_cube(), 0.25, {1.0 + i, 1, -0.75}));
+    }
+    const OpenModel floor = open_with_pieces(box_with_a_fine_side(16, 2), PiecesOf::triangles);
+    const OpenModel bar_and_cubes = open_with_pieces(mesh);
+    const Pair pair = {floor.model, bar_and_cubes.model, shifted({0, 0, 0}), {.body = Body::solid}};
+    ContactOptions options = {.tolerance = 0.125};
+    const List all = ask(pair, options);
+    options.most = static_cast<std::uint32_t>(all.contacts.size()) - kCubes;
+    ASSERT_GT(options.most, 2 * kCubes);
+    const List list = ask(pair, options);
+    EXPECT_EQ(list.contacts.size(), options.most);
+    EXPECT_EQ(list.verdict.found, all.contacts.size());
+    EXPECT_LT(list.verdict.computed, list.verdict.found);
+    EXPECT_FALSE(list.verdict.complete);
+    EXPECT_EQ(std::count_if(list.contacts.begin(), list.contacts.end(),
+                            [](const Contact& c) { return (c.flags & contact_deep) != 0; }),
+              kCubes);
 }
 
 // By hand: a bar lies on a floor in small triangles, one end deeper than the other. The two deepest
