@@ -47,9 +47,9 @@ struct PairOptions {
     Body body = Body::surface;
     Overlap overlap = Overlap::closed;
     Degenerate degenerate = Degenerate::keep;
-    /// The structure of both files through which the query is computed. It changes only speed,
-    /// except that distance() may name other triangles. A query that does not support the structure
-    /// uses the BVH.
+    /// The structure of both files through which the query is computed. It changes speed, the order
+    /// of visits, and which of several valid results distance() returns. It changes no other
+    /// answer. A query that does not support the structure uses the BVH.
     Structure through = Structure::bvh;
 };
 
@@ -73,46 +73,54 @@ struct Pair {
 struct Containment {
     Answer answer = Answer::no;
     /// The winding number that decided: an integer if `answer` is yes, and 0 if it is no. If
-    /// `answer` is unknown, it is the generalised winding number: solid angle / 4 pi. If the model
-    /// that may be inside is torn (Model::is_torn()), it is then 0.
+    /// `answer` is unknown, it is the generalised winding number, rounded: solid angle / 4 pi. It
+    /// is 0 if the model that may be inside is torn (Model::is_torn()).
     double winding = 0;
     bool a_inside_b = false;  ///< unless `answer` is no: true for A in B, false for B in A
 };
 
 /// The result of collide().
 struct Collision {
-    /// yes: the surfaces touch or, with Body::solid, a component of one model is proven inside the
-    /// other. unknown: the surfaces do not touch, and `containment` is unknown.
+    /// yes: triangles of the two models overlap, by the rules of PairOptions. Also yes with
+    /// Body::solid, if a component of one model is proven inside the other. unknown: no triangles
+    /// overlap, and `containment` is unknown.
     Answer hit = Answer::no;
-    /// Computed only with Body::solid, if the surfaces do not touch. Otherwise containment.answer
-    /// is no.
+    /// Computed only with Body::solid, if no triangles overlap. Otherwise containment.answer is no.
     Containment containment;
 };
 
-/// Returns whether two models collide. Stops at the first pair of triangles found.
+/// Returns whether two models collide. Stops at the first pair of triangles that overlap.
 ///
-/// With Body::surface, nested surfaces that do not touch do not collide. With Body::solid they
-/// collide if a nonzero winding number proves that a component of one is inside the other. See
+/// With Body::surface, nested surfaces that do not touch do not collide. With Body::solid, models
+/// also collide if a nonzero winding number proves that a component of one is inside the other. See
 /// containment() for open models. The answer is as exact as that of overlaps().
 ///
+/// With Overlap::proper, triangles may touch without an overlap. If a vertex that containment()
+/// would test then lies on the other surface, all vertices are tested. `unknown` means: the other
+/// model is open, or every vertex of a component may lie on its surface.
+///
 /// Reads all options. Needs Ask::collide of both models, Ask::solid with Body::solid, and
-/// ask_of(options.through). Takes O(log n) time for most poses. With a cache, takes O(1) time if
-/// the last hit recurs, or the models moved less than a proven gap. Never allocates.
+/// ask_of(options.through). Takes O(log n) time for most poses. With a cache, the test of the
+/// surfaces takes O(1) time if the last hit recurs. It also does if the models moved less than a
+/// proven gap. Queries through octrees and tetra-trees use no cache. If no triangles overlap,
+/// Body::solid adds the time of containment(), or of testing all vertices. Never allocates.
 [[nodiscard]] CDPREP_API Collision collide(const Pair& pair, Workspace& workspace) noexcept;
 
 /// Returns whether some component of one model lies inside the other. The surfaces of the two
 /// models must not touch.
 ///
 /// Inside means a winding number other than 0. Nested shells of opposite orientation cancel, and an
-/// inverted component counts as solid. A component of one model gives `unknown` if the other model
-/// is open and its box does not exclude the component. The generalised winding number is then
-/// stored, but does not decide. The result is then `unknown`, unless another component gives `yes`.
+/// inverted component counts as solid. If the other model is open and its box does not exclude a
+/// component, the component gives `unknown`. The generalised winding number is then stored, but
+/// does not decide. A torn model (Model::is_torn()) gives `unknown` if its box meets that of the
+/// other model. If anything gives `unknown`, the result is `unknown`, unless a component gives
+/// `yes`.
 ///
-/// One vertex of each component is tested. If this vertex is outside the other model's box, the
-/// component is outside, even if that model is open. This test decides most cases. Exact for
-/// balanced models, by a ray with symbolic perturbation (Feito and Torres 1997). Reads no options.
-/// Needs Ask::solid of both models. Takes O(log n + hits of the ray) time per component, or O(n)
-/// against an open model. Never allocates.
+/// One vertex of each component is tested, except of torn models. If this vertex is outside the
+/// other model's box, the component is outside, even if that model is open. This test decides most
+/// cases. Exact for balanced models, by a ray with symbolic perturbation (Feito and Torres 1997).
+/// Reads no options. Needs Ask::solid of both models. Takes O(log n + hits of the ray) time per
+/// component, or O(n) against an open model. Never allocates.
 [[nodiscard]] CDPREP_API Containment containment(const Pair& pair, Workspace& workspace) noexcept;
 
 /// One triangle of each model, in source numbers.
@@ -136,9 +144,9 @@ struct TrianglePair {
 ///
 /// Reads options.overlap, degenerate and through. Needs Ask::overlap and ask_of(options.through) of
 /// both models. Takes O(log n + pairs) time for typical meshes, O(n m) in the worst case. Here n
-/// and m are the models' numbers of triangles. With a cache, a query without overlaps takes as long
-/// as collide(). A query through octrees or tetra-trees uses about 20 KiB of stack. Never
-/// allocates.
+/// and m are the models' numbers of triangles. Through the BVH, a cache saves time while the models
+/// stay apart: a query then takes as long as collide(). A query through octrees or tetra-trees uses
+/// about 20 KiB of stack. Never allocates.
 [[nodiscard]] CDPREP_API std::size_t overlaps(const Pair& pair, Workspace& workspace,
                                               std::span<TrianglePair> room) noexcept;
 
@@ -157,8 +165,9 @@ CDPREP_API bool visit_overlaps(const Pair& pair, Workspace& workspace, PairVisit
 /// Marks the triangles of each model that overlap any triangle of the other, and returns the number
 /// of pairs. The mark of source triangle i is bit i % 64 of element i / 64. Clears `bits_a` and
 /// `bits_b` first. An array for a model needs Model::triangle_number_bound() / 64 elements, rounded
-/// up. A shorter array gets no marks. This function is faster than overlaps() if many pairs share
-/// few triangles. Reads options.overlap and degenerate. Needs Ask::overlap of both models.
+/// up. A shorter array is cleared, but gets no marks. This function is faster than overlaps() if
+/// many pairs share few triangles. Reads options.overlap and degenerate. Needs Ask::overlap of both
+/// models.
 CDPREP_API std::size_t mark_overlaps(const Pair& pair, Workspace& workspace,
                                      std::span<std::uint64_t> bits_a,
                                      std::span<std::uint64_t> bits_b) noexcept;
@@ -166,8 +175,8 @@ CDPREP_API std::size_t mark_overlaps(const Pair& pair, Workspace& workspace,
 /// Two triangles that overlap, and their common segment.
 struct Crossing {
     TrianglePair pair;
-    /// True if the triangles lie in one plane, where they may share an area, or one has no area.
-    /// Then no segment is given.
+    /// True if both triangles lie in one plane, or one of them has no area. Then no segment is
+    /// given; in one plane, they may share an area.
     bool is_flat;
     Double3 from;  ///< an end of the common segment; 0 if `is_flat`
     Double3 to;    ///< the other end; equal to `from` if the triangles touch in a point
@@ -203,7 +212,7 @@ struct DistanceOptions {
     double max_distance = std::numeric_limits<double>::infinity();
 };
 
-/// The distance between two surfaces, and points where it is attained.
+/// The distance between two surfaces, and points where it is attained within the permitted errors.
 struct Distance {
     double lower;              ///< the distance is at least this, model units
     double upper;              ///< and at most this: [lower, upper] contains the exact distance
@@ -214,18 +223,20 @@ struct Distance {
 };
 
 /// Returns the distance between two surfaces. Returns nothing if the distance exceeds
-/// options.max_distance or a model is empty.
+/// options.max_distance, if that is NaN, or if a model is empty.
 ///
-/// The distance is 0 exactly if the surfaces touch or, with Body::solid, one model is proven inside
-/// the other. If the surfaces touch, both witnesses are one common point. For contained solids, the
-/// witnesses are the surfaces' nearest points. Otherwise the witnesses are `upper` apart, up to
-/// rounding.
+/// The distance is 0 exactly if the surfaces touch or, with Body::solid, a component of one is
+/// proven inside the other. If the surfaces touch, both witnesses are one common point. For
+/// contained solids, the witnesses are the surfaces' nearest points. Otherwise the witnesses are
+/// `upper` apart, up to rounding.
 ///
-/// If the surfaces are apart, several pairs of triangles may have the least `upper`. The result is
-/// the first of these in the order of (triangle_a, triangle_b). Pairs that are equally near in
-/// exact arithmetic may differ in the last bits of `upper`. Any of these pairs may be the result,
-/// but always the same one. If the surfaces touch, the result is a pair that touches. The
-/// instruction set and the structure determine which one.
+/// If the surfaces are apart and no errors are permitted, the result is a pair of triangles with
+/// the least `upper`. If there are several, it is the first in the order of (triangle_a,
+/// triangle_b). Pairs that are equally near in exact arithmetic may differ in the last bits of
+/// `upper`. Any of these pairs may be the result, but always the same one. If the surfaces touch,
+/// the result is a pair that touches. The instruction set and the structure determine which one.
+/// With permitted errors, the result may be any pair and interval within them. The cache, the
+/// front, the structure and the instruction set may determine which one.
 ///
 /// The interval contains the exact distance between the surfaces whose vertices transform_point()
 /// moved. Without permitted errors, its width is at most 1e-12 d + 1e-15 c

@@ -38,9 +38,11 @@ enum {
     CDPREP_KEEP_DEGENERATE = 0, /* they count as the segment or point that they are */
     CDPREP_SKIP_DEGENERATE = 1  /* they are ignored */
 };
-/* The structure through which a query is computed. It changes the time but not the answer.
- * Exception: cdprep_distance() through pieces may name another pair of touching triangles. For a
- * structure other than the BVH, a model must also serve the CDPREP_ASK_ bit of the structure. */
+/* The structure through which a query is computed. It changes the time but not the answer, with two
+ * exceptions. cdprep_distance() through pieces may name another pair of touching triangles. With
+ * permitted errors, it may store another result within them. For a structure other than the BVH, a
+ * model must also serve the CDPREP_ASK_ bit of the structure. For octrees and tetra-trees, the
+ * workspace must have `cells` (cdprep_workspace_options). */
 enum {
     CDPREP_THROUGH_BVH = 0,
     CDPREP_THROUGH_OCTREE = 1,
@@ -51,18 +53,19 @@ enum {
 };
 
 /* The result of earlier queries on one pair of models. The next query starts from it, and is faster
- * if the models have moved little. A zero-filled struct is a new cache. Any content is safe:
- * content that no query wrote is treated as a new cache. Use one for each pair of models and
- * thread. */
+ * if the models have moved little. It never changes the answer, with one exception. With permitted
+ * errors, cdprep_distance() may store another result within them. A zero-filled struct is a new
+ * cache. Any content is safe: content that no query wrote is treated as a new cache. Use one for
+ * each pair of models and thread. */
 typedef struct cdprep_cache {
     uint64_t words[32];
 } cdprep_cache;
 
 /* Separating planes between parts of two models, from earlier distance queries through pieces. If
- * the models move little from query to query, few planes have to be updated. The first query fills
- * the front, and takes about three times as long as a query without a front. A zero-filled struct
- * is a new front. Any content is safe, as in cdprep_cache. Use one for each pair of models and
- * thread. */
+ * the models move little from query to query, few planes have to be updated. The first distance
+ * query fills the front, and takes about three times as long as a query without a front. A
+ * zero-filled struct is a new front. Any content is safe, as in cdprep_cache. Use one for each pair
+ * of models and thread. */
 typedef struct cdprep_front {
     uint64_t words[3600];
 } cdprep_front;
@@ -73,7 +76,7 @@ typedef struct cdprep_pair {
     cdprep_head head;
     const cdprep_model* a;
     const cdprep_model* b;
-    /* Null; used through CDPREP_THROUGH_BVH, or together with a front. */
+    /* Null. Queries may use it through CDPREP_THROUGH_BVH, or together with a front. */
     cdprep_cache* cache;
     uint32_t moving;            /* CDPREP_MOVE_B */
     uint32_t body;              /* CDPREP_SURFACE */
@@ -83,7 +86,7 @@ typedef struct cdprep_pair {
     uint32_t reserved;          /* 0 */
     cdprep_pose pose_a, pose_b; /* identity; from model to world coordinates */
     /* Null; used only by cdprep_distance() and cdprep_within() through CDPREP_THROUGH_PIECES, if
-     * there is a cache too. It changes the time but not the answer. */
+     * there is a cache too. It changes no more of the answer than a cache does. */
     cdprep_front* front;
 } cdprep_pair;
 
@@ -93,21 +96,27 @@ CDPREP_API void cdprep_pair_init(cdprep_pair* pair, size_t size);
 
 typedef struct cdprep_collision {
     uint32_t hit; /* CDPREP_NO, _YES, _UNKNOWN */
-    /* CDPREP_NO, _YES, _UNKNOWN: one is inside the other, for solids whose surfaces do not
-     * touch. */
+    /* CDPREP_NO, _YES, _UNKNOWN: a component of one model is inside the other. CDPREP_NO for
+     * surfaces, and for solids with triangles that overlap. */
     uint32_t containment;
     uint32_t a_inside_b; /* CDPREP_YES: A in B; CDPREP_NO: B in A, or containment is CDPREP_NO */
     uint32_t reserved;   /* 0 */
     double winding;      /* the winding number that decided; 0 if containment is CDPREP_NO */
 } cdprep_collision;
 
-/* Stores whether two models collide. Stops at the first pair of triangles found. Surfaces collide
- * if they have a common point. Nested surfaces that do not touch do not collide. Solids also
- * collide if a component of one is inside the other. An open surface has no defined inside. For a
- * component that may be inside one, `hit` and `containment` are CDPREP_UNKNOWN, and `winding` is
- * the generalised winding number.
+/* Stores whether two models collide. Stops at the first pair of triangles that overlap. Surfaces
+ * collide if triangles of both overlap. Nested surfaces that do not touch do not collide. Solids
+ * also collide if a component of one is inside the other. An open surface has no defined inside. If
+ * a component may be inside one, and no other component is proven inside, `hit` and `containment`
+ * are CDPREP_UNKNOWN. Then `winding` is the generalised winding number, and its last digits depend
+ * on the C library. It is 0 if the model that may be inside has gained or lost triangles
+ * (cdprep/c/live.h).
+ * With CDPREP_PROPER, triangles may touch without an overlap. If a vertex that would decide then
+ * lies on the other surface, all vertices are tested. CDPREP_UNKNOWN means: the other model is
+ * open, or every vertex of a component may lie on its surface.
  * Uses body, overlap, degenerate; through: any, for surfaces and solids.
- * Takes O(log n) time for most poses, O(1) with a cache if little has moved.
+ * Takes O(log n) time for most poses, O(1) with a cache if little has moved. If no triangles
+ * overlap, CDPREP_SOLID adds the time of cdprep_containment(), or of testing all vertices.
  * Needs: CDPREP_ASK_COLLIDE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_collide(const cdprep_pair* pair, cdprep_workspace* workspace,
                               cdprep_collision* collision, cdprep_error* error);
@@ -116,15 +125,19 @@ CDPREP_API int cdprep_collide(const cdprep_pair* pair, cdprep_workspace* workspa
  * touch. `hit` and `containment` are equal. For touching surfaces the answer has no meaning. If the
  * surfaces may touch, use cdprep_collide() with CDPREP_SOLID.
  * Inside means a winding number other than 0. Exact for closed models (cdprep_model_info.closed).
+ * An open model can make the answer unknown, as in cdprep_collide(). Uses none of the options;
+ * `body` stays CDPREP_SURFACE.
  * Takes O(components (log n + ray hits)) time, or O(n) per component against an open model.
  * Needs: CDPREP_ASK_COLLIDE, CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_containment(const cdprep_pair* pair, cdprep_workspace* workspace,
                                   cdprep_collision* collision, cdprep_error* error);
 
 /* Stores whether two solids collide, if `level` of both tetra-trees can prove it. CDPREP_NO and
- * CDPREP_YES are proven. CDPREP_UNKNOWN means that this level is too coarse
- * (cdprep_model_level_error()). A level beyond the deepest counts as the deepest. The
- * workspace must have `cells`. Takes O(pairs of cones that meet) time.
+ * CDPREP_YES are proven. CDPREP_UNKNOWN means that this level does not decide
+ * (cdprep_model_level_error()). CDPREP_YES requires that both models are closed and contain the
+ * centre of their tetra-tree. A level beyond the deepest counts as the deepest. The workspace must
+ * have `cells` (cdprep_workspace_options). Uses none of the options; `body` stays CDPREP_SURFACE.
+ * Takes O(pairs of cones that meet) time.
  * Needs: CDPREP_ASK_TETRA_TREE */
 CDPREP_API int cdprep_collide_at_level(const cdprep_pair* pair, uint32_t level,
                                        cdprep_workspace* workspace, uint32_t* hit,
@@ -200,9 +213,10 @@ typedef int (*cdprep_crossing_visitor)(void* context, const cdprep_crossing* cro
 /* Both functions find the pairs of cdprep_overlaps() with their common segments. Coordinates are in
  * the frame into which the models move. The list is in the order of (a, b); if there is too little
  * room, it keeps the smallest pairs. Visits are in no particular order. The edges on which a
- * segment ends are determined exactly. The coordinates are then rounded once (at most half a unit
- * in the last place, plus 2^-45). Triangles that share an edge get bit-identical segment ends on
- * it, except where that 2^-45 decides the rounding.
+ * segment ends are determined exactly. The coordinates are then rounded once. Their error is at
+ * most half a unit in the last place, plus 2^-45 of a unit. Subnormal coordinates may be off by one
+ * unit in the last place. Triangles that share an edge get bit-identical segment ends on it, except
+ * where these 2^-45 decide the rounding.
  * Uses overlap, degenerate. Takes some microseconds more per pair than cdprep_overlaps().
  * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_crossings(const cdprep_pair* pair, cdprep_workspace* workspace,
@@ -212,12 +226,12 @@ CDPREP_API int cdprep_crossings_visit(const cdprep_pair* pair, cdprep_workspace*
                                       cdprep_error* error);
 
 /* The limits of a distance query. The search ends at either permitted error. With both 0, the
- * result is as exact as double allows. */
+ * interval has the width that the query states. */
 typedef struct cdprep_distance_options {
     cdprep_head head;
     double relative_error; /* 0: upper may exceed lower by this share of lower */
     double absolute_error; /* 0: or upper may exceed lower by this, model units */
-    double max_distance;   /* infinity: larger distances are not found */
+    double max_distance;   /* infinity; larger distances are not found */
 } cdprep_distance_options;
 
 CDPREP_API void cdprep_distance_options_init(cdprep_distance_options* options, size_t size);
@@ -230,14 +244,16 @@ typedef struct cdprep_nearest {
     double on_a[3], on_b[3]; /* nearest points, up to rounding, in the frame the models move to */
 } cdprep_nearest;
 
-/* Stores the distance of two models. It is 0, exactly, for surfaces that touch. It is also 0 if one
- * solid is proven inside the other; the points are then the surfaces' nearest points. Without
- * permitted errors, the interval's width is at most 1e-12 d + 1e-15 c. Here d is the distance, and
- * c the largest absolute coordinate of the moved vertices. If the surfaces are apart, several
- * pairs of triangles may have the least `upper`. The result is the first of these in the order of
- * (triangle_a, triangle_b). Surfaces that touch give a pair of triangles that touches. Which one
- * depends on the instruction set and the structure. `options` may be null.
- * Uses body; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
+/* Stores the distance of two models. It is 0, exactly, for surfaces that touch. With CDPREP_SOLID,
+ * it is also 0 if a component of one model is proven inside the other. The points are then the
+ * surfaces' nearest points. Without permitted errors, the interval's width is at most 1e-12 d +
+ * 1e-15 c. Here d is the distance, and c the largest absolute coordinate of the moved vertices. If
+ * the surfaces are apart and no errors are permitted, the result is a pair of triangles with the
+ * least `upper`. If there are several, it is the first in the order of (triangle_a, triangle_b).
+ * Surfaces that touch give a pair of triangles that touches. Which one depends on the instruction
+ * set and the structure. With permitted errors, the result may be any pair and interval within
+ * them. Which one may depend on the cache, the front, the structure and the instruction set.
+ * `options` may be null. Uses body; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Takes O(log n) time for typical meshes; visits every triangle in the worst case.
  * Needs: CDPREP_ASK_DISTANCE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_distance(const cdprep_pair* pair, const cdprep_distance_options* options,
@@ -246,8 +262,8 @@ CDPREP_API int cdprep_distance(const cdprep_pair* pair, const cdprep_distance_op
 
 /* A distance, or bounds of it if the search ended early. */
 typedef struct cdprep_bounded {
-    /* CDPREP_YES: `nearest` is the answer of cdprep_distance(). CDPREP_NO: the answer is late.
-     * CDPREP_UNKNOWN: the call failed. */
+    /* CDPREP_YES: `nearest` is the answer of cdprep_distance() or, with permitted errors, another
+     * one within them. CDPREP_NO: the answer is late. CDPREP_UNKNOWN: the call failed. */
     uint32_t complete;
     uint32_t reserved; /* 0 */
     uint64_t work;     /* the work done */
@@ -259,8 +275,9 @@ typedef struct cdprep_bounded {
 
 /* Stores the distance of two surfaces, or bounds of it if the work does not suffice. `work` is the
  * maximum, and 0 is no limit. A pair of nodes of the BVHs counts 1, a pair of leaves 2. A pair of
- * triangles counts 4 in double and 16 in exact arithmetic. The last pair of leaves may exceed the
- * work. With a cache, late bounds are close if little has moved. `options` may be null. No clock is
+ * triangles counts 4 in double and 16 in exact arithmetic. The work of up to 64 pairs of triangles
+ * may exceed the maximum. With a cache, late bounds are close if little has moved. A late answer
+ * depends on the instruction set, because the counted work does. `options` may be null. No clock is
  * read: measure how much work the time allows.
  * Through: CDPREP_THROUGH_BVH. Takes as long as cdprep_distance(), or in proportion to `work`.
  * Needs: CDPREP_ASK_DISTANCE */
@@ -276,7 +293,8 @@ CDPREP_API int cdprep_distance_bounded(const cdprep_pair* pair,
 CDPREP_API int cdprep_within(const cdprep_pair* pair, double tolerance, cdprep_workspace* workspace,
                              uint32_t* within, cdprep_error* error);
 
-/* Lists all pairs of triangles that are at most `tolerance` apart, sorted by a, then b. Exact.
+/* Lists all pairs of triangles that are at most `tolerance` apart, sorted by a, then b. `tolerance`
+ * must be at least 0. Exact.
  * Uses degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Needs: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_pairs_within(const cdprep_pair* pair, double tolerance,
@@ -325,9 +343,9 @@ CDPREP_API int cdprep_self_overlaps_visit(const cdprep_self_query* query,
 /* Each function runs `count` queries on the lanes of the workspace. The answers are those of single
  * calls, in the same order. All pairs are checked first. If one is invalid, no query runs, and
  * error.argument names it ("pairs[3].pose_b"). The size in the head of the first pair is the stride
- * of the array. No two pairs may share a cache or a front. A batch of about ten queries or more is
- * faster than single calls. Each function uses the same fields and needs the same CDPREP_ASK_ bits
- * as its single query. */
+ * of the array. No two pairs may share a cache or a front. With several lanes, a batch of about ten
+ * queries or more is faster than single calls. Each function uses the same fields and needs the
+ * same CDPREP_ASK_ bits as its single query. */
 CDPREP_API int cdprep_collide_many(const cdprep_pair* pairs, size_t count,
                                    cdprep_workspace* workspace, cdprep_collision* collisions,
                                    cdprep_error* error);

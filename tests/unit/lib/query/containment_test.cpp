@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -173,6 +175,60 @@ TEST(CollideSolid, ACavityHoldsNothing) {
     const Collision found = solid(hollow, cube_at(1.25, 1.75), Placement::b_moves(Pose()));
     EXPECT_EQ(found.hit, Answer::no);
     EXPECT_EQ(found.containment.answer, Answer::no);
+}
+
+/// The first vertex of the first triangle of a mesh is the first corner.
+TestMesh tetrahedron(const std::array<Double3, 4>& corners) {
+    TestMesh mesh;
+    mesh.positions.assign(corners.begin(), corners.end());
+    mesh.triangles = {{{0, 2, 1}}, {{0, 1, 3}}, {{0, 3, 2}}, {{1, 2, 3}}};
+    return mesh;
+}
+
+Answer solid_properly(const TestMesh& a, const TestMesh& b) {
+    const OpenModel model_a = open_tiny(a, {.double_precision = true});
+    const OpenModel model_b = open_tiny(b, {.double_precision = true});
+    Workspace workspace;
+    const PairOptions options = {.body = Body::solid, .overlap = Overlap::proper};
+    const Collision found =
+        collide({model_a.model, model_b.model, Placement::b_moves(Pose()), options}, workspace);
+    EXPECT_EQ(
+        collide({model_b.model, model_a.model, Placement::b_moves(Pose()), options}, workspace).hit,
+        found.hit);
+    return found.hit;
+}
+
+// By hand: where touching does not count, a vertex on the other surface does not decide. Each
+// vertex may be the one that is tested.
+TEST(CollideSolid, AVertexOnTheSurfaceDoesNotDecide) {
+    const TestMesh cube = cube_at(0, 10);
+    std::array<Double3, 4> inside = {{{5, 5, 0}, {4, 4, 3}, {6, 4, 3}, {5, 6, 3}}};
+    std::array<Double3, 4> outside = {{{5, 5, 0}, {4, 6, -3}, {6, 6, -3}, {5, 4, -3}}};
+    for (int turn = 0; turn < 4; ++turn) {
+        EXPECT_EQ(solid_properly(tetrahedron(inside), cube), Answer::yes) << turn;
+        EXPECT_EQ(solid_properly(tetrahedron(outside), cube), Answer::no) << turn;
+        const TestMesh both = joined(tetrahedron(outside), cube_at(20, 21));
+        EXPECT_EQ(solid_properly(both, cube), Answer::no) << turn;
+        EXPECT_EQ(solid_properly(joined(both, tetrahedron(inside)), cube), Answer::yes) << turn;
+        std::rotate(inside.begin(), inside.begin() + 1, inside.end());
+        std::rotate(outside.begin(), outside.begin() + 1, outside.end());
+    }
+}
+
+// By hand: with all vertices on the other surface, a component may be inside or outside.
+TEST(CollideSolid, AComponentWithAllVerticesOnTheSurfaceIsUnknown) {
+    const TestMesh cube = cube_at(0, 10);
+    const TestMesh inscribed = tetrahedron({{{0, 0, 5}, {10, 0, 6}, {0, 10, 6}, {5, 5, 10}}});
+    EXPECT_EQ(solid_properly(inscribed, cube), Answer::unknown);
+    EXPECT_EQ(solid_properly(joined(inscribed, cube_at(20, 21)), cube), Answer::unknown);
+}
+
+// An open container never proves that a touching component is outside.
+TEST(CollideSolid, AVertexOnAnOpenSurfaceAnswersUnknown) {
+    TestMesh open = cube_at(0, 10);
+    open.triangles.resize(10);
+    const TestMesh touching = tetrahedron({{{5, 5, 0}, {4, 4, 3}, {6, 4, 3}, {5, 6, 3}}});
+    EXPECT_EQ(solid_properly(touching, open), Answer::unknown);
 }
 
 TEST(CollideSolid, OpenContainersAnswerUnknown) {
