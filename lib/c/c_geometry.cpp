@@ -10,6 +10,7 @@
 #include "c/c_model.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/sections.h"
+#include "core/moved_model.h"
 #include "core/triangle_facts.h"
 
 namespace cdprep::c {
@@ -138,7 +139,12 @@ cdprep_corners corners_of(const cdprep_model& model, std::uint32_t triangle) noe
 
 /// Returns the number of triangles, and not that of their places.
 std::uint32_t count_triangles(const cdprep_model& model) noexcept {
-    return model.live != nullptr ? model.live->triangle_count() : model.model.triangle_count();
+    if (model.live != nullptr) return model.live->triangle_count();
+    const Model& m = model.model;
+    if (m.bvh().lanes.empty()) return m.triangle_count();
+    std::uint32_t count = 0;  // a window has places without triangles
+    each_triangle(m, 0, m.triangle_count(), [&](std::uint32_t /*place*/) { return ++count, true; });
+    return count;
 }
 
 int check_triangles(Call& call, const std::uint32_t* triangles, std::size_t count,
@@ -171,7 +177,7 @@ void grow(cdprep_model_info& info, bool is_first, const Double3& point) noexcept
 }
 
 /// Stores a box around all triangles: the baked one, otherwise that of the positions if they are
-/// open. A model that can tear has positions that no triangle uses.
+/// open. A model that can tear has positions that no triangle uses, and a window may have none.
 void store_box(const Model& model, cdprep_model_info& info) noexcept {
     if (model.record().bounds != nullptr) {
         store(model.record().bounds->lower, info.lower);
@@ -183,10 +189,11 @@ void store_box(const Model& model, cdprep_model_info& info) noexcept {
         for (std::uint32_t i = 0; i < vertices; ++i) grow(info, i == 0, position_of(model, i));
         return;
     }
+    const MovedModel corners(model, nullptr);
     bool is_first = true;
     each_triangle(model, 0, model.triangle_count(), [&](std::uint32_t place) {
-        for (const std::uint32_t vertex : model.mesh().triangles[place].vertex) {
-            grow(info, std::exchange(is_first, false), position_of(model, vertex));
+        for (const Double3& corner : corners.corners(place)) {
+            grow(info, std::exchange(is_first, false), corner);
         }
         return true;
     });

@@ -9,7 +9,8 @@ extern "C" {
 #endif
 
 /* A baked or built model, open for queries. It is read-only: all functions may use one model on any
- * number of threads at the same time. */
+ * number of threads at the same time. The models of live models and windows change: see cdprep_live
+ * and cdprep_window. */
 typedef struct cdprep_model cdprep_model;
 
 /* The features of a model, as bits of a set. A file that was baked for a feature has the sections
@@ -55,15 +56,18 @@ enum {
 
 typedef struct cdprep_open_options {
     cdprep_head head;
-    /* 0: opens all that the file serves. Otherwise opens what these CDPREP_ASK_ bits need, and
-     * fails if the file does not serve all of them. */
+    /* 0: opens all sections of the file. Otherwise opens the sections that these CDPREP_ASK_ bits
+     * need or use. Fails if the file does not serve all of these bits. The box, provenance,
+     * findings, verdicts and repaired_from are opened too. CDPREP_MAP_TRUSTED always opens all
+     * sections. */
     uint32_t ask;
     uint32_t mode;    /* CDPREP_MAP */
     const char* name; /* null: a name for bytes in memory, used in messages; UTF-8, copied */
     const cdprep_allocator* allocator; /* null: the heap; copied */
 } cdprep_open_options;
 
-/* Makes default options. Writes `size` bytes, which must be sizeof(cdprep_open_options). */
+/* Makes default options. Writes `size` bytes, which must be sizeof(cdprep_open_options). Null does
+ * nothing. */
 CDPREP_API void cdprep_open_options_init(cdprep_open_options* options, size_t size);
 
 /* Opens a baked file and validates what `ask` requests. CDPREP_MAP_TRUSTED validates only the
@@ -87,11 +91,13 @@ CDPREP_API int cdprep_model_open_memory(const void* bytes, size_t size,
                                         const cdprep_open_options* options, cdprep_model** model,
                                         cdprep_error* error);
 
-/* Closes a model. Null does nothing. No call may be using the model. */
+/* Closes a model. Does nothing for null, or for the model of a live model or a window. No call may
+ * be using the model. */
 CDPREP_API void cdprep_model_close(cdprep_model* model);
 
 /* Returns CDPREP_OK if a model serves all bits of `ask`. Otherwise fails as a query that needs
- * `ask` would: with CDPREP_WHY_NOT_BAKED or CDPREP_WHY_NOT_OPENED. */
+ * `ask` would: with CDPREP_WHY_NOT_BAKED or CDPREP_WHY_NOT_OPENED.
+ * Errors: these, and CDPREP_WHY_OUT_OF_RANGE for bits that this version does not know. */
 CDPREP_API int cdprep_model_serves(const cdprep_model* model, uint32_t ask, cdprep_error* error);
 
 /* Reads a byte of every page that the queries in `ask` may read. The first query then does not wait
@@ -99,7 +105,7 @@ CDPREP_API int cdprep_model_serves(const cdprep_model* model, uint32_t ask, cdpr
 CDPREP_API int cdprep_model_prefetch(const cdprep_model* model, uint32_t ask, cdprep_error* error);
 
 typedef struct cdprep_model_info {
-    uint32_t triangles, vertices;
+    uint32_t triangles, vertices; /* of a window: the vertices it has room for */
     uint32_t components; /* connected components; 0 if not listed in the file or not opened */
     uint32_t instances, groups, materials; /* of the imported file; 0 as above */
     uint32_t pieces, hulls;                /* convex pieces and convex hulls; 0 as above */
@@ -109,7 +115,7 @@ typedef struct cdprep_model_info {
     uint32_t stores_f64;       /* CDPREP_YES: coordinates are doubles; CDPREP_NO: floats */
     double lower[3], upper[3]; /* a box around all triangles, model units; 0 without triangles */
     double metres_per_unit;    /* 0: not known */
-    uint64_t hash[2];          /* of the content: equal for equal input and options */
+    uint64_t hash[2];          /* [0]: of the content, equal for equal input and options; [1]: 0 */
     uint64_t reserved[4];      /* 0 */
 } cdprep_model_info;
 
@@ -149,6 +155,7 @@ typedef struct cdprep_mesh {
 
 /* Stores the mesh: triangles in the order of the imported file, vertices after merging. Stores as
  * many vertices and triangles as there is room for. The counts are those of the whole mesh.
+ * Allocates only for the model of a live model with max_triangles.
  * Needs: CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_model_mesh(const cdprep_model* model, cdprep_mesh* mesh, cdprep_error* error);
 
@@ -192,11 +199,12 @@ CDPREP_API int cdprep_model_text(const cdprep_model* model, uint32_t kind, uint3
 typedef struct cdprep_mass {
     double volume;     /* cubic model units; negative if the surface is inside out */
     double centre[3];  /* of mass, model units */
-    double inertia[6]; /* about the centre, density 1, model axes: xx, yy, zz, xy, yz, zx */
+    double inertia[6]; /* tensor about the centre, density 1, model axes: xx, yy, zz, xy, yz, zx */
 } cdprep_mass;
 
-/* Stores the mass properties of a closed model. If the mesh is not closed, its file has none.
- * Of this feature, the function needs only the mass properties, not the contacts.
+/* Stores the mass properties of a closed model. The file has none if the mesh is not closed or its
+ * volume is 0. Of CDPREP_ASK_RESPONSE, the function needs only the mass properties, not the
+ * contacts.
  * Needs: CDPREP_ASK_RESPONSE */
 CDPREP_API int cdprep_model_mass(const cdprep_model* model, cdprep_mass* mass, cdprep_error* error);
 
@@ -223,7 +231,7 @@ enum {
 typedef struct cdprep_verdict {
     uint32_t facts, promises;
     uint32_t triangles;
-    uint32_t first_triangle; /* the lowest triangle number */
+    uint32_t first_triangle; /* the lowest number of a triangle without a repeated corner, or 0 */
     uint32_t boundary_loops;
     int32_t euler;
     int32_t genus; /* -1 unless the mesh is a closed, orientable 2-manifold */
@@ -233,16 +241,17 @@ typedef struct cdprep_verdict {
 } cdprep_verdict;
 
 /* Stores the facts about the mesh that the bake recorded. Number 0 is the whole mesh; the other
- * numbers are its components.
+ * numbers are its components, in the order of first_triangle.
  * Errors: CDPREP_WHY_OUT_OF_RANGE for a number that is not below cdprep_model_info.verdicts. */
 CDPREP_API int cdprep_model_verdict(const cdprep_model* model, uint32_t number,
                                     cdprep_verdict* verdict, cdprep_error* error);
 
 /* Stores the error of cdprep_collide_at_level() at a level of the tetra-tree, in model units. At
- * each level, an outer and an inner facet of each cone enclose all triangles of the cone. The error
- * is the maximum distance between these two facets, along rays from the tree's centre. Beyond the
- * deepest level, the error is that of the deepest level. On failure *bound is 0. Takes O(cones of
- * the level) time. The library cdprep_cells contains this function.
+ * each level, each cone has an outer and an inner facet. All parts of triangles in the cone lie
+ * between them, except triangles that contain the tree's centre. The error is an upper bound of the
+ * distance between these two facets, along rays from the centre. It is 0 for a model without
+ * triangles. Beyond the deepest level, the error is that of the deepest level. On failure *bound is
+ * 0. Takes O(cones of the level) time. The library cdprep_cells contains this function.
  * Needs: CDPREP_ASK_TETRA_TREE */
 CDPREP_API int cdprep_model_level_error(const cdprep_model* model, uint32_t level, double* bound,
                                         cdprep_error* error);

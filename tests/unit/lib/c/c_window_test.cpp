@@ -171,6 +171,25 @@ TEST_F(CWindow, ItServesSurfacesAloneAndIsNotClosed) {
               CDPREP_OK);
 }
 
+// By hand: a box around all of a small model, whose leaves hold its corners or not.
+TEST_F(CWindow, IsDescribedByItsTriangles) {
+    for (const double scale : {1.0, 0.1}) {
+        const AlignedBytes file = windowed_file(moved_by(unit_cube(), scale, {}));
+        const CModel cube(file);
+        const cdprep_pair pair = pair_of(cube.get(), probe_.get(), {});
+        cdprep_window_info filled{};
+        ASSERT_EQ(cdprep_window_fill(window_, &pair, 10, &filled, nullptr), CDPREP_OK);
+        cdprep_model_info info{}, of_all{};
+        ASSERT_EQ(cdprep_model_describe(cdprep_window_model(window_), &info, nullptr), CDPREP_OK);
+        ASSERT_EQ(cdprep_model_describe(cube.get(), &of_all, nullptr), CDPREP_OK);
+        EXPECT_EQ(info.triangles, 12U);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            EXPECT_EQ(info.lower[axis], of_all.lower[axis]);
+            EXPECT_EQ(info.upper[axis], of_all.upper[axis]);
+        }
+    }
+}
+
 TEST_F(CWindow, OptionsAreCheckedFieldByField) {
     using O = cdprep_window_options;
     static const cdprep_allocator none = {nullptr, nullptr, nullptr};
