@@ -12,6 +12,8 @@
 #include "build/make_oriented.h"
 #include "build/make_swept.h"
 #include "build/order_triangles.h"
+#include "cdprep/format/float_environment.h"
+#include "core/guarded_for.h"
 
 namespace cdprep::build {
 namespace {
@@ -105,12 +107,14 @@ void bound_leaves(PieceBoxes& made, const PiecesOf& surface, const Frame& frame,
 
 PieceBoxes build_piece_boxes(const PiecesOf& surface, const Frame& frame,
                              ParallelFor parallel_for) {
+    format::FloatEnvironment environment;
+    const GuardedFor guarded(environment, parallel_for);
     PieceBoxes made;
     made.leaves = cut_into_leaves(surface);
     if (made.leaves.size() > format::kMaxPieceLeaves) return {};
     if (made.leaves.empty()) return made;
-    order_leaves(made.leaves, surface, frame, parallel_for);
-    bound_leaves(made, surface, frame, parallel_for);
+    order_leaves(made.leaves, surface, frame, guarded);
+    bound_leaves(made, surface, frame, guarded);
     return made;
 }
 

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "cdprep/format/float_environment.h"
+#include "core/guarded_for.h"
 #include "walk/box_placement.h"
 #include "walk/leaf_batch.h"
 #include "walk/self_pairs.h"
@@ -84,8 +85,9 @@ void SelfWalk::Tree::read_leaves(std::span<const format::Triangle> triangles,
 
 SelfWalk::SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
                    ParallelFor parallel_for) {
-    const format::FloatEnvironment environment;
-    tree_ = std::make_unique<const Tree>(bvh, triangles, parallel_for);
+    format::FloatEnvironment environment;
+    const GuardedFor guarded(environment, parallel_for);
+    tree_ = std::make_unique<const Tree>(bvh, triangles, guarded);
     if (bvh.order.empty()) return;
     starts_ = {tree_->root()};
     std::vector<NodePair> below;

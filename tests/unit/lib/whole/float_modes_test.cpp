@@ -6,13 +6,16 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <vector>
 
+#include "cdprep/advanced/build_piece_boxes.h"
 #include "cdprep/advanced/closest_features.h"
 #include "cdprep/advanced/convex_penetration.h"
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/advanced/refit_bvh.h"
+#include "cdprep/advanced/self_walk.h"
 #include "cdprep/cells.h"
 #include "cdprep/cells/build_adaptive_octree.h"
 #include "cdprep/cells/build_octree.h"
@@ -427,6 +430,17 @@ void build_all(const TestMesh& mesh, Asked& out) {
     out.bytes.add(build::surface_cost(bvh));
     out.bytes.add(build::refit_bvh(bvh, mesh.positions, mesh.triangles, {.parallel_for = run}));
     out.bytes.add_stored(bvh.nodes);
+    const SelfWalk walk(bvh, mesh.triangles, run);
+    out.bytes.add(walk.part_count());
+    std::vector<format::Piece> pieces(mesh.triangles.size() / 4);
+    std::vector<std::uint32_t> numbers(mesh.triangles.size());
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    for (std::uint32_t i = 0; i < pieces.size(); ++i) pieces[i].first_triangle = 4 * i;
+    const build::PieceBoxes boxes =
+        build::build_piece_boxes({mesh.positions, mesh.triangles, pieces, numbers}, bvh.frame, run);
+    out.bytes.add_stored(boxes.nodes);
+    out.bytes.add_stored(boxes.swept);
+    out.bytes.add_stored(boxes.leaves);
     const build::Octree octree = build::build_octree(mesh.positions, mesh.triangles,
                                                      {.parallel_for = run, .boxes_in = bvh.frame});
     out.bytes.add(octree.grid.origin);
