@@ -10,6 +10,7 @@
 #include "cdprep/format/float_environment.h"
 #include "core/moved_point.h"
 #include "core/number_text.h"
+#include "core/uncorrected_relative_pose.h"
 
 namespace cdprep {
 namespace {
@@ -94,26 +95,6 @@ Result<Pose> Pose::from_quaternion(double w, double x, double y, double z,
                     translation.x, translation.y, translation.z});
 }
 
-Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept {
-    const format::FloatEnvironment environment;
-    const std::array<double, 9>& a = world_from_a.rotation_;
-    const std::array<double, 9>& b = world_from_b.rotation_;
-    const Double3 d = {world_from_b.translation_.x - world_from_a.translation_.x,
-                       world_from_b.translation_.y - world_from_a.translation_.y,
-                       world_from_b.translation_.z - world_from_a.translation_.z};
-    Pose relative;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) {
-            relative.rotation_[3 * i + j] =
-                (a[i] * b[j] + a[3 + i] * b[3 + j]) + a[6 + i] * b[6 + j];
-        }
-    }
-    relative.translation_ = {(a[0] * d.x + a[3] * d.y) + a[6] * d.z,
-                             (a[1] * d.x + a[4] * d.y) + a[7] * d.z,
-                             (a[2] * d.x + a[5] * d.y) + a[8] * d.z};
-    return relative;
-}
-
 Double3 transform_point(const Pose& pose, const Double3& p) noexcept {
     const format::FloatEnvironment environment;
     return moved_point(pose, p);
@@ -192,6 +173,35 @@ std::string defect_of(const std::array<double, 9>& m, double tolerance) {
 }
 
 }  // namespace
+
+Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept {
+    const format::FloatEnvironment environment;
+    Pose relative = uncorrected_relative_pose(world_from_a, world_from_b);
+    if (worst_rotation_error(relative.rotation_) > Pose::kRotationTolerance) {
+        relative.rotation_ = nearest_rotation(relative.rotation_);
+    }
+    return relative;
+}
+
+Pose uncorrected_relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept {
+    const format::FloatEnvironment environment;
+    const std::array<double, 9>& a = world_from_a.rotation_;
+    const std::array<double, 9>& b = world_from_b.rotation_;
+    const Double3 d = {world_from_b.translation_.x - world_from_a.translation_.x,
+                       world_from_b.translation_.y - world_from_a.translation_.y,
+                       world_from_b.translation_.z - world_from_a.translation_.z};
+    Pose relative;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            relative.rotation_[3 * i + j] =
+                (a[i] * b[j] + a[3 + i] * b[3 + j]) + a[6 + i] * b[6 + j];
+        }
+    }
+    relative.translation_ = {(a[0] * d.x + a[3] * d.y) + a[6] * d.z,
+                             (a[1] * d.x + a[4] * d.y) + a[7] * d.z,
+                             (a[2] * d.x + a[5] * d.y) + a[8] * d.z};
+    return relative;
+}
 
 Result<Pose> composed_pose(const Pose& a_from_b, const Pose& b_from_c) {
     const format::FloatEnvironment environment;

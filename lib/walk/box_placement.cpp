@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/uncorrected_relative_pose.h"
 #include "exact/length_of.h"
 
 // Box tests run in float in the frame of A's boxes. If B is the larger model, the frame is scaled
@@ -85,7 +86,7 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
 PlacedBoxes place_boxes(const format::FileHeader& head_a, const format::FileHeader& head_b,
                         const Placement& placement) noexcept {
     const Pose a_from_b = placement.a_is_moved()
-                              ? relative_pose(placement.pose_a(), placement.pose_b())
+                              ? uncorrected_relative_pose(placement.pose_a(), placement.pose_b())
                               : placement.pose_b();
     const int exponent = std::min(head_a.frame_exponent, head_b.frame_exponent);
     const double scale_a = two_to(exponent - head_a.frame_exponent);

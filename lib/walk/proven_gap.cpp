@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/uncorrected_relative_pose.h"
 #include "exact/length_of.h"
 #include "walk/box_placement.h"
 
@@ -24,8 +25,9 @@ constexpr double kTurnedLength = 1 - 4 * Pose::kRotationTolerance;
 constexpr double kLeastGap = 0x1p-960;
 
 Pose pose_between(const Placement& placement) noexcept {
-    return placement.a_is_moved() ? relative_pose(placement.pose_a(), placement.pose_b())
-                                  : placement.pose_b();
+    return placement.a_is_moved()
+               ? uncorrected_relative_pose(placement.pose_a(), placement.pose_b())
+               : placement.pose_b();
 }
 
 /// Returns an upper bound of the longest way of a point of the box from one pose to the other.

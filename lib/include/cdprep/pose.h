@@ -12,8 +12,8 @@ namespace cdprep {
 
 using format::Double3;
 
-/// A rigid motion, checked on construction. It maps a point p to rotation * p + translation. A pose
-/// `world_from_arm` maps points of the arm into the world.
+/// A rigid motion, checked on construction. It maps a point p to rotation * p + translation. For
+/// example, `world_from_arm` maps points of the arm into the world.
 class Pose {
 public:
     /// The identity.
@@ -56,12 +56,16 @@ private:
 
     CDPREP_API friend Pose relative_pose(const Pose& world_from_a,
                                          const Pose& world_from_b) noexcept;
+    friend Pose uncorrected_relative_pose(const Pose& world_from_a,
+                                          const Pose& world_from_b) noexcept;
 };
 
 /// Returns a_from_b = world_from_a^-1 world_from_b. Computes R = Ra^T Rb and T = Ra^T (Tb - Ta) in
-/// double, each sum from left to right. The relative rounding error is about 1e-16. This error may
+/// double, each sum from left to right. The relative rounding error is about 1e-16, which may
 /// separate parts that touch. If the parts of one assembly must still touch, use
-/// Placement::world().
+/// Placement::world(). If an entry of |R^T R - I| exceeds Pose::kRotationTolerance, R is replaced
+/// by the nearest rotation. The translation is not checked: its coordinates may exceed
+/// format::kMaxCoordinate up to four times.
 [[nodiscard]] CDPREP_API Pose relative_pose(const Pose& world_from_a,
                                             const Pose& world_from_b) noexcept;
 
@@ -101,9 +105,9 @@ inline constexpr double kGreatestPoseTolerance = 0.25;
                                                    MatrixLayout layout = MatrixLayout::rows);
 
 /// Returns the point p moved by `pose`. Its coordinates are ((R00 x + R01 y) + R02 z) + T0 and so
-/// on, in double without contraction (fused multiply-add). Queries are exact for the points that
-/// this function returns (level E1 of GLOSSARY.md). Neither compiler options nor the caller's
-/// floating-point environment changes these points.
+/// on. They are computed in double without contraction (fused multiply-add). Queries are exact for
+/// the points that this function returns (level E1 of GLOSSARY.md). Neither compiler options nor
+/// the caller's floating-point environment changes these points.
 [[nodiscard]] CDPREP_API Double3 transform_point(const Pose& pose, const Double3& p) noexcept;
 
 /// The poses of two models, and which of the models move.

@@ -15,8 +15,8 @@ extern "C" {
  *
  * Rules that hold for every function:
  *
- * - Arguments come in this order: the object of the call, numbers, the workspace, the answer, the
- *   error.
+ * - Arguments come in this order: the object of the call, other inputs, the workspace, a visitor
+ *   and its context, the answer, the error.
  * - The return value is a code. `error` may be null; otherwise it is always filled. On success,
  *   code and why are 0 and both texts are empty.
  * - A struct that starts with cdprep_head is an input that may grow in later versions. Only its
@@ -24,10 +24,11 @@ extern "C" {
  *   its _init() did not make, even one of zeros, is refused with CDPREP_WHY_NOT_INITIALISED. The
  *   comment of a field starts with its default. For a parameter named `options`, null gives the
  *   defaults. Exceptions: builds, plans, live models and windows require options.
- * - Arguments are checked before anything is computed. A struct is checked in this order: size and
- *   tag; enumerators; numbers; poses; fields without meaning for the query. The next checks are
- *   whether the model serves the query, and whether the workspace is in use. If there are several
- *   errors, only one is reported. One invalid entry makes the whole batch fail.
+ * - Arguments are checked before anything is computed. The struct of a query is checked in this
+ *   order: size and tag; required pointers; enumerators; numbers; poses; fields without meaning for
+ *   the query. The next checks are whether the model serves the query, and whether the workspace is
+ *   in use. If there are several errors, only one is reported. One invalid entry makes the whole
+ *   batch fail.
  * - Numbers are finite and at most 2^1000 in magnitude. NaN is always refused. Infinity is allowed
  *   only for max_t, the limits of boxes, the radius of a window, and max_distance of a query. No
  *   answer holds NaN. An answer may hold infinity only if its comment says so.
@@ -39,12 +40,15 @@ extern "C" {
  * - Lengths are in model units. Limits are inclusive. Triangles and vertices are numbered as in
  *   the imported file, or as in the arrays of a build.
  * - A list stores at most `room` answers; `count` is the number of all answers. Too little room is
- *   not an error: as many as fit are stored. A list without room only counts.
- * - No query allocates. Opening or building a model, compiling a plan, and the _make() functions
- *   do.
- * - Models are read-only and serve any number of threads. A workspace serves one call at a time,
- *   and so does a broad phase. At any time, a scene serves one call that changes it, or any number
- *   of calls that only read it. Nothing else is shared: there is no global state.
+ *   not an error: as many as fit are stored. A list without room only counts. Exception:
+ *   cdprep_contact_list counts at most cdprep_contact_options.most.
+ * - No query allocates, except for the message of an error. Opening or building a model, compiling
+ *   a plan, and the _make() functions do.
+ * - Models are read-only and serve any number of threads. Exception: the model of a live model or a
+ *   window must not be used while it changes. A workspace serves one call at a time, and so does a
+ *   broad phase. At any time, a scene serves one call that changes it, or any number of calls that
+ *   only read it. Calls share nothing else, unless the caller passes one object to both, such as a
+ *   cache. There is no global state.
  * - Callbacks must return: they must not throw or call longjmp(). A visitor may run queries with
  *   another workspace. A visitor runs in the caller's floating-point environment. Answers do not
  *   depend on that environment.
@@ -82,7 +86,7 @@ enum {
     CDPREP_WHY_OUT_OF_RANGE = 4,    /* an enumerator, a number or an index */
     CDPREP_WHY_NOT_FINITE = 5,      /* NaN, or infinity where it is not allowed */
     CDPREP_WHY_NOT_RIGID = 6,       /* a pose that scales, shears or mirrors */
-    CDPREP_WHY_NO_MEANING = 7,      /* a field is set that this query cannot use */
+    CDPREP_WHY_NO_MEANING = 7,      /* a field or an argument that this call cannot use */
     CDPREP_WHY_NOT_BAKED = 8,       /* the model lacks what the query needs */
     CDPREP_WHY_NOT_OPENED = 9,      /* the file has what the query needs, but it was not opened */
     CDPREP_WHY_TOO_SMALL = 10,      /* memory, or an array of cdprep_marks */
@@ -147,7 +151,7 @@ typedef struct cdprep_workspace_options {
      * each, in any order, on any threads. It returns when all tasks have returned. If `run` skips
      * tasks, the calling thread runs them afterwards. */
     void (*run)(void* context, size_t count, cdprep_task task, const void* work);
-    void* context;                     /* passed to `run` */
+    void* context;                     /* null; passed to `run` */
     const cdprep_allocator* allocator; /* null: the heap; copied */
     /* Null; set it to cdprep_cells() for queries through octrees and tetra-trees. */
     const cdprep_cell_searches* cells;
@@ -165,9 +169,14 @@ CDPREP_API int cdprep_workspace_size(const cdprep_workspace_options* options, si
 /* Makes a workspace in the caller's memory. The memory must start at a multiple of
  * CDPREP_ALIGNMENT, have at least cdprep_workspace_size() bytes, and outlive the workspace. If
  * `memory` is null and `size` is 0, the workspace takes its memory from the allocator, in one
- * allocation. `options` may be null. On failure *workspace is null. Errors: CDPREP_WHY_TOO_SMALL,
- * CDPREP_WHY_OUT_OF_RANGE for the alignment, CDPREP_WHY_NO_MEANING for an allocator in addition to
- * memory; CDPREP_OVER_BUDGET. */
+ * allocation. `options` may be null. On failure *workspace is null.
+ * Errors:
+ * - CDPREP_WHY_NULL: `memory` is null and `size` is not 0, or the allocator lacks a function.
+ * - CDPREP_WHY_TOO_SMALL: `size` is less than the size from cdprep_workspace_size().
+ * - CDPREP_WHY_OUT_OF_RANGE: `lanes` is not 1 to 256, `counting` is unknown, or the memory is not
+ *   aligned.
+ * - CDPREP_WHY_NO_MEANING: several lanes without `run`, or an allocator in addition to memory.
+ * - CDPREP_OVER_BUDGET: there is not enough memory. */
 CDPREP_API int cdprep_workspace_make(const cdprep_workspace_options* options, void* memory,
                                      size_t size, cdprep_workspace** workspace,
                                      cdprep_error* error);
@@ -182,7 +191,7 @@ enum {
     CDPREP_COUNT_NODE_PAIRS = 1,      /* pairs of nodes that hold these boxes, up to 8 in each */
     CDPREP_COUNT_LEAF_PAIRS = 2,      /* pairs of leaves whose triangles were tested */
     CDPREP_COUNT_TRIANGLE_PAIRS = 3,  /* pairs of triangles in these leaves */
-    CDPREP_COUNT_BY_KERNEL = 4,       /* of the triangle pairs: decided in float */
+    CDPREP_COUNT_BY_KERNEL = 4,       /* of the triangle pairs: found to cross in float */
     CDPREP_COUNT_BY_CORNER = 5,       /* of the triangle pairs: decided by a common corner */
     CDPREP_COUNT_BY_FILTER = 6,       /* of the triangle pairs: decided in double */
     CDPREP_COUNT_BY_EXACT = 7,        /* of the triangle pairs: decided in exact arithmetic */
@@ -203,8 +212,9 @@ typedef struct cdprep_counts {
     uint64_t n[32]; /* by CDPREP_COUNT_...; the rest is 0 */
 } cdprep_counts;
 
-/* Stores counts of the work of all queries with this workspace since it was made, for tuning. The
- * counts are not part of any answer, and may differ between processors and versions.
+/* Stores counts of the work of queries with this workspace since it was made, for tuning. Queries
+ * about two models, self-overlaps and points inside are counted. Rays, closest points and shapes
+ * are not. The counts are not part of any answer, and may differ between processors and versions.
  * Errors: CDPREP_WHY_NO_MEANING if the workspace was made without `counting`. */
 CDPREP_API int cdprep_workspace_counts(cdprep_workspace* workspace, cdprep_counts* counts,
                                        cdprep_error* error);
@@ -223,7 +233,8 @@ enum { CDPREP_ROWS = 0, CDPREP_COLUMNS = 1 };
 
 /* Makes a pose from a quaternion w + xi + yj + zk of any nonzero length. Each entry of R is within
  * 2^-50 of the exact one. On failure, *pose is all 0, which no function accepts as a pose. The
- * functions below that store a pose also store 0 if they fail. */
+ * functions below that store a pose also store 0 if they fail.
+ * Errors: CDPREP_WHY_OUT_OF_RANGE if the quaternion is 0. */
 CDPREP_API int cdprep_pose_from_quaternion(const double wxyz[4], const double translation[3],
                                            cdprep_pose* pose, cdprep_error* error);
 
@@ -231,9 +242,9 @@ CDPREP_API int cdprep_pose_from_quaternion(const double wxyz[4], const double tr
  * minimises the sum of the squared entries of M - R. With the `layout` CDPREP_ROWS, the translation
  * is in elements 3, 7, 11. With CDPREP_COLUMNS, it is in elements 12, 13, 14. The matrix may differ
  * from a rigid motion by `tolerance`, which is 0 to 0.25. The limit holds for every entry of
- * |M^T M - I|. It also holds for the deviation of the last row from 0 0 0 1. For matrices of
- * floats, a tolerance of 1e-5 is a good value. Every entry of |R^T R - I| of the result is at most
- * 1e-15. Takes about 100 ns.
+ * |M^T M - I|. It also holds for the deviation of each entry of the last row from 0 0 0 1. For
+ * matrices of floats, a tolerance of 1e-5 is a good value. Every entry of |R^T R - I| of the result
+ * is at most 1e-15. Takes about 100 ns.
  * Errors: CDPREP_WHY_NOT_RIGID with a message that states whether the matrix scales, shears,
  * mirrors or projects. */
 CDPREP_API int cdprep_pose_nearest(const double matrix[16], uint32_t layout, double tolerance,
@@ -250,18 +261,18 @@ CDPREP_API int cdprep_pose_nearest_f32(const float matrix[16], uint32_t layout, 
 CDPREP_API int cdprep_pose_compose(const cdprep_pose* a_from_b, const cdprep_pose* b_from_c,
                                    cdprep_pose* a_from_c, cdprep_error* error);
 
-/* Stores the inverse pose, R^T and -R^T T. Each number is rounded. If an entry of |R^T R - I|
+/* Stores the inverse pose, R^T and -R^T T. Each number is rounded. If an entry of |R R^T - I|
  * exceeds 1e-13, the nearest rotation replaces R^T.
  * Errors: CDPREP_WHY_OUT_OF_RANGE if the translation exceeds 2^1000. */
 CDPREP_API int cdprep_pose_inverse(const cdprep_pose* a_from_b, cdprep_pose* b_from_a,
                                    cdprep_error* error);
 
 /* Stores the pose that moves B's points into A's frame: world_from_a^-1 world_from_b. R is Ra^T Rb
- * and T is Ra^T (Tb - Ta), each sum from left to right. The result equals that of relative_pose()
- * in C++, bit for bit. A query with CDPREP_MOVE_B moves B by this pose. Takes about 20 ns.
- * `a_from_b` may point to either argument.
- * Errors: CDPREP_WHY_OUT_OF_RANGE if the translation exceeds 2^1000. CDPREP_WHY_NOT_RIGID if both
- * rotations deviate so far that the product deviates by more than 1e-12. */
+ * and T is Ra^T (Tb - Ta), each sum from left to right. If an entry of |R^T R - I| exceeds 1e-12,
+ * the nearest rotation replaces R. The result equals that of relative_pose() in C++, bit for bit. A
+ * query with CDPREP_MOVE_B moves B by this pose. Takes about 20 ns. `a_from_b` may point to either
+ * argument.
+ * Errors: CDPREP_WHY_OUT_OF_RANGE if the translation exceeds 2^1000. */
 CDPREP_API int cdprep_pose_relative(const cdprep_pose* world_from_a,
                                     const cdprep_pose* world_from_b, cdprep_pose* a_from_b,
                                     cdprep_error* error);

@@ -147,6 +147,20 @@ TEST(RelativePose, TakesPointsOfBIntoTheFrameOfA) {
     EXPECT_EQ(transform_point(relative_pose(a, b), {2, 3, 4}), (Double3{3, -1, 9}));
 }
 
+// By the tolerance of a pose: errors of two rotations add up, and chains of poses would drift.
+TEST(RelativePose, StaysARotation) {
+    constexpr double kLonger = 1 + 0x1p-41;
+    const Pose longer =
+        Pose::from_rows({kLonger, 0, 0, 0, kLonger, 0, 0, 0, kLonger, 0, 0, 0}).value();
+    Pose chained = longer;
+    for (int i = 0; i < 20; ++i) {
+        chained = relative_pose(chained, longer);
+        std::array<double, 12> rows{};
+        std::copy_n(chained.rotation().begin(), 9, rows.begin());
+        EXPECT_TRUE(Pose::from_rows(rows).ok()) << i;
+    }
+}
+
 TEST(Placement, SaysWhoMoves) {
     const Pose pose = Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, 7, 0, 0}).value();
     EXPECT_FALSE(Placement::b_moves(pose).a_is_moved());
