@@ -192,7 +192,8 @@ int remove(Call& call, LiveModel& live, std::span<const std::uint32_t> numbers) 
                            "is %u, and the live model has no such triangle.", numbers[i]);
     }
     const Result<Done> done = live.remove(numbers);
-    return done ? CDPREP_OK : call.fail(CDPREP_INTERNAL, done.error().message);
+    if (done) return CDPREP_OK;
+    return call.refuse_with(CDPREP_WHY_OUT_OF_RANGE, {"numbers"}, done.error().message);
 }
 
 }  // namespace

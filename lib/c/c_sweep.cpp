@@ -98,7 +98,7 @@ int cdprep_sweep_make(const cdprep_model* model, const cdprep_allocator* allocat
     return guarded(error, [&](Call& call) -> int {
         if (const int code = cdprep::c::check_model(call, model)) return code;
         if (const int code = call.need(sweep, {"sweep"})) return code;
-        return cdprep::c::make(call, *model, allocator, {memory, size}, sweep);
+        return cdprep::c::make(call, *model, allocator, {memory, size, {"allocator"}}, sweep);
     });
 }
 

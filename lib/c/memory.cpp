@@ -35,8 +35,8 @@ int read_allocator(Call& call, const Name& name, const cdprep_allocator* given,
     return CDPREP_OK;
 }
 
-int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
-             Memory& memory) noexcept {
+int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size, Memory& memory,
+             const Name& name) noexcept {
     assert(allocator.allocate != nullptr && allocator.release != nullptr);
     memory = {allocator, nullptr, size};
     if (size == 0) return CDPREP_OK;
@@ -47,7 +47,7 @@ int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
     if (is_aligned(memory.start)) return CDPREP_OK;
     release(memory);
     memory.start = nullptr;
-    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, Name{"options"}.of("allocator"),
+    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name,
                        "returned memory that does not start at a multiple of %d.",
                        CDPREP_ALIGNMENT);
 }
@@ -56,10 +56,10 @@ OwnedMemory::~OwnedMemory() {
     release(memory_);
 }
 
-int OwnedMemory::allocate(Call& call, const cdprep_allocator& allocator,
-                          std::size_t size) noexcept {
+int OwnedMemory::allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
+                          const Name& name) noexcept {
     assert(memory_.start == nullptr);  // else nobody would release the first block
-    return c::allocate(call, allocator, size, memory_);
+    return c::allocate(call, allocator, size, memory_, name);
 }
 
 void release(const Memory& memory) noexcept {
@@ -84,15 +84,14 @@ int check_memory(Call& call, const Given& given, std::size_t needed,
                            "does not start at a multiple of %d.", CDPREP_ALIGNMENT);
     }
     if (allocator == nullptr) return CDPREP_OK;
-    return call.refuse(CDPREP_WHY_NO_MEANING, Name{"options"}.of("allocator"),
-                       "is set, but the memory is given.");
+    return call.refuse(CDPREP_WHY_NO_MEANING, given.allocator, "is set, but the memory is given.");
 }
 
 int take_memory(Call& call, const Given& given, std::size_t needed,
                 const cdprep_allocator& allocator, OwnedMemory& own, std::byte*& start) noexcept {
     if (const int code = check_memory(call, given, needed, nullptr)) return code;
     if (given.start == nullptr) {
-        if (const int code = own.allocate(call, allocator, needed)) return code;
+        if (const int code = own.allocate(call, allocator, needed, given.allocator)) return code;
     }
     start = static_cast<std::byte*>(given.start != nullptr ? given.start : own.get().start);
     return CDPREP_OK;

@@ -24,9 +24,12 @@ constexpr std::size_t aligned(std::size_t size) noexcept {
 int read_allocator(Call& call, const Name& name, const cdprep_allocator* given,
                    cdprep_allocator& allocator) noexcept;
 
+/// The argument that most functions take their allocator from.
+inline constexpr Name kAllocatorOfOptions = {"options", Name::kNone, "allocator"};
+
 /// Allocates `size` bytes, aligned to CDPREP_ALIGNMENT. Allocates nothing for 0.
-int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
-             Memory& memory) noexcept;
+int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size, Memory& memory,
+             const Name& name = kAllocatorOfOptions) noexcept;
 
 void release(const Memory& memory) noexcept;
 
@@ -34,10 +37,11 @@ void release(const Memory& memory) noexcept;
 struct Given {
     void* start;
     std::size_t size;
+    Name allocator = kAllocatorOfOptions;
 };
 
 /// Refuses memory that is smaller than `needed` bytes, misaligned, or given together with an
-/// allocator. `allocator` is that of the options, or null.
+/// allocator. `allocator` is that of the caller, or null.
 int check_memory(Call& call, const Given& given, std::size_t needed,
                  const cdprep_allocator* allocator) noexcept;
 
@@ -49,7 +53,8 @@ public:
     OwnedMemory& operator=(const OwnedMemory&) = delete;
     ~OwnedMemory();
 
-    int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size) noexcept;
+    int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
+                 const Name& name = kAllocatorOfOptions) noexcept;
     [[nodiscard]] const Memory& get() const noexcept {
         return memory_;
     }

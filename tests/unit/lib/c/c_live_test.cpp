@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "c/c_model.h"
 #include "cdprep/cdprep.h"
 #include "support/aligned_bytes.h"
 #include "support/brute_force.h"
@@ -491,6 +492,9 @@ TEST_F(CLiveHostile, TearsAreChecked) {
     expect(cdprep_live_remove(live, nullptr, 1, &error), CDPREP_WHY_NULL, "numbers");
     const std::array<std::uint32_t, 2> gone = {7, UINT32_MAX};
     expect(cdprep_live_remove(live, gone.data(), 2, &error), CDPREP_WHY_STALE, "numbers[1]");
+    // A list in the memory of the live model itself would change while it is read.
+    const std::span<const std::uint32_t> own = cdprep_live_model(live)->model.source().triangle;
+    expect(cdprep_live_remove(live, own.data(), 2, &error), CDPREP_WHY_OUT_OF_RANGE, "numbers");
     EXPECT_EQ(live_.info().triangles, 80u);
     EXPECT_EQ(live_.info().is_torn, std::uint32_t{CDPREP_NO});
     CLive whole(options_for(base_.get()));

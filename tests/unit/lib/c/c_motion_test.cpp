@@ -263,6 +263,15 @@ TEST_F(CSweep, TakesMemoryOfTheCaller) {
         CDPREP_BAD_ARGUMENT);
     EXPECT_EQ(error_.why, CDPREP_WHY_TOO_SMALL);
     EXPECT_EQ(sweep, nullptr);
+    const cdprep_allocator unused = {
+        [](void* /*context*/, std::size_t /*size*/, std::size_t /*alignment*/) -> void* {
+            return nullptr;
+        },
+        [](void* /*context*/, void* /*memory*/, std::size_t /*size*/) {}, nullptr};
+    EXPECT_EQ(cdprep_sweep_make(model_.get(), &unused, memory.span().data(), size, &sweep, &error_),
+              CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(error_.why, CDPREP_WHY_NO_MEANING);
+    EXPECT_STREQ(error_.argument, "allocator");
     ASSERT_EQ(cdprep_sweep_make(model_.get(), nullptr, memory.span().data(), size, &sweep, &error_),
               CDPREP_OK);
     EXPECT_EQ(cdprep_sweep_finish_step(sweep, &error_), CDPREP_OK);
