@@ -578,10 +578,12 @@ std::optional<Distance> distance_by(const Pair& pair, Workspace& workspace,
     const Model &a = pair.a, &b = pair.b;
     const Placement& placement = pair.placement;
     PairCache* const cache = pair.cache;
-    PairFront* const front = cache == nullptr ? nullptr : pair.front;
+    // A front does not tell whether one solid is inside the other.
+    const bool may_use_front = cache != nullptr && pair.options.body == Body::surface;
+    PairFront* const front = may_use_front ? pair.front : nullptr;
     if (!(options.max_distance >= 0)) return std::nullopt;
     if constexpr (Trees::kHasHulls) {
-        if (front != nullptr && pair.options.body == Body::surface && is_of(*front, a, b)) {
+        if (front != nullptr && is_of(*front, a, b)) {
             const FrontDistance found =
                 distance_by_front<Trees>(a, b, placement, workspace, options, *cache, *front);
             if (found.answered) return found.distance;
