@@ -317,8 +317,7 @@ void Model::set_part(Ask asks) noexcept {
 }
 void Model::set_live() noexcept {
     state_->serves_only =
-        "a live model serves only collide, overlap, distance, within, continuous, self, haptic, "
-        "inside, ray, closest and touch.";
+        "a live model serves no query that needs pieces, hulls, octrees or tetra-trees.";
 }
 void Model::set_leaves(std::uint32_t count, std::span<const format::Double3> positions,
                        std::span<const format::Triangle> triangles,

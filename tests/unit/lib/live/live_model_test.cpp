@@ -504,7 +504,8 @@ TEST(LiveModel, ARefusalAsksForNoBake) {
     for (const Ask ask : {Ask::contacts, Ask::pieces, Ask::response}) {
         const auto refusal = moving.object.model().refusal(ask);
         ASSERT_TRUE(refusal);
-        EXPECT_NE(refusal->message.find("a live model serves only collide, "), std::string::npos);
+        EXPECT_NE(refusal->message.find("a live model serves no query that needs pieces"),
+                  std::string::npos);
         EXPECT_EQ(refusal->message.find("Bake"), std::string::npos) << refusal->message;
     }
     EXPECT_FALSE(moving.object.model().refusal(
