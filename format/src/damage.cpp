@@ -52,7 +52,8 @@ std::string fault(const Damage& damage) {
         case Kind::bad_order:
             return section + at + " is out of order: found " + found + ", expected " + limit;
         case Kind::bad_box:
-            return section + at + ": box " + found + " does not contain what lies below it";
+            return section + at + ": box " + found +
+                   " is inverted or does not contain what lies below it";
         case Kind::bad_fact:
             return section + at + " contradicts the geometry: found " + found + ", expected " +
                    limit;
