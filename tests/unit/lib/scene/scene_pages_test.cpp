@@ -47,12 +47,19 @@ std::uint64_t hash_of_steps(const Plan& plan, const Model& model, int steps) {
     return hash;
 }
 
+/// One of kParts parts of the plans. In all poses, all of them together would take minutes.
+class ScenePages : public testing::TestWithParam<int> {
+public:
+    static constexpr int kParts = 6;
+};
+
 // A scene reads no section that its plan does not name: all others are closed to every access.
-TEST(ScenePages, EachPlanReadsOnlyWhatItNeeds) {
+TEST_P(ScenePages, EachPlanReadsOnlyWhatItNeeds) {
     const AlignedBytes file = whole_file(test::icosphere(1));
     const test::OpenModel whole = test::open_tiny(AlignedBytes(file.span()));
     int plans = 0;
     test::for_each_plan([&](const Plan& plan) {
+        if (plans++ % kParts != GetParam()) return;
         const format::SectionSet wanted = sections_for(plan.asks_of(0));
         const test::GuardedPages pages(file.span(), wanted);
         EXPECT_GE(pages.guarded(), 3);
@@ -64,12 +71,13 @@ TEST(ScenePages, EachPlanReadsOnlyWhatItNeeds) {
         const int steps = is_short && !test::asks_all() ? 3 : 100;
         ASSERT_EQ(hash_of_steps(plan, *model, steps), hash_of_steps(plan, whole.model, steps))
             << plan.describe();
-        ++plans;
     });
     // Of surfaces, all sets but those of haptic and distance. Of solids, those without haptic that
     // read the body: overlap, within and self do not.
     EXPECT_EQ(plans, (255 - 64) + (127 - 7));
 }
+
+INSTANTIATE_TEST_SUITE_P(Parts, ScenePages, testing::Range(0, ScenePages::kParts));
 
 // The test above would notice: a section that is needed and closed ends the program.
 TEST(ScenePagesDeathTest, AClosedSectionIsNoticed) {
