@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "mesh/source_faces.h"
 #include "text/number_text.h"
 #include "text/printable.h"
 
@@ -110,15 +111,14 @@ void take_vertices(const Rest& rest, mesh::TriangleSoup& soup) {
 }
 
 void take_triangles(const Rest& rest, mesh::TriangleSoup& soup) {
-    std::vector<std::uint32_t> faces;
     std::size_t next = 0;
-    for (std::uint32_t i = 0; i < soup.triangles.size(); ++i) {
+    for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
         if (!rest.is_left[i]) continue;
-        faces.push_back(soup.face.empty() ? i : soup.face[i]);
+        soup.face[next] = soup.face[i];
         soup.triangles[next++] = soup.triangles[i];
     }
     soup.triangles.resize(next);
-    soup.face = std::move(faces);
+    soup.face.resize(next);
 }
 
 /// Finds nothing if numbers were not read: whose they are is not known.
@@ -169,6 +169,7 @@ bool is_collider(std::string_view path) noexcept {
 std::vector<std::string> leave_out_colliders(mesh::TriangleSoup& soup) {
     const Rest rest = find_rest(soup);
     if (rest.colliders.empty()) return {};
+    soup.face = mesh::source_faces(soup);  // while the instances still have all their triangles
     take_runs(rest, soup.instances, soup.instance_names);
     take_runs(rest, soup.groups);
     take_runs(rest, soup.materials);

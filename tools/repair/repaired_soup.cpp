@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "mesh/source_faces.h"
+
 namespace cdprep::mesh {
 namespace {
 
@@ -47,18 +49,15 @@ format::Instance made_instance(const std::vector<format::Instance>& instances) {
     return made;
 }
 
-/// Returns the faces of the sources; triangles without a source get running numbers.
+/// Returns the faces of the sources, of which `face` has one for each; triangles without a source
+/// get running numbers.
 std::vector<std::uint32_t> faces_of(const std::vector<std::uint32_t>& face,
                                     const std::vector<std::uint32_t>& from) {
     std::vector<std::uint32_t> faces;
     faces.reserve(from.size());
     std::uint32_t made = 0;
     for (const std::uint32_t source : from) {
-        if (source == kNone) {
-            faces.push_back(made++);
-        } else {
-            faces.push_back(face.empty() ? source : face[source]);
-        }
+        faces.push_back(source == kNone ? made++ : face[source]);
     }
     return faces;
 }
@@ -90,7 +89,7 @@ RepairedSoup as_soup(const TriangleSoup& source, RepairMesh repaired) {
     const auto with_source = static_cast<std::uint32_t>(
         std::lower_bound(from.begin(), from.end(), kNone) - from.begin());
     const auto made = static_cast<std::uint32_t>(from.size() - with_source);
-    soup.face = faces_of(source.face, from);
+    soup.face = faces_of(source_faces(source), from);
     recount(soup.instances, from);
     recount(soup.groups.runs, from);
     recount(soup.materials.runs, from);

@@ -44,6 +44,18 @@ TEST(RepairedSoup, TrianglesStandInTheOrderOfTheirSources) {
     EXPECT_EQ(result.soup.face, (std::vector<std::uint32_t>{0, 0, 0, 0, 0}));
 }
 
+// By hand: all faces are triangles, so the sources 1, 2, 2, 3 are the faces 1 of the left node and
+// 0, 0, 1 of the right one; the new triangle is the first face of its own node.
+TEST(RepairedSoup, FacesThatTheImportDoesNotListCountWithinTheirNodes) {
+    TriangleSoup soup = two_nodes();
+    soup.face.clear();
+    EXPECT_EQ(as_soup(soup, cut_and_closed()).soup.face,
+              (std::vector<std::uint32_t>{1, 0, 0, 1, 0}));
+    soup.instances.clear();  // then they count through the file
+    EXPECT_EQ(as_soup(soup, cut_and_closed()).soup.face,
+              (std::vector<std::uint32_t>{1, 2, 2, 3, 0}));
+}
+
 TEST(RepairedSoup, NodesAndGroupsKeepWhatIsLeftOfThem) {
     const RepairedSoup result = as_soup(two_nodes(), cut_and_closed());
     const std::vector<format::Instance>& nodes = result.soup.instances;
