@@ -55,35 +55,45 @@ private:
         return report_.counts;
     }
 
-    /// Lists extents beyond float (CDP0103).
+    /// Lists extents beyond float (CDP0103). Triangles that repeat a corner count: a baked file
+    /// and its box hold them.
     void list_large_extents() {
-        const std::vector<Double3>& points = sound_.mesh.positions;
-        for (std::uint32_t i = 0; i < points.size(); ++i) {
-            const Double3& p = points[i];
+        const std::vector<std::uint32_t> vertices = used_vertices();
+        for (const std::uint32_t vertex : vertices) {
+            const Double3& p = soup_.positions[vertex];
             const double size = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
             if (!(size > kLargestFloat)) continue;
-            findings_.add(Rule::extent_beyond_float, [&] {
-                return Place{{}, {sound_.mesh.source_vertex[i]}, p, size};
-            });
+            findings_.add(Rule::extent_beyond_float, [&] { return Place{{}, {vertex}, p, size}; });
         }
-        for (const auto axis : {&Double3::x, &Double3::y, &Double3::z}) list_large_extent(axis);
+        if (vertices.empty()) return;
+        for (const auto axis : {&Double3::x, &Double3::y, &Double3::z}) {
+            list_large_extent(vertices, axis);
+        }
     }
 
-    void list_large_extent(double Double3::*axis) {
-        const std::vector<Double3>& points = sound_.mesh.positions;
-        if (points.empty()) return;
+    /// Returns the vertices of all triangles whose corners are finite, as the lowest numbers of
+    /// their positions, ascending.
+    [[nodiscard]] std::vector<std::uint32_t> used_vertices() const {
+        const std::vector<std::uint32_t>& sound = sound_.mesh.source_vertex;
+        const std::vector<std::uint32_t>& repeated = sound_.repeated_vertex;
+        std::vector<std::uint32_t> vertices(sound.size() + repeated.size());
+        std::merge(sound.begin(), sound.end(), repeated.begin(), repeated.end(), vertices.begin());
+        return vertices;
+    }
+
+    void list_large_extent(const std::vector<std::uint32_t>& vertices, double Double3::*axis) {
+        const auto along = [&](std::uint32_t vertex) { return soup_.positions[vertex].*axis; };
         const auto ends = std::minmax_element(
-            points.begin(), points.end(),
-            [axis](const Double3& a, const Double3& b) { return a.*axis < b.*axis; });
-        const double least = (*ends.first).*axis;
-        const double most = (*ends.second).*axis;
+            vertices.begin(), vertices.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return along(a) < along(b); });
+        const std::uint32_t first = *ends.first;
+        const std::uint32_t last = *ends.second;
+        const double least = along(first);
+        const double most = along(last);
         const bool is_told = std::max(std::fabs(least), std::fabs(most)) > kLargestFloat;
         if (is_told || !(most - least > kLargestFloat)) return;
-        const auto number = [&](auto at) {
-            return sound_.mesh.source_vertex[static_cast<std::size_t>(at - points.begin())];
-        };
         findings_.add(Rule::extent_beyond_float, [&] {
-            return Place{{}, {number(ends.first), number(ends.second)}, *ends.first, most - least};
+            return Place{{}, {first, last}, soup_.positions[first], most - least};
         });
     }
 

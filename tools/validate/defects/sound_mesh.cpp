@@ -84,7 +84,7 @@ private:
 };
 
 /// Bits of the uses of a vertex of the file.
-enum Use : std::uint8_t { used = 1, used_soundly = 2 };
+enum Use : std::uint8_t { used = 1, used_soundly = 2, used_repeatedly = 4 };
 
 /// Separates sound triangles from others, by the lowest equal vertices of their corners.
 class TriangleSieve {
@@ -124,6 +124,7 @@ private:
         if (a == kNone || b == kNone || c == kNone) return;
         if (a == b || b == c || c == a) {
             ++counts_.degenerate_triangles;
+            for (const std::uint32_t vertex : corners.vertex) use_[vertex] |= used_repeatedly;
             sound_.repeated.push_back({number, 0, false});
             findings_.add(Rule::repeated_corner, [&] {
                 return Place{
@@ -150,7 +151,10 @@ private:
     void renumber() {
         std::vector<std::uint32_t> number(use_.size());
         for (std::uint32_t i = 0; i < use_.size(); ++i) {
-            if ((use_[i] & used_soundly) == 0) continue;
+            if ((use_[i] & used_soundly) == 0) {
+                if ((use_[i] & used_repeatedly) != 0) sound_.repeated_vertex.push_back(i);
+                continue;
+            }
             number[i] = static_cast<std::uint32_t>(sound_.mesh.positions.size());
             sound_.mesh.positions.push_back(soup_.positions[i]);
             sound_.mesh.source_vertex.push_back(i);

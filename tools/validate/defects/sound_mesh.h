@@ -21,6 +21,9 @@ struct SoundMesh {
     Mesh mesh;                                   ///< vertices with equal positions joined
     std::vector<std::uint32_t> source_triangle;  ///< by triangle, ascending
     std::vector<RepeatedCorner> repeated;        ///< the triangles left out, ascending
+    /// The vertices that only these use, as the lowest source numbers of their positions,
+    /// ascending.
+    std::vector<std::uint32_t> repeated_vertex;
 };
 
 /// Applies the rules that ignore shape (CDP0101, CDP0102, CDP0104, CDP0105, CDP0201). Leaves out

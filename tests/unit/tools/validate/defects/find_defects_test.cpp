@@ -342,6 +342,29 @@ TEST(FindDefects, ExtentBeyondFloatIsToldByVertexOrByAxis) {
     EXPECT_EQ(huge.findings.size(), 1U);
 }
 
+// By hand: a bake keeps the segment, so its ends count as those of other triangles do.
+TEST(FindDefects, ExtentBeyondFloatHoldsForTrianglesThatRepeatACorner) {
+    const test::TestMesh far_away = {{{1e39, 0, 0}, {0, 1, 0}}, {{{0, 0, 1}}}};
+    const Finding alone = finding_of(report_of(far_away), Rule::extent_beyond_float);
+    ASSERT_EQ(alone.count, 1U);
+    EXPECT_EQ(alone.places[0].vertices, Numbers{0});
+    EXPECT_EQ(alone.places[0].measure, 1e39);
+    // Each coordinate is a float, the length of the segment is not.
+    const test::TestMesh wide = {{{3e38, 0, 0}, {-3e38, 0, 0}}, {{{0, 1, 1}}}};
+    const Finding axis = finding_of(report_of(wide), Rule::extent_beyond_float);
+    ASSERT_EQ(axis.count, 1U);
+    EXPECT_EQ(axis.places[0].vertices, (Numbers{1, 0}));
+    EXPECT_EQ(axis.places[0].measure, 6e38);
+    // The vertex that a sound triangle uses too is told once, in the order of the file.
+    const test::TestMesh both = {{{1e39, 0, 0}, {0, 2e39, 0}, {0, 0, 1}, {0, 0, 3e39}},
+                                 {{{1, 0, 2}}, {{3, 3, 1}}}};
+    const Finding shared = finding_of(report_of(both), Rule::extent_beyond_float);
+    ASSERT_EQ(shared.count, 3U);
+    EXPECT_EQ(shared.places[0].vertices, Numbers{0});
+    EXPECT_EQ(shared.places[1].vertices, Numbers{1});
+    EXPECT_EQ(shared.places[2].vertices, Numbers{3});
+}
+
 // Ratio and areas do not depend on the scale, nor on what their squares leave of double.
 TEST(FindDefects, ShapesAreJudgedAtAnyScale) {
     test::TestMesh mesh;
