@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/signals.h"
 #include "repair/repair_report.h"
+#include "text/number_text.h"
 #include "validate/defects/find_defects.h"
 #include "validate/judge.h"
 #include "validate/place_text.h"
@@ -35,6 +36,18 @@ bool is_refused(const report::Judgement& judgement) {
     return judgement.severity >= mesh::Severity::warning;
 }
 
+/// Returns the message for a search that a limit ended: --max-pairs, or that of its work.
+std::string unfinished_refusal(std::uint64_t pairs, std::uint64_t max_pairs) {
+    const bool is_of_pairs = pairs >= max_pairs;
+    const std::string limit = is_of_pairs ? "--max-pairs " + std::to_string(max_pairs)
+                                          : std::string("the limit of its work");
+    return "the search for crossing triangles ended early, at " + limit + ", after " +
+           report::counted(pairs, "pair that meets", "pairs that meet") +
+           ", and --strict allows only a mesh that was fully examined: " +
+           (is_of_pairs ? "raise --max-pairs, or bake without --strict."
+                        : "bake without --strict.");
+}
+
 }  // namespace
 
 report::ValidationReport find_for_bake(const mesh::TriangleSoup& soup, const mesh::Mesh& welded,
@@ -59,9 +72,9 @@ std::uint64_t count_warnings(const report::ValidationReport& found) {
         std::count_if(found.judgements.begin(), found.judgements.end(), is_refused));
 }
 
-std::string strict_refusal(const report::ValidationReport& found) {
+std::string strict_refusal(const report::ValidationReport& found, std::uint64_t max_pairs) {
     if (count_warnings(found) == 0) {
-        return found.remarks.front() + " --strict refuses a mesh that was not fully examined.";
+        return unfinished_refusal(found.defects.counts.self_intersecting_pairs, max_pairs);
     }
     const auto first = static_cast<std::size_t>(
         std::find_if(found.judgements.begin(), found.judgements.end(), is_refused) -

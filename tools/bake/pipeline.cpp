@@ -171,8 +171,10 @@ private:
     report::BakeReport refusal() {
         report_.input = input_.string();
         report_.output = output_.string();
-        report_.exit = found_.defects.exit;
-        report_.error = input_.string() + ": " + strict_refusal(found_.defects);
+        // The report of the defects counts only findings: it is a success if none is a warning,
+        // even where the search for them ended early.
+        report_.exit = static_cast<int>(Exit::findings);
+        report_.error = input_.string() + ": " + strict_refusal(found_.defects, options_.max_pairs);
         return std::move(report_);
     }
 
