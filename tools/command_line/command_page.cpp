@@ -11,6 +11,12 @@ namespace {
 /// The line between notes and examples. CLI11 keeps both as one text after a command's options.
 constexpr const char* kExamples = "Examples:";
 
+/// Returns where the line between notes and examples begins, or npos without examples. Notes may
+/// hold its word too, so the last whole line counts.
+std::size_t find_examples(const std::string& footer) {
+    return ("\n" + footer).rfind("\n" + std::string(kExamples) + "\n");
+}
+
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
     std::istringstream stream(text);
@@ -108,7 +114,7 @@ CommandPage page_of(const Command& described, const std::string& name) {
     const auto general = std::ranges::find(page.groups, "General", &OptionGroup::title);
     if (general != page.groups.end()) std::rotate(general, general + 1, page.groups.end());
     const std::string footer = command.get_footer();
-    const std::size_t begin = footer.find(kExamples);
+    const std::size_t begin = find_examples(footer);
     page.notes = footer.substr(0, begin);
     while (!page.notes.empty() && page.notes.back() == '\n') page.notes.pop_back();
     if (begin != std::string::npos) {
