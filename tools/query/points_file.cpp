@@ -28,9 +28,9 @@ Result<std::vector<Ray>> read_rays(const std::filesystem::path& path) {
             Result<Done> parsed = parse_row(line, place, row);
             if (!parsed) return parsed;
             if (row[3] == 0 && row[4] == 0 && row[5] == 0) {
-                return Result<Done>(Error{ErrorCode::bad_argument,
+                return Result<Done>(Error{ErrorCode::unreadable,
                                           place + ": the ray's direction, numbers 4 to 6, is 0 0 "
-                                                  "0; it must point somewhere."});
+                                                  "0; at least one of the three must not be 0."});
             }
             rays.push_back({{row[0], row[1], row[2]}, {row[3], row[4], row[5]}});
             return parsed;

@@ -11,8 +11,8 @@ namespace cdprep::cli {
 /// Reads one point per line, x y z in model units. The error `unreadable` names the line.
 [[nodiscard]] Result<std::vector<Double3>> read_points(const std::filesystem::path& path);
 
-/// Reads one ray per line, origin then direction. The error is `bad_argument` for a direction of
-/// zero, else `unreadable`; both name the line.
+/// Reads one ray per line, origin then direction; the direction must not be zero. The error
+/// `unreadable` names the line.
 [[nodiscard]] Result<std::vector<Ray>> read_rays(const std::filesystem::path& path);
 
 }  // namespace cdprep::cli
