@@ -18,6 +18,20 @@ from shared_models import bake, must, run
 IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
 
 
+def write_touching(path, count):
+    """Pairs of tetrahedra: the tip of one touches the top of the other, within a triangle. Notes
+    say so, and no warning."""
+    corners = [(0, 0, 0), (8, 0, 0), (0, 8, 0), (2, 2, -4), (2, 2, 0), (1, 1, 2), (4, 1, 2),
+               (1, 4, 2)]
+    triangles = [(0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2), (5, 6, 7), (4, 6, 5), (4, 7, 6),
+                 (4, 5, 7)]
+    path.write_text(
+        f"OFF\n{8 * count} {8 * count} 0\n"
+        + "".join(f"{x + 10 * i} {y} {z}\n" for i in range(count) for x, y, z in corners)
+        + "".join("3 {} {} {}\n".format(*(8 * i + v for v in triangle))
+                  for i in range(count) for triangle in triangles))
+
+
 def main():
     program = sys.argv[1]
     scratch = tempfile.TemporaryDirectory()
@@ -32,6 +46,8 @@ def main():
     (folder / "text.cdp.h5").write_text("not a bake " * 1000)
     (folder / "a folder").mkdir()
     (folder / "notes.xyz").write_text("1 2 3\n")
+    write_touching(folder / "touching.off", 64)  # a search of few triangles ends before a limit
+    (folder / "still rays").write_text("0 0 1 0 0 1\n0 0 0 0 0 0\n")
     (folder / "link.off").symlink_to(folder / "sheet.off")
     (folder / "same").symlink_to(folder)
     (folder / "list").write_text(f"{folder / 'sheet.off'}\n")
@@ -74,6 +90,36 @@ def main():
          ["'-3' is not a finite number of seconds, 0 or more."]),
         (["repair", folder / "sheet.off", "-o", folder / "x.ply", "--steps", "weldd"], 2,
          ["Did you mean 'weld'?"]),
+        *((["repair", folder / "sheet.off", "-o", folder / "x.ply", *options], 2, words)
+          for options, words in (
+              (["--seam-width", "0.01"],
+               ["--seam-width has no effect with the preset safe: choose --preset closed or solid, "
+                "or remove the option."]),
+              (["--seam", "0", "--preset", "safe"], ["--seam-width has no effect"]),
+              (["--hole-size", "3"], ["--hole-size has no effect", "safe", "closed or solid"]),
+              (["--time", "3", "--preset", "closed"],
+               ["--time has no effect with the preset closed: choose --preset solid"]),
+              (["--seam-width", "0.01", "--steps", "weld,fill-holes"],
+               ["--seam-width has no effect: add stitch-seams or resolve-t-junctions to --steps"]),
+              (["--hole-size", "3", "--steps", "stitch-seams"], ["add fill-holes to --steps"]),
+              (["--weld", "0.01", "--steps", "orient"], ["add weld to --steps"]))),
+        *((["repair", folder / "sheet.off", "-o", folder / "x.ply", *options], 0, [])
+          for options in (["--seam-width", "0.01", "--steps", "weld,resolve-t-junctions"],
+                          ["--seam-width", "0.01", "--steps", "stitch-seams"],
+                          ["--hole-size", "3", "--time", "3", "--steps",
+                           "fill-holes,resolve-self-intersections"])),
+        (["bake", folder / "sheet.off", "--piece-tolerance", "0.1"], 2,
+         ["--piece-tolerance has no effect: add pieces, contacts or response to --effects"]),
+        (["bake", folder / "sheet.off", "--effects", "ray,inside", "--piece-tolerance", "0"], 2,
+         ["--piece-tolerance has no effect"]),
+        *((["bake", folder / "sheet.off", "-o", folder / "tolerant", "--effects", effect,
+            "--piece-tolerance", "0.1"], 0, []) for effect in ("pieces", "contacts", "response")),
+        (["bake", folder / "touching.off", "--strict", "--max-pairs", "1"], 1,
+         ["touching.off: the search for crossing triangles ended early, at --max-pairs 1, after",
+          "--strict allows only a mesh that was fully examined: raise --max-pairs"]),
+        (["bake", folder / "touching.off", "-o", folder / "touched", "--strict"], 0, []),
+        (["query", "ray", model, "--rays", folder / "still rays"], 3,
+         ["still rays: line 2", "is 0 0 0; at least one of the three must not be 0."]),
         (["hull", folder / "sheet.off", "-o", folder / "x.ply", "--max-vertices", "2"], 2,
          ["from 4 to"]),
         (["decompose", folder / "sheet.off", "--parts", "0"], 2, ["1 or more"]),
@@ -204,6 +250,7 @@ def main():
         must(digest(model) == before, f"{arguments} changed the model")
     must(not (folder / "out").exists() or not list((folder / "out").iterdir()),
          "something was baked although two inputs have one output")
+    must(not (folder / "touching.cdp.h5").exists(), "--strict wrote a mesh not fully examined")
 
     # One bad input does not stop the others; the JSON has each.
     done = run(program, "bake", folder / "missing.off", folder / "sheet.off", "--output-dir",

@@ -260,7 +260,7 @@ def reports():
         for form in ("text", "json"):
             for options in ("", "--max-vertices 9 --per component", "--per node"):
                 yield [f"hull {model} -o out.ply --format {form} {options}", "keep out.ply"]
-            for options in ("", "--seam 0.01 --weld 0.001", "--steps weld,orient,drop-duplicates"):
+            for options in ("", "--weld 0.001", "--steps weld,orient,drop-duplicates"):
                 yield [f"repair {model} -o out.obj --format {form} {options}", "keep out.obj"]
         for options in ("--no-crossings", "--max-pairs 3", "--rule CDP0203=off",
                         "--fail-on note", "--max-issues 2 --format json"):

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <optional>
 
 #include "bake/pipeline.h"
 #include "cli/colliders.h"
@@ -164,6 +165,15 @@ Exit bake_all(const Arguments& arguments, const std::vector<fs::path>& outputs,
     return is_interrupted() ? Exit::interrupted : worst;
 }
 
+/// Returns an error for an option without effect: the user expected one.
+std::optional<Error> find_idle_option(const Command& command, const Effects& effects) {
+    const bool has_pieces = effects.sections.contains(format::SectionId::pieces);
+    if (command.count("--piece-tolerance") == 0 || has_pieces) return std::nullopt;
+    return Error{ErrorCode::bad_argument,
+                 "--piece-tolerance has no effect: add pieces, contacts or response to --effects, "
+                 "or remove the option."};
+}
+
 /// Returns the bounds with this name in kBoundsNames, or the best for `effects` if it is "auto".
 /// The command line admits no other name.
 build::BvhBounds bounds_named(const std::string& name, const Effects& effects) {
@@ -173,9 +183,10 @@ build::BvhBounds bounds_named(const std::string& name, const Effects& effects) {
     return at == report::kBoundsNames.end() ? bounds_for(effects) : at->bounds;
 }
 
-Exit run(Arguments& arguments) {
+Exit run(const Command& command, Arguments& arguments) {
     const Result<Effects> effects = parse_effects(arguments.effects);
     if (!effects) return fail("bake", effects.error());
+    if (const auto error = find_idle_option(command, *effects)) return fail("bake", *error);
     const Result<StructureChoice> structures =
         choose_structures(arguments.structures, effects.value());
     if (!structures) return fail("bake", structures.error());
@@ -220,15 +231,17 @@ void add_output_options(const Command& command, Arguments& arguments) {
         .group("Output");
     command
         .add_option("--effects", arguments.effects,
-                    "Comma-separated queries to bake for, or all, which adds every structure. "
-                    "Default: collide,overlap,distance,within,ray,closest")
+                    "Comma-separated effects to bake for: " + effect_list() +
+                        "; or all, which adds every structure. "
+                        "Default: collide,overlap,distance,within,ray,closest")
         .type_name("LIST")
         .group("Output");
     command
         .add_flag("--strict", arguments.options.strict,
-                  "Refuse a mesh with warnings or errors of 'cdprep validate' (exit 1)")
+                  "Refuse a mesh with warnings or errors of 'cdprep validate' (exit 1), or one "
+                  "whose search for crossing triangles ended early")
         .group("Output");
-    command.add_flag("--dry-run", arguments.dry_run, "Print the names of outputs and exit")
+    command.add_flag("--dry-run", arguments.dry_run, "Print the names of the outputs and exit")
         .group("Output");
 }
 
@@ -244,8 +257,8 @@ void add_mesh_options(const Command& command, BakeOptions& options) {
         .group("Mesh");
     command
         .add_option("--piece-tolerance", options.piece_tolerance,
-                    "For --effects pieces: largest permitted height of a piece's vertices above "
-                    "the planes of its triangles, in model units; 0: exact")
+                    "For --effects pieces, contacts and response: largest permitted height of a "
+                    "piece's vertices above the planes of its triangles, in model units; 0: exact")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .show_default()
@@ -259,9 +272,14 @@ void add_bake(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     const Command command = app.add_command("bake", "Convert mesh files to baked files");
     command.set_notes(
-        "The same input, options and version give the same sections, byte for byte. Answers about "
-        "meshes never depend on --bounds or --structures, which change speed alone. Answers about "
-        "hulls depend on --hull-vertices. Scenes that permit a max_error may depend on --parts.\n\n"
+        "The same input, options and version give the same sections, byte for byte. --bounds and "
+        "--structures change the speed of queries about meshes, not the answers. There are two "
+        "exceptions. If models touch, 'distance' may name another pair of triangles that touch. "
+        "With --structures hull, 'contacts' may find shorter ways out of solids. Answers about "
+        "hulls depend on --hull-vertices. Answers about scenes that permit a max_error may depend "
+        "on --parts and --max-error.\n\n"
+        "If --parts or --max-error cannot be met, the best result is written and the exit code is "
+        "1.\n\n"
         "Colliders of engines are left out, and the report lists them. They are nodes and groups "
         "named UCX_..., UBX_..., USP_..., UCP_..., ...-colonly or ...-convcolonly, and all nodes "
         "below one named colliders. Triangles and vertices are then numbered without them. "
@@ -278,8 +296,8 @@ void add_bake(const Command& app, Exit& exit) {
         .add_option("--bounds", arguments->bounds,
                     "Bounding volumes to store in addition to axis-aligned boxes. aabb: none. obb: "
                     "oriented boxes. pss, lss, rss: spheres swept over a point, a line, a "
-                    "rectangle. auto: obb+rss with any of the effects distance, within, "
-                    "contacts, continuous and haptic; else obb")
+                    "rectangle. auto: obb+rss with any of the effects distance, within, contacts, "
+                    "response, continuous and haptic; else obb")
         .type_name("BOUNDS")
         .check(one_of({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
         .show_default()
@@ -291,7 +309,7 @@ void add_bake(const Command& app, Exit& exit) {
     add_progress(command, arguments->progress);
     add_import_arguments(command, arguments->import);
     add_with_colliders(command, arguments->with_colliders);
-    command.callback([arguments, &exit] { exit = run(*arguments); });
+    command.callback([command, arguments, &exit] { exit = run(command, *arguments); });
 }
 
 }  // namespace cdprep::cli

@@ -68,9 +68,9 @@ SectionSet common(SectionSet a, SectionSet b) {
 }
 
 Error unknown_effect(const std::string& name) {
-    std::string message = "--effects: unknown effect '" + name + "'. Choose from";
-    for (const std::string& known : all_names()) message += " " + known + ",";
-    return {ErrorCode::bad_argument, message + " or all." + report::suggestion(name, all_names())};
+    return {ErrorCode::bad_argument, "--effects: unknown effect '" + name + "'. Choose from " +
+                                         effect_list() + ", or all." +
+                                         report::suggestion(name, all_names())};
 }
 
 std::vector<std::string> split(const std::string& list) {
@@ -81,6 +81,12 @@ std::vector<std::string> split(const std::string& list) {
 }
 
 }  // namespace
+
+std::string effect_list() {
+    std::string list;
+    for (const std::string& name : all_names()) list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
 
 Result<Effects> parse_effects(const std::string& list) {
     std::vector<std::string> names = split(list);

@@ -18,6 +18,9 @@ struct Effects {
     bool all = false;             ///< the list contains "all"
 };
 
+/// Returns the names of all effects, sorted and separated by ", ".
+[[nodiscard]] std::string effect_list();
+
 /// Parses a comma-separated list of effects. An effect is a row of needs() whose option is
 /// `--effects`. "all" selects every effect. An empty list selects the default: collide, overlap,
 /// distance, within, ray, closest. Fails with bad_argument on an unknown name, and lists the known

@@ -2,12 +2,16 @@
 #include "command_line/command_page.h"
 #include "repair/repair.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <sstream>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/import_arguments.h"
@@ -42,15 +46,24 @@ struct Arguments {
     mesh::RepairOptions options;
 };
 
-Error unknown_step(const std::string& name) {
-    std::vector<std::string> known;
-    std::string all;
+std::vector<std::string> step_names() {
+    std::vector<std::string> names;
     for (std::size_t i = 0; i < mesh::kRepairStepCount; ++i) {
-        known.emplace_back(mesh::name_of(static_cast<mesh::RepairStep>(i)));
-        all += (i == 0 ? "" : ", ") + known.back();
+        names.emplace_back(mesh::name_of(static_cast<mesh::RepairStep>(i)));
     }
-    return {ErrorCode::bad_argument, "--steps: there is no step '" + name + "'; there are " + all +
-                                         "." + report::suggestion(name, known)};
+    return names;
+}
+
+std::string step_list() {
+    std::string list;
+    for (const std::string& name : step_names()) list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
+Error unknown_step(const std::string& name) {
+    return {ErrorCode::bad_argument, "--steps: there is no step '" + name + "'; there are " +
+                                         step_list() + "." +
+                                         report::suggestion(name, step_names())};
 }
 
 /// Parses a list such as "weld,orient" into exactly those steps.
@@ -79,6 +92,42 @@ Result<mesh::RepairOptions> options_of(const Arguments& arguments) {
         options.steps.set(static_cast<std::size_t>(mesh::RepairStep::drop_components));
     }
     return options;
+}
+
+/// Returns an error for an option that no step uses: the user expected an effect.
+std::optional<Error> find_idle_option(const Command& command, const Arguments& arguments,
+                                      const mesh::RepairSteps& steps) {
+    using mesh::RepairStep;
+    struct Use {
+        const char* option;
+        std::vector<RepairStep> steps;  ///< each of them uses it
+        const char* presets;            ///< so do these
+    };
+    const std::array<Use, 4> uses = {{
+        {"--weld", {RepairStep::weld}, "safe, closed or solid"},
+        {"--seam-width",
+         {RepairStep::stitch_seams, RepairStep::resolve_t_junctions},
+         "closed or solid"},
+        {"--hole-size", {RepairStep::fill_holes}, "closed or solid"},
+        {"--time", {RepairStep::resolve_self_intersections}, "solid"},
+    }};
+    const auto runs = [&](RepairStep step) { return steps.test(static_cast<std::size_t>(step)); };
+    for (const Use& use : uses) {
+        if (command.count(use.option) == 0) continue;
+        if (std::any_of(use.steps.begin(), use.steps.end(), runs)) continue;
+        std::string names;
+        for (const RepairStep step : use.steps) {
+            names += (names.empty() ? "" : " or ") + std::string(mesh::name_of(step));
+        }
+        return Error{
+            ErrorCode::bad_argument,
+            use.option +
+                (arguments.steps.empty() ? " has no effect with the preset " + arguments.preset +
+                                               ": choose --preset " + use.presets
+                                         : " has no effect: add " + names + " to --steps") +
+                ", or remove the option."};
+    }
+    return std::nullopt;
 }
 
 /// Copies the report of the repair. Judges whether the preset reached its goal, and whether the
@@ -144,9 +193,12 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
     return report;
 }
 
-Exit run(const Arguments& arguments) {
+Exit run(const Command& command, const Arguments& arguments) {
     const Result<mesh::RepairOptions> options = options_of(arguments);
     if (!options) return fail("repair", options.error());
+    if (const auto error = find_idle_option(command, arguments, options->steps)) {
+        return fail("repair", *error);
+    }
     const Result<report::RepairFileReport> repaired = repair_file(arguments, options.value());
     if (!repaired) {
         if (arguments.format == "json") {
@@ -177,19 +229,24 @@ void add_goal_options(const Command& command, Arguments& arguments) {
             .check(one_of({"safe", "closed", "solid"}))
             .show_default()
             .group(group);
-    command.add_option("--steps", arguments.steps, "Comma-separated steps, instead of a preset")
+    command
+        .add_option("--steps", arguments.steps,
+                    "Comma-separated steps, instead of a preset: " + step_list() +
+                        ". They run in this order, until nothing changes")
         .type_name("LIST")
         .excludes(preset)
         .group(group);
     command
         .add_option("--seam-width,--seam", arguments.options.seam_width,
-                    "Join boundaries within this distance of each other, in model units")
+                    "For the presets closed and solid: join boundaries within this distance of "
+                    "each other, in model units. Default: 0")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .group(group);
     command
         .add_option("--hole-size", arguments.options.hole_size,
-                    "Close holes whose bounding box has at most this diagonal, in model units")
+                    "For the presets closed and solid: close holes whose bounding box has at most "
+                    "this diagonal, in model units. Default: no limit")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .group(group);
@@ -199,7 +256,8 @@ void add_goal_options(const Command& command, Arguments& arguments) {
         .group(group);
     command
         .add_option("--time", arguments.options.seconds,
-                    "Time limit for removing crossings; the report names those that remain")
+                    "For the preset solid: give up removing crossings this long after the repair "
+                    "began. The report counts those that remain")
         .type_name("SECONDS")
         .check(zero_or_more("seconds"))
         .show_default()
@@ -218,7 +276,7 @@ void add_repair(const Command& app, Exit& exit) {
         "numbers. 'cdprep validate' first merges vertices with equal positions, so it may report "
         "vertices that the repair split.",
         {"cdprep repair scan.ply -o fixed.ply --preset solid",
-         "cdprep repair part.obj -o part.stl --seam-width 0.01"});
+         "cdprep repair part.obj -o part.stl --preset closed --seam-width 0.01"});
     add_input(command, arguments->input);
     command
         .add_option("-o,--output", arguments->output, "The repaired mesh: .obj, .ply, .stl or .off")
@@ -231,7 +289,7 @@ void add_repair(const Command& app, Exit& exit) {
     add_report_format(command, arguments->format);
     add_jobs(command, arguments->threads);
     add_import_arguments(command, arguments->import);
-    command.callback([arguments, &exit] { exit = run(*arguments); });
+    command.callback([command, arguments, &exit] { exit = run(command, *arguments); });
 }
 
 }  // namespace cdprep::cli
