@@ -65,7 +65,7 @@ enum class Vertices : std::uint8_t {
 /// The sections of a file that one query, effect or structure reads.
 struct Needs {
     Ask ask;
-    const char* name;           ///< the name in the options of `cdprep bake`
+    const char* name;           ///< in messages and, except "solid", in options of `cdprep bake`
     const char* bake_option;    ///< of `cdprep bake`, to add the sections: "--effects collide"
     format::SectionSet needed;  ///< all of them are required
     Vertices vertices;          ///< required in addition
@@ -85,16 +85,18 @@ struct Needs {
 /// Returns the bits that this version knows.
 [[nodiscard]] CDPREP_API Ask known_asks() noexcept;
 
-/// Returns the sections to open or to bake for all of `asks`: those that are needed or used. The
-/// result includes positions_f32 and positions_f64, although a file has only one of them.
+/// Returns the sections to open or to bake for all of `asks`: those that are needed or used. If
+/// positions are among them, the result includes positions_f32 and positions_f64, although a file
+/// has only one of them.
 [[nodiscard]] CDPREP_API format::SectionSet sections_for(Ask asks) noexcept;
 
 /// Returns the bits that a file with these sections serves. `has_exact_leaves` means that the
 /// file's leaves hold model coordinates without loss (format::model_exact_leaves).
 [[nodiscard]] CDPREP_API Ask served_by(format::SectionSet sections, bool has_exact_leaves) noexcept;
 
-/// Returns the sections that `ask` needs and `sections` lacks. `ask` is one bit. If both kinds of
-/// positions are missing, the result contains positions_f32 only.
+/// Returns the sections that `ask` needs and `sections` lacks. `ask` is one bit; for any other
+/// value, the result is empty. If positions are needed and both kinds are missing, the result
+/// contains positions_f32 only.
 [[nodiscard]] CDPREP_API format::SectionSet missing_sections(Ask ask, format::SectionSet sections,
                                                              bool has_exact_leaves) noexcept;
 

@@ -69,9 +69,9 @@ struct DistanceBudget {
 /// `lower` is 0 if this search does not end.
 ///
 /// With a cache, `lower` is at least the last proven gap minus the motion since then. The pair that
-/// was nearest before is measured first. So late bounds are close if the models moved little. If
-/// nothing of the gap is left, a search for contact precedes that for the distance, with about half
-/// of the work.
+/// was nearest before is measured first. So late bounds are close if the models moved little. If no
+/// gap is left and the cache holds a pair of triangles, contact is searched for first. This search
+/// gets about half of the work.
 ///
 /// Reads no pair options: it is about surfaces, through the BVHs. `options` are read as in
 /// distance(). If max_distance is NaN or negative, no pair is found. Needs Ask::distance of both

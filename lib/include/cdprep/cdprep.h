@@ -2,9 +2,9 @@
 #ifndef CDPREP_CDPREP_H
 #define CDPREP_CDPREP_H
 
-/* The C API: all queries, for C99 and for languages that call C. cdprep/c/base.h states the rules
- * that hold for every function. The comment of each function states the rest. The headers contain
- * no inline functions and no floating-point arithmetic.
+/* The C API: all queries about models, for C99 and for languages that call C. cdprep/c/base.h
+ * states the rules that hold for every function. The comment of each function states the rest. The
+ * headers contain no inline functions and no floating-point arithmetic.
  *
  *     cdprep_pair pair;
  *     cdprep_pair_init(&pair, sizeof pair);

@@ -26,14 +26,15 @@ struct ContactFeature {
 struct ManifoldPoint {
     Double3 on_a;
     Double3 on_b;
-    /// From on_a to on_b along the normal, rounded; negative: overlap. In a cluster, the normal is
-    /// that of the point's own contact. It may differ from Contact::normal by up to
-    /// ContactOptions::cluster_angle.
+    /// The distance from on_a to on_b along the normal, rounded. Negative: the faces overlap. In a
+    /// cluster, the normal is that of the point's own contact. It may differ from Contact::normal
+    /// by up to ContactOptions::cluster_angle.
     double distance;
     /// Stays the same for the same point of the same contact after a small motion. It is made of
     /// the source number of the vertex at the point. If two edges cross there, it is made of the
-    /// source numbers of their ends. 0 for the only point of a contact. In a cluster, it also
-    /// differs between points of different members.
+    /// source numbers of their ends. 0 for the contact's own points point_a and point_b, which may
+    /// be the only ones. With clusters, this number is combined with the id of the point's own
+    /// contact. So it also differs between points of different members.
     std::uint64_t id;
 };
 
@@ -41,9 +42,10 @@ struct ManifoldPoint {
 enum ContactFlags : std::uint32_t {
     /// The pieces overlap: their hulls have a common point, and either their triangles touch or
     /// both pieces are contained (format::piece_contained). The distance is 0 or negative: minus
-    /// the length of the shortest translation that separates the hulls.
+    /// the length of the shortest translation that separates the hulls. Also set with contact_deep,
+    /// whose pieces need not overlap.
     contact_overlap = 1,
-    /// The shortest line between the pieces, or the shortest way out of their overlap, snags.
+    /// The shortest line between the pieces, or the shortest way out of their overlap, snags. So
     /// `normal` has a different direction: see contacts().
     contact_internal_edge = 2,
     /// The pieces do not overlap, but one lies behind the other's triangles, inside the solid.
@@ -75,12 +77,12 @@ struct Contact {
     /// The distance is in [lower, upper], in model units; both bounds are proven. With
     /// contact_overlap it is 0 or negative. Then no translation of B shorter than -upper separates
     /// the pieces or, with contact_deep, frees the component. A translation of B by -lower along
-    /// `normal` does.
+    /// `normal` does so.
     double lower;
     double upper;
     std::uint32_t flags;        ///< ContactFlags
     std::uint32_t members;      ///< the number of contacts in this cluster; 1 without clusters
-    std::uint32_t point_count;  ///< in `points`; 0 if no manifold was requested
+    std::uint32_t point_count;  ///< in `points`; 0 with neither a manifold nor clusters
     std::array<ManifoldPoint, kMostManifoldPoints> points;  ///< the deepest first
 };
 
@@ -125,7 +127,7 @@ struct ContactsVerdict {
 
 /// Finds one contact for each pair of convex pieces that have triangles at most options.tolerance
 /// apart. The test of the tolerance is exact, as in pairs_within(). A negative tolerance or NaN
-/// gives no contacts.
+/// gives no contacts but those of enclosed components (see below).
 ///
 /// Without options.most, stores the first contacts in `room`, in the order of (piece_a, piece_b),
 /// and then those of enclosed components. With an empty span it only counts them (`found`). With
@@ -148,35 +150,39 @@ struct ContactsVerdict {
 /// hull lies within the solid. Two pieces overlap if their hulls overlap and either their triangles
 /// touch or both pieces are contained. Then `normal` is the direction of the shortest separating
 /// translation, unless this translation snags (see below). The candidates are the face normals of
-/// both hulls and the directions perpendicular to an edge of each. If the hulls overlap but the
-/// pieces do not, the contact has the distance of the triangles. If several pairs of points are
-/// equally near, as between parallel faces, the contact has one of them. If the pieces do not
-/// overlap, the normal is the direction of the shortest line between them. If this line snags at a
-/// feature, the normal is turned until it no longer tilts across the feature's edges. If either
-/// feature is a face, the normal is turned only if it tilts across a flat edge.
+/// both hulls and the directions perpendicular to an edge of each. If a hull has many faces, the
+/// candidates are the shortest separating translation and normals of faces or triangles. Only the
+/// 16 shortest candidates are tested for snags. If the hulls overlap but the pieces do not, the
+/// contact has the distance of the triangles. If several pairs of points are equally near, as
+/// between parallel faces, the contact has one of them. If the pieces do not overlap, the normal is
+/// the direction of the shortest line between them. If this line snags at a feature, the normal is
+/// turned until it no longer tilts across the feature's edges. If either feature is a face, the
+/// normal is turned only if it tilts across a flat edge.
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
 /// vertex, the tilt counts only if a triangle there reaches farther along the translation than the
 /// vertex. A translation also snags if it leads through a part of the hull that no triangle covers.
-/// If the shortest translation snags, the shortest one that does not snag is used, and
-/// contact_internal_edge is set. A translation less than half as long is preferred, even if it
-/// tilts across a reflex edge. It must not tilt across a flat edge or lead deeper into a solid. If
-/// all translations snag, the shortest one that leads out of the solid is turned until it no longer
-/// snags. `upper` is still minus the length of the shortest separating translation. If the shortest
-/// translation does not snag, `lower` and `upper` are equal up to rounding. Bodies may overlap by
-/// more than the size of a piece. Then a contact separates its two pieces only, not the bodies:
-/// push by the deepest contact, and query again. Inside a solid, the inner side of a wall may be
-/// near (contact_from_behind); such a contact should not push.
+/// The shortest translation that does not snag is used. Exception: another one may tilt across a
+/// reflex edge, but neither across a flat edge nor deeper into a solid. That one is used if it is
+/// less than half as long, or if all translations snag. If there is neither, the shortest
+/// translation that leads out of the solid is turned until it no longer snags. If none leads out,
+/// the shortest translation is used as it is. contact_internal_edge is set unless the shortest
+/// translation itself is used. `upper` is still minus the length of the shortest separating
+/// translation. If the shortest translation does not snag, `lower` and `upper` are equal up to
+/// rounding. Bodies may overlap by more than the size of a piece. Then a contact separates its two
+/// pieces only, not the bodies: push by the deepest contact, and query again. Inside a solid, the
+/// inner side of a wall may be near (contact_from_behind); such a contact should not push.
 ///
 /// With Body::solid, a component that is proven to be inside the other model makes a contact of its
 /// own (contact_deep). If any triangles of the two models touch, there are no deep contacts. A deep
-/// contact names one piece of the component and the nearest piece of the other model. The
-/// translation moves the component out of hulls that enclose the other model. These hulls are the
-/// parts of that model (`bake --structures hull --parts`), else its whole hull, else its bounding
-/// box. A translation by -lower along `normal` frees the component. No translation shorter than
-/// -upper frees it: -upper is the distance of one of its vertices from the other surface. A deep
-/// contact counts in `found`. With options.most, other contacts get only the places that deep
-/// contacts leave free. A model that is not closed encloses nothing.
+/// contact names one piece of the component. It also names the piece of the other model that is
+/// nearest to a vertex of the component. The translation moves the component out of hulls that
+/// enclose the other model. These hulls are the parts of that model (`bake --structures hull
+/// --parts`), else its whole hull, else its bounding box. A translation by -lower along `normal`
+/// frees the component. No translation shorter than -upper frees it: -upper is the distance of one
+/// of its vertices from the other surface. A deep contact counts in `found`. With options.most,
+/// other contacts get only the places that deep contacts leave free. A model that is not closed
+/// encloses nothing.
 ///
 /// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
 /// are the corners of one face, clipped by the other. ManifoldPoint::distance is the distance of
@@ -188,12 +194,11 @@ struct ContactsVerdict {
 /// makes a contact only within the tolerance of the other's triangles.
 ///
 /// Reads body, degenerate and through of pair.options. The only structure beside the BVH is
-/// Structure::pieces. It takes 1.7 times as long for near poses, and 1.1 times as long for others.
-/// Needs Ask::contacts of both models, Ask::solid with Body::solid, and
-/// ask_of(pair.options.through). A deep contact reads hulls if the models serve Ask::hulls. Takes
-/// the time of pairs_within(), plus 5 to 10 microseconds per contact and 1 more with a manifold
-/// (tests/bench/results, contacts.csv). Body::solid adds the time of containment(). Never
-/// allocates.
+/// Structure::pieces, which takes up to 1.15 times as long. Needs Ask::contacts of both models,
+/// Ask::solid with Body::solid, and ask_of(pair.options.through). A deep contact reads hulls if the
+/// models serve Ask::hulls. Takes the time of pairs_within(), plus up to 10 microseconds per
+/// contact and 1 more with a manifold (tests/bench/results, contacts.csv). Body::solid adds the
+/// time of containment(). Never allocates.
 [[nodiscard]] CDPREP_API ContactsVerdict contacts(const Pair& pair, Workspace& workspace,
                                                   std::span<Contact> room,
                                                   const ContactOptions& options = {}) noexcept;

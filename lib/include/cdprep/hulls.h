@@ -31,9 +31,9 @@ struct EnclosingParts {
 };
 
 /// Returns the parts that represent the solid of a model. Any model may be given. The result has no
-/// parts if the model is open or a LiveModel, or was baked without parts. It also has none if the
-/// sections of hulls or `components` were not opened. A model of several components has none
-/// either: where components overlap, parts and winding numbers may disagree about what is inside.
+/// parts if the model is a LiveModel, is not balanced, or was baked without parts. It also has none
+/// if the sections of hulls or `components` were not opened. A model of several components has none
+/// either. Where components overlap, parts and winding numbers may disagree about what is inside.
 /// Takes O(parts) time.
 [[nodiscard]] CDPREP_API EnclosingParts enclosing_parts(const Model& model) noexcept;
 

@@ -19,8 +19,8 @@ namespace cdprep {
 /// The capacity of a live model that can tear.
 struct LiveLimits {
     std::uint32_t triangles = 0;  ///< the maximum number; 0: the model cannot tear
-    /// Triangles may use vertices with numbers less than this. 0: those of the vertices of the
-    /// base.
+    /// Triangles may use vertices with numbers less than this. 0: as many as position_count() at
+    /// first, at least 1.
     std::uint32_t vertices = 0;
 };
 
@@ -40,22 +40,23 @@ struct LiveTriangle {
 ///
 /// Each refit() updates positions, boxes, leaves and marks of degenerate triangles. The model has
 /// no oriented boxes, because a refit with them would take three times as long. It has no swept
-/// spheres, hulls, pieces, octrees, bounds or mass. It serves the queries that need none of these:
-/// collide, overlap, distance, within, continuous, self, haptic, ray, closest, inside and touch.
+/// spheres, hulls, pieces, octrees, tetra-trees, bounds or mass. It serves the queries that need
+/// none of these: collide, overlap, distance, within, continuous, self, haptic, ray, closest,
+/// inside and touch.
 ///
-/// A model made with LiveLimits can tear: append() and remove() change its triangles. After the
-/// first such call, model().is_torn() is true. The model then counts as open, without winding
-/// numbers and components. So only boxes and surfaces decide about solids. Some places of its tree
-/// order have no triangle. model().triangle_count() counts places, but is 0 without triangles. The
-/// mesh() and source() views have an element for each place.
+/// A model made with LiveLimits can tear: append() and remove() change its triangles. Once a
+/// triangle was added or removed, model().is_torn() is true. The model then counts as open, without
+/// winding numbers and components. So only boxes and surfaces decide about solids. Some places of
+/// its tree order have no triangle. model().triangle_count() counts places, but is 0 without
+/// triangles. The mesh() and source() views have an element for each place.
 ///
-/// A scene finds changes itself if a LayerPair of the object's layer has Ask::deform or
-/// Ask::tear. Otherwise call set_pose() for each object of the model after a change. Caches stay
-/// valid: after a change, queries ignore the gaps proven before it.
+/// A scene finds changes of an object's model itself if a LayerPair of the object's layer has
+/// Ask::deform or Ask::tear. Otherwise, after a change, call set_pose() for each object that uses
+/// the model. Caches stay valid: after a change, queries ignore the gaps proven before it.
 ///
 /// Move-only; a move leaves the model's bytes in place. A live model that was moved from may only
 /// be destroyed or assigned to. Const members, and queries about model(), may run on any number of
-/// threads at once. None of these may run during a change.
+/// threads at once. None of these may run during a change or image().
 ///
 ///     const auto arrays = build::build_model(positions, triangles,
 ///                                            {.bounds = build::BvhBounds::aligned});
@@ -67,9 +68,11 @@ struct LiveTriangle {
 ///     }
 class LiveModel {
 public:
-    /// Returns the number of bytes that in() takes: those of the base's sections, and about 40 per
-    /// triangle. With limits, there are about 140 per triangle of the limit. Takes as much time and
-    /// temporary memory as in(). Fails if in() rejects `base` or `limits`.
+    /// Returns the number of bytes that in() takes. Without limits, these are the bytes of the
+    /// copied sections of the base, and about 30 per triangle. With limits, there are 125 to 150
+    /// per triangle of the limit, with one vertex per two triangles. In both cases, up to 140 KB
+    /// are added. Takes as much time and temporary memory as in(). Fails if in() rejects `base` or
+    /// `limits`.
     [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const build::ModelArrays& base,
                                                               const LiveLimits& limits = {});
     [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const Model& base,
@@ -87,8 +90,9 @@ public:
     /// without, one of these sections: triangles, source_triangle, source_vertex, bvh_nodes,
     /// bvh_leaves and positions. Without the section components, the live model does not serve
     /// Ask::solid. Fails if limits are lower than the counts of the base, or only vertices are
-    /// limited. Also fails if there would be more than 1,431,655,764 places, or limits.vertices
-    /// exceeds format::kMaxVertices. With limits, a ninth of the places stays free.
+    /// limited. Also fails if the model would have more than 1,431,655,764 places, or
+    /// limits.vertices exceeds format::kMaxVertices. With limits, at least a ninth of the places
+    /// stays free.
     [[nodiscard]] CDPREP_API static Result<LiveModel> in(std::span<std::byte> memory,
                                                          const build::ModelArrays& base,
                                                          const LiveLimits& limits = {});
@@ -109,8 +113,9 @@ public:
     [[nodiscard]] CDPREP_API std::size_t position_count() const noexcept;
 
     /// Moves all vertices. `positions` are numbered as in the mesh from which the base was made,
-    /// and are in model units. Positions that no triangle uses, and those of vertices that the bake
-    /// merged into others, have no effect.
+    /// and are in model units. Positions of vertices that no triangle uses, or that the bake merged
+    /// into others, do not change answers. In a model that can tear, triangles of a later append()
+    /// may use them.
     ///
     /// Query results are then those of a new model built from these positions. They do not depend
     /// on `parallel_for`.
@@ -135,14 +140,15 @@ public:
     ///
     /// In a model that can tear, a vertex that no triangle uses may get its first position.
     ///
-    /// Fails for the positions for which a refit of all vertices fails. Also fails if `vertices`
-    /// and `positions` differ in length. Numbers in `vertices` must be less than position_count()
-    /// or, in a model that can tear, LiveLimits::vertices.
+    /// Fails with `bad_argument`, and then changes nothing, if `vertices` and `positions` differ in
+    /// length. Also fails if a number in `vertices` is not less than position_count() or, in a
+    /// model that can tear, LiveLimits::vertices. Fails if a refit of all vertices would reject one
+    /// of the positions.
     ///
     /// Takes O(m log n) time for m triangles at these vertices, of n in all. Also reads one bit per
     /// leaf. Takes O(n) in three cases:
-    /// - A vertex leaves the frame of the boxes, a cube that was at least twice the model's size
-    ///   when chosen.
+    /// - A vertex of a triangle leaves the frame of the boxes, a cube that was two to four times
+    ///   the model's size when chosen.
     /// - The model has become much smaller than this cube.
     /// - The first coordinate that is not a float appears, or the last one disappears.
     CDPREP_API Result<Done> refit(std::span<const std::uint32_t> vertices,
@@ -158,15 +164,17 @@ public:
     ///
     /// Fails with `bad_argument`, and then changes nothing, if the model cannot tear or would have
     /// more triangles than LiveLimits::triangles. Also fails if a vertex does not exist or has no
-    /// position. Fails if triangle numbers would exceed 2^31 - 1, or `triangles` are those of
-    /// model(). Takes O(m log n) time for m triangles. Besides, triangles of full subtrees are
-    /// distributed anew: each subtree at most once, and at most 4096 triangles at a time. Takes
-    /// O(n) more if a vertex lies outside the frame of the boxes. Allocates only on failure.
+    /// position. Fails if triangle numbers would reach 2^31 - 1, or `triangles` lie in the memory
+    /// of model(). Takes O(m log n) time for m triangles, and reads one bit per leaf. In addition,
+    /// triangles of full subtrees are distributed anew: each subtree at most once, and at most 4096
+    /// triangles at a time. Takes O(n) more if a vertex lies outside the frame of the boxes.
+    /// Allocates only on failure.
     CDPREP_API Result<std::uint32_t> append(std::span<const format::Triangle> triangles);
 
     /// Removes triangles by their numbers. A number that is listed twice counts once. Fails with
-    /// `bad_argument`, and then changes nothing, if the model cannot tear or lacks a triangle.
-    /// Takes O(m log n) time. Allocates only on failure.
+    /// `bad_argument`, and then changes nothing, if the model cannot tear, lacks a triangle, or has
+    /// `numbers` in its own memory. Takes O(m log n) time for m numbers, and reads one bit per
+    /// leaf. Allocates only on failure.
     CDPREP_API Result<Done> remove(std::span<const std::uint32_t> numbers);
 
     /// Returns the number of triangles.
@@ -178,8 +186,9 @@ public:
     [[nodiscard]] CDPREP_API std::optional<std::uint32_t> place_of(
         std::uint32_t number) const noexcept;
 
-    /// Stores triangles of a model that can tear, by ascending number, as many as `room` holds.
-    /// Returns the number of all triangles; 0 for a model that cannot tear. Takes O(n log n) time.
+    /// Stores the triangles of a model that can tear, in ascending order of their numbers. If
+    /// `room` is too small, it gets the triangles with the smallest numbers. Returns the number of
+    /// all triangles; 0 for a model that cannot tear. Takes O(n log n) time.
     CDPREP_API std::size_t triangles(std::span<LiveTriangle> room) const noexcept;
 
     /// Rebuilds subtrees whose boxes have grown, so that queries stay fast. A call rebuilds up to
@@ -202,7 +211,9 @@ public:
     /// Returns the bytes of the model, to save or to send. After a refit(), checksums and the
     /// volumes of components are out of date; no query reads them. This function updates both, so
     /// that Model::open() accepts a copy of the bytes. The bytes depend only on the base, the
-    /// positions and the order that rebuild() made. Takes O(bytes) time. Allocates.
+    /// positions and the order that rebuild() made. Caches, sweeps and windows treat the call as a
+    /// change of the model. So they ignore gaps proven before, and a Sweep needs a new step. Takes
+    /// O(bytes) time. Allocates.
     ///
     /// Fails with `bad_argument` if the model can tear: build a model of its triangles() instead.
     [[nodiscard]] CDPREP_API Result<std::span<const std::byte>> image();

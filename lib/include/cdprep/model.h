@@ -131,8 +131,10 @@ public:
     CDPREP_API Model& operator=(Model&&) noexcept;
     CDPREP_API ~Model();
 
-    [[nodiscard]] CDPREP_API std::uint32_t triangle_count() const noexcept;  ///< from the header
-    [[nodiscard]] CDPREP_API std::uint32_t vertex_count() const noexcept;    ///< from the header
+    /// Returns the number of triangles in the header. For a Window, or a LiveModel that can tear,
+    /// this counts places for triangles, some of which may be empty.
+    [[nodiscard]] CDPREP_API std::uint32_t triangle_count() const noexcept;
+    [[nodiscard]] CDPREP_API std::uint32_t vertex_count() const noexcept;  ///< from the header
     /// Returns a number that is greater than all triangle numbers in answers. It is
     /// triangle_count(), unless the model belongs to a Window, or to a LiveModel that can tear.
     [[nodiscard]] CDPREP_API std::uint32_t triangle_number_bound() const noexcept;
@@ -186,9 +188,9 @@ public:
     [[nodiscard]] CDPREP_API std::string_view name(SectionId names,
                                                    std::uint32_t index) const noexcept;
 
-    /// Returns whether the model belongs to a LiveModel that has gained or lost triangles since it
-    /// was made, or to a Window. Queries about solids then give Answer::unknown, unless bounding
-    /// boxes or a touch of the surface decide.
+    /// Returns true for the model of a Window, and for that of a LiveModel that has ever gained or
+    /// lost triangles. Queries about solids then give Answer::unknown, unless bounding boxes or a
+    /// touch of the surface decide.
     [[nodiscard]] CDPREP_API bool is_torn() const noexcept;
 
     /// Returns whether bvh().leaves is not empty and holds model coordinates without loss.

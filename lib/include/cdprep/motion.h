@@ -42,9 +42,9 @@ public:
                                                                const Double3& turn,
                                                                const Double3& centre = {});
 
-    /// Returns the pose at a time. At 0 and 1 it is the given start and end, bit for bit. Times
-    /// outside [0, 1] count as the nearer end; NaN counts as 0. Uses the sine and cosine of the C
-    /// library. So the last bits may differ between platforms.
+    /// Returns the pose at a time. At 0 it is the given start, and at 1 the end given to between(),
+    /// both bit for bit. Times outside [0, 1] count as the nearer end; NaN counts as 0. Uses the
+    /// sine and cosine of the C library. So the last bits may differ between platforms.
     [[nodiscard]] CDPREP_API Pose at(double time) const noexcept;
 
     static constexpr double kMostTurn = 1000;  ///< radians
@@ -54,12 +54,13 @@ public:
     struct Parts {
         Pose start;
         Pose end;
-        Double3 centre;                        ///< in the model's coordinates
-        Double3 start_of_centre;               ///< world
-        Double3 shift;                         ///< world
-        Double3 axis;                          ///< world, a unit vector
-        double angle;                          ///< radians, not negative
-        std::array<double, 9> start_rotation;  ///< that of `start`, made orthonormal
+        Double3 centre;           ///< in the model's coordinates
+        Double3 start_of_centre;  ///< world
+        Double3 shift;            ///< world
+        Double3 axis;             ///< world, a unit vector
+        double angle;             ///< radians, not negative
+        /// That of `start`, made orthonormal by between() and by_velocity().
+        std::array<double, 9> start_rotation;
         /// The largest deviation of an entry of the rotations at 0 and 1 from this formula.
         double end_error;
     };

@@ -12,14 +12,14 @@
 
 namespace cdprep {
 
-/// Returns the same as overlaps(), computed on one thread per workspace. There must be at least one
-/// workspace. The pairs, their order and their number do not depend on the threads.
+/// Returns the same as overlaps(), computed on at most one thread per workspace. There must be at
+/// least one workspace. The pairs, their order and their number do not depend on the threads.
 ///
 /// Use it for one query that takes a millisecond or more, such as two large models that overlap
 /// deeply. Calls `parallel_for` at most twice, each time with at most one task per workspace. A
 /// task that starts late finds less work or none. If `room` is not empty but too short, one thread
-/// repeats the query to keep the smallest pairs. Reads options.overlap and degenerate. Needs
-/// Ask::overlap of both models. Never allocates.
+/// repeats the query to keep the smallest pairs. Uses the BVH and no cache. Reads options.overlap
+/// and degenerate. Needs Ask::overlap of both models. Never allocates.
 [[nodiscard]] CDPREP_API std::size_t split_overlaps(const Pair& pair,
                                                     std::span<Workspace> workspaces,
                                                     ParallelFor parallel_for,
@@ -30,11 +30,11 @@ namespace cdprep {
 /// may hold many poses of the same two models. No two pairs of a batch may share a cache or a
 /// front.
 ///
-/// There must be at least one workspace. The batch uses one thread per workspace. Calls
+/// There must be at least one workspace. The batch uses at most one thread per workspace. Calls
 /// `parallel_for` at most once. Processes min(pairs.size(), answers.size()) pairs. Never allocates.
-/// Starting a batch takes a few microseconds, so a batch pays off from about ten pairs. The rules
-/// of this comment up to here also hold for the batches below. Needs Ask::collide of both models of
-/// each pair, Ask::solid with Body::solid, and ask_of(options.through).
+/// Starting a batch on several threads takes a few microseconds, so a batch pays off from about ten
+/// pairs. The rules of this comment up to here also hold for the batches below. Needs Ask::collide
+/// of both models of each pair, Ask::solid with Body::solid, and ask_of(options.through).
 ///
 ///     std::vector<cdprep::Workspace> workspaces(4);
 ///     std::vector<cdprep::Collision> answers(pairs.size());
@@ -73,12 +73,12 @@ CDPREP_API void overlaps_many(std::span<const Pair> pairs, std::span<Workspace> 
 
 /// The marks that mark_overlaps() makes.
 struct OverlapMarks {
-    std::span<std::uint64_t> bits_a;  ///< input; if too short, nothing is marked
-    std::span<std::uint64_t> bits_b;  ///< input; if too short, nothing is marked
+    std::span<std::uint64_t> bits_a;  ///< input; cleared, but not marked if too short
+    std::span<std::uint64_t> bits_b;  ///< input; cleared, but not marked if too short
     std::size_t count = 0;            ///< output: number of pairs found
 };
 
-/// Runs mark_overlaps() for many pairs. Needs Ask::overlap of both models of a pair.
+/// Runs mark_overlaps() for many pairs. Needs Ask::overlap of both models of each pair.
 CDPREP_API void mark_overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                                    ParallelFor parallel_for,
                                    std::span<OverlapMarks> answers) noexcept;

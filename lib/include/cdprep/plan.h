@@ -29,17 +29,18 @@ inline constexpr std::array kSceneEffects = {Ask::collide,  Ask::overlap,  Ask::
                                              Ask::self,     Ask::haptic};
 
 /// Flags in LayerPair::effects: models of the two layers may change between steps, as a LiveModel
-/// does. A scene then looks for changes in each step. Ask::tear includes Ask::deform.
+/// does. A scene then looks for changes in each step. Models that may tear (Ask::tear) may also
+/// deform: Ask::deform is then not needed.
 inline constexpr Ask kSceneChanges = Ask::deform | Ask::tear;
 
-/// The effects for pairs of objects of two layers, which may be the same layer.
+/// The effects for pairs of objects of two layers. The two layers may be the same.
 ///
 /// `self` tests each object of one layer against itself: a and b are both that layer. `continuous`
-/// finds when two objects touch on the way from their last poses to the present ones. `haptic` is a
-/// distance within a limit of work. With Ask::deform or Ask::tear, `contacts` and `continuous` are
-/// refused: pieces and motions do not follow a surface that changes. If only another pair of layers
-/// has these flags, `continuous` moves the model's present shape. `haptic` is refused together with
-/// `distance`, and with solid bodies.
+/// finds when two objects touch on the way from their last poses to the present ones. `haptic`
+/// computes a distance within a limit of work. With Ask::deform or Ask::tear, `contacts` and
+/// `continuous` are refused: pieces and motions do not follow a surface that changes. If only
+/// another pair of layers has these flags, `continuous` moves the model's present shape. `haptic`
+/// is refused together with `distance`, and with solid bodies.
 struct LayerPair {
     std::uint32_t a = 0;  ///< a layer, below kLayers
     std::uint32_t b = 0;
@@ -55,20 +56,21 @@ struct LayerPair {
     double max_error = 0;
     Body body = Body::surface;          ///< of `collide`, `distance`, `contacts` and `continuous`
     Overlap overlap = Overlap::closed;  ///< of `collide` and `overlap`
-    /// Of `contacts`: the tolerance is finite, and `most` is at least 1.
+    /// Of `contacts`: the tolerance and the angle are finite and at least 0, and `most` is 1 to
+    /// kMostListedContacts.
     ContactOptions contacts = {.most = 16};
-    ImpactOptions impact = {};  ///< of `continuous`
+    ImpactOptions impact = {};  ///< of `continuous`; `most_steps` is at least 1
     std::uint64_t work = 0;     ///< of `haptic`: DistanceBudget::work, at least 1
     /// Also lists an event in each step for an effect that goes on.
     bool lists_stays = false;
 };
 
 /// The way to compute distances for which LayerPair::max_error permits an error. The plan chooses
-/// the cheapest way that is certified for every model of both layers. It reads numbers in the files
-/// and never a clock, so the same files give the same plan.
+/// the cheapest way that is certified for every model of both layers. It reads ModelUse::parts and
+/// never a clock, so the same files give the same plan.
 ///
 /// For `distance`, [lower, upper] contains the exact distance, and is at most PairRung::error wide,
-/// plus rounding. Rounding is at most 3e-12 of `upper`, and 1e-13 of the largest coordinate of a
+/// plus rounding. Rounding is at most 3e-12 of `upper`, plus 1e-13 of the largest coordinate of a
 /// model or a translation.
 ///
 /// An error never removes an effect from SceneHit::holds. It may add one if the exact distance is
@@ -82,16 +84,18 @@ struct LayerPair {
 enum class Rung : std::uint8_t {
     /// Through the BVH. The search of `distance` ends at max_error.
     walk,
-    /// Of solids: through their enclosing parts (EnclosingParts). Witnesses lie on parts, at most
-    /// the parts' errors away from the solids. They have no triangles: kNoTriangleNumber. If parts
-    /// touch, solids count as colliding, and `collide` reports no containment. With
-    /// Overlap::proper, `collide` is exact and reports containment. If the parts of two objects do
-    /// not certify PairRung::error, these objects use Rung::walk.
+    /// Of solids: through their enclosing parts (EnclosingParts). Layers whose models may change
+    /// (kSceneChanges) do not use them. Witnesses lie on parts, at most the parts' errors away from
+    /// the solids. They have no triangles: kNoTriangleNumber. If parts touch, solids count as
+    /// colliding, and `collide` reports no containment. With Overlap::proper, `collide` is exact
+    /// and reports containment. If the parts of two objects do not certify PairRung::error, these
+    /// objects use Rung::walk.
     parts,
 };
 
-/// The largest product of part counts of two models for which parts are cheaper than the walk. It
-/// was measured: see lib/scene/part_distance.h.
+/// The largest product of the part counts of two models for which the plan chooses parts. In
+/// measurements, parts are cheaper than the walk up to a product of 4, and not at 9: see
+/// lib/scene/part_distance.h.
 inline constexpr std::uint64_t kMostPartPairs = 6;
 
 /// The number in Distance::triangle_a and triangle_b if the witness lies on no triangle.
@@ -101,7 +105,8 @@ inline constexpr std::uint32_t kNoTriangleNumber = 0xffffffffU;
 struct PairRung {
     Rung rung = Rung::walk;
     double error = 0;  ///< certified: the largest error of an answer, model units
-    /// With Rung::parts, the largest part count of a model of layer LayerPair::a or b; otherwise 0.
+    /// With Rung::parts, the largest part count of a model of LayerPair::a, and of LayerPair::b.
+    /// Otherwise 0.
     std::uint32_t parts_a = 0;
     std::uint32_t parts_b = 0;
 };
@@ -134,7 +139,8 @@ struct PlanOptions {
     SceneLimits limits;
     /// A point near the objects. Its coordinates are finite, and at most 2^1000 in absolute value.
     /// Boxes of objects are relative to it, so that they stay tight in float. It affects which
-    /// boxes meet, and so how many pairs need room. It changes no result.
+    /// boxes meet, and so how many pairs need room. It changes no result, except what `haptic`
+    /// keeps from earlier steps.
     Double3 origin{};
     /// The names of layers 0, 1, ..., for refusals and Plan::describe(). There, a layer without a
     /// name appears as its number.
@@ -151,7 +157,8 @@ public:
     /// Returns the plan, or every reason why there is none, a sentence each. Refuses unknown
     /// layers, repeated pairs of layers, effects that a scene does not support, and numbers out of
     /// range. Also refuses options that no effect reads, and models that do not serve an effect of
-    /// their layers.
+    /// their layers. If a pair has an effect that a scene does not support, its options are not
+    /// checked.
     [[nodiscard]] CDPREP_API static Compiled compile(const PlanOptions& options);
 
     [[nodiscard]] const SceneLimits& limits() const noexcept {
@@ -160,7 +167,7 @@ public:
     [[nodiscard]] const Double3& origin() const noexcept {
         return origin_;
     }
-    /// The pairs of layers that ask for something, in their order.
+    /// The pairs of layers that ask for something, in the order of PlanOptions::pairs.
     [[nodiscard]] std::span<const LayerPair> pairs() const noexcept {
         return pairs_;
     }
@@ -172,8 +179,8 @@ public:
     /// paired.
     [[nodiscard]] CDPREP_API std::optional<std::uint32_t> find_pair(std::uint32_t a,
                                                                     std::uint32_t b) const noexcept;
-    /// Returns the queries about objects of a layer: open their models for these. They include
-    /// Ask::hulls for Rung::parts.
+    /// Returns what the models of a layer must serve: open them for this. It includes Ask::solid
+    /// for Body::solid, and Ask::hulls for Rung::parts.
     [[nodiscard]] CDPREP_API Ask asks_of(std::uint32_t layer) const noexcept;
     /// Returns a filter with this layer and the layers that are paired with it. A pair of layers
     /// counts only if it has an effect of two objects. `self`, Ask::deform and Ask::tear are none.
@@ -188,9 +195,9 @@ public:
 
     /// Returns a report of about a page. It begins with a line for each pair of pairs(): the
     /// effects, and the queries from which some of them follow. With a max_error, the line also has
-    /// the rung and its error. Then the report lists the effects that are not computed, and the
-    /// layers that are not paired. It ends with the sections that are read of the models, and the
-    /// size of a Scene.
+    /// the rung and its error. Then the report lists the effects that are not computed. It lists
+    /// layers that are never tested together, and layers in no pair, if the options mention them.
+    /// It ends with the sections that are read of the models, and the size of a Scene.
     [[nodiscard]] CDPREP_API std::string describe() const;
 
 private:
@@ -205,7 +212,7 @@ private:
     std::vector<LayerPair> pairs_;
     std::vector<PairRung> rungs_;  ///< of pairs_
     std::vector<std::string> layer_names_;
-    /// [a][b]: 1 more than the pair's number.
+    /// [a][b]: 1 more than the pair's number; 0: not paired.
     std::array<std::uint16_t, std::size_t{kLayers} * kLayers> number_{};
 };
 

@@ -35,10 +35,10 @@ struct ClosestPoint {
 /// away. If several triangles are equally near in double, the result is on the one with the lowest
 /// number.
 ///
-/// `query` must be finite. `max_distance` may be infinite and is inclusive. A point within
-/// `max_distance` is never missed. The `lower` of a result is at most `max_distance`. The interval
-/// always contains the exact distance (closest_point_laws_test). Its width is a few ulp of the
-/// distance to the triangle's farthest corner, more for slivers.
+/// `query` must be finite. `max_distance` is inclusive. It may be infinite, but not NaN. A negative
+/// one finds nothing. A point within `max_distance` is never missed. The `lower` of a result is at
+/// most `max_distance`. The interval always contains the exact distance (closest_point_laws_test).
+/// Its width is a few ulp of the distance to the triangle's farthest corner, more for slivers.
 ///
 /// Needs Ask::closest. Never allocates. Visits every node in the worst case, such as a point at the
 /// centre of a sphere.
@@ -65,10 +65,11 @@ struct Inclusion {
 /// Structure::pieces is treated as Structure::bvh. For an open model, `through` has no effect.
 ///
 /// Exact if the model is balanced: each edge is used equally often in both directions. Needs
-/// Ask::inside and ask_of(through). The BVH takes O(log n + hits of a ray) time, a tetra-tree
-/// O(level + triangles in one cone). An octree takes O(cells along the ray + their triangles).
-/// QueryCounts::ray_triangles counts these triangles. For a point in the box of an open model, the
-/// query takes O(n) time. Never allocates.
+/// Ask::inside and ask_of(through). For octrees and tetra-trees, the workspace must be made with
+/// cells(). The BVH takes O(log n + hits of a ray) time, a tetra-tree O(level + triangles in one
+/// cone). An octree takes O(cells along the ray + their triangles). QueryCounts::ray_triangles
+/// counts the triangles that these searches read. For a point in the box of an open model, the
+/// query takes O(n) time and counts nothing. Never allocates.
 [[nodiscard]] CDPREP_API Inclusion points_inside(const Model& model, const Double3& p,
                                                  Workspace& workspace,
                                                  Structure through = Structure::bvh) noexcept;
@@ -101,8 +102,8 @@ struct RayOptions {
 ///
 /// Each hit is decided exactly for the given origin and direction, by the signs of tetrahedron
 /// volumes. A triangle includes its edges and vertices, so no ray passes between two triangles that
-/// share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits the
-/// triangle where it enters it.
+/// share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits at the
+/// point where the ray enters the triangle.
 ///
 /// `t` and `point` are rounded. The rounded t decides the order of hits, and the hits that max_t
 /// excludes. Among hits with equal t, the lowest source number comes first. A model without
@@ -114,8 +115,8 @@ struct RayOptions {
                                                         const RayOptions& options = {}) noexcept;
 
 /// Returns whether `ray` hits any triangle, that is, whether cast_ray() would return a hit. Exact
-/// if max_t is infinite. Stops at the first hit found. So it is faster than cast_ray(), and
-/// sufficient for shadows and lines of sight. Needs Ask::ray.
+/// if max_t is infinite. Stops at the first hit found, so it is faster than cast_ray(). Suffices
+/// for shadows and lines of sight. Needs Ask::ray.
 [[nodiscard]] CDPREP_API bool ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                                        const RayOptions& options = {}) noexcept;
 
@@ -172,8 +173,9 @@ struct ShapeOptions {
     /// answer that is exact for the stored vertices, give the shape in model coordinates.
     Pose world_from_model = {};
     Degenerate degenerate = Degenerate::keep;  ///< every query but shape_distance() reads it
-    /// The largest distance that shape_distance() finds, inclusive; model units. No other query
-    /// reads it.
+    /// The largest distance that shape_distance() finds, inclusive; model units. With a negative
+    /// limit or NaN, it finds nothing, not even a shape that touches. No other query reads the
+    /// limit.
     double max_distance = std::numeric_limits<double>::infinity();
 };
 
@@ -224,21 +226,23 @@ struct ShapeDistance {
 };
 
 /// Returns the distance of `shape` from the surface of `model`. The distance is exactly 0 if they
-/// touch. For a sphere or capsule, it is the distance of the centre or segment minus the radius.
-/// Returns nothing if the distance exceeds options.max_distance or the model has no triangles. The
-/// same holds for shapes that touch nothing, such as a sphere with a negative radius.
+/// touch. Otherwise, for a sphere or capsule, it is the distance of the centre or segment minus the
+/// radius. Returns nothing if the distance exceeds options.max_distance or the model has no
+/// triangles. Also returns nothing for a shape that touches nothing, such as a sphere with a
+/// negative radius.
 ///
 /// The interval contains the exact distance to the surface whose vertices transform_point() moved.
 /// Its width is at most 1e-12 d + 1e-15 c. Here d is the distance, and c the largest absolute
-/// coordinate of the shape and the moved vertices. For spheres and capsules, the width is that for
-/// the centre or segment, plus 4 ulp of `upper` for the subtraction of the radius.
+/// coordinate of the shape and the moved vertices. For spheres and capsules, this is the width for
+/// the centre or segment. The subtraction of the radius adds at most 4 ulp of `upper`.
 ///
 /// If the shape touches several triangles, any of them may be the result. Otherwise, among
 /// triangles with equal `upper`, the result is the one with the lowest number. Among triangles that
 /// are equally near in exact arithmetic, any may be the result, but always the same one.
 ///
-/// Needs Ask::touch. Visits every triangle in the worst case. A box that does not touch takes
-/// twelve triangle queries, each limited to the smallest distance found before. Never allocates.
+/// Needs Ask::touch. Visits every triangle in the worst case. A box that does not touch the model
+/// takes twelve searches: for two triangles on each of its six sides. Each search is limited to the
+/// smallest distance found before. Never allocates.
 [[nodiscard]] CDPREP_API std::optional<ShapeDistance> shape_distance(
     const Model& model, const Shape& shape, Workspace& workspace,
     const ShapeOptions& options = {}) noexcept;

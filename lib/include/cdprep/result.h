@@ -9,8 +9,8 @@
 
 namespace cdprep {
 
-/// The kind of a failure, for programs. The values are the exit codes of the `cdprep` command and
-/// the codes of the C API. Numbers are never reused.
+/// The kind of a failure, for programs. The values are exit codes of the `cdprep` command. They are
+/// also codes of the C API, except 4 and 130, which it never returns. Numbers are never reused.
 enum class ErrorCode : std::uint32_t {
     bad_argument = 2,   ///< an invalid argument: an option, a pose, an effect that is not baked
     unreadable = 3,     ///< input that cannot be read: missing, malformed, damaged
@@ -20,8 +20,8 @@ enum class ErrorCode : std::uint32_t {
     interrupted = 130,  ///< interrupted by the user
 };
 
-/// The reason why an operation failed. `message` is a whole sentence that can be shown to a person
-/// unchanged; programs switch on `code`.
+/// The reason why an operation failed. `message` is one or more whole sentences that can be shown
+/// to a person unchanged; programs switch on `code`.
 struct Error {
     ErrorCode code;
     std::string message;

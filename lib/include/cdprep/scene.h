@@ -55,8 +55,9 @@ struct SceneHit {
     Collision collision;
 };
 
-/// The distance of two objects. With LayerPair::max_error, its bounds are as wide as Rung says.
-/// With Rung::parts, it has no triangles, and its witnesses are those of parts.
+/// The distance of two objects. With LayerPair::max_error, its bounds are at most as wide as Rung
+/// states. If parts give the distance (Rung::parts), it has no triangles, and its witnesses lie on
+/// parts.
 struct SceneDistance {
     ObjectId a;
     ObjectId b;
@@ -64,7 +65,7 @@ struct SceneDistance {
     Distance distance;  ///< A is the object with the lower slot; witnesses are in the world
 };
 
-/// All pairs of triangles in which two objects overlap, in the order of TrianglePair.
+/// All pairs of overlapping triangles of two objects, in the order of TrianglePair.
 struct SceneOverlaps {
     ObjectId a;
     ObjectId b;
@@ -88,7 +89,7 @@ struct SceneImpact {
     Impact impact;  ///< times from 0 to 1; its nearest points are in the world
 };
 
-/// The distance of two objects, as far as the work of their pair of layers allows.
+/// The distance of two objects, or bounds of it if LayerPair::work does not suffice.
 struct SceneBoundedDistance {
     ObjectId a;
     ObjectId b;
@@ -106,7 +107,7 @@ struct SceneContacts {
     ObjectId b;
     std::uint32_t pair;
     std::span<const Contact> contacts;
-    ContactsVerdict verdict;  ///< what options.most and options.work left out
+    ContactsVerdict verdict;  ///< what `most` and `work` of LayerPair::contacts left out
 };
 
 enum class EventKind : std::uint32_t {
@@ -150,14 +151,15 @@ struct SceneCounts {
     std::uint64_t moved = 0;
     /// Pairs whose boxes meet, and objects that are tested against themselves.
     std::uint64_t candidates = 0;
-    std::uint64_t kept = 0;   ///< candidates in which no object moved: not queried again
-    std::uint64_t apart = 0;  ///< candidates whose root boxes are apart: no query runs
-    std::array<std::uint64_t, kSceneEffects.size()> calls{};  ///< by effect
-    /// The length of all lists of overlaps() and self_overlaps().
+    std::uint64_t kept = 0;   ///< candidates whose results were kept: no query runs
+    std::uint64_t apart = 0;  ///< candidates whose oriented boxes are apart: no query runs
+    std::array<std::uint64_t, kSceneEffects.size()> calls{};  ///< in the order of kSceneEffects
+    /// The total length of the lists of overlaps() and self_overlaps().
     std::uint64_t triangle_pairs = 0;
-    std::uint64_t contacts = 0;  ///< the length of all lists of contacts()
+    std::uint64_t contacts = 0;  ///< the total length of the lists of contacts()
 
     /// With Scene::set_clock(), the ticks of the queries of each effect, summed over all threads.
+    /// In the order of kSceneEffects.
     std::array<std::uint64_t, kSceneEffects.size()> ticks{};
     /// The ticks of the stages of a step, one after the other. They add up to the whole step.
     std::uint64_t box_ticks = 0;    ///< of boxes, the broad phase and the reuse of results
@@ -178,12 +180,13 @@ struct SceneStep {
     std::uint64_t needed_contacts = 0;        ///< of SceneLimits::contacts, likewise
 };
 
-/// Many objects that move. A step runs the plan's queries for pairs of objects near each other, if
-/// one of the two has moved.
+/// Many objects that move. A step runs the plan's queries for pairs of objects near each other. If
+/// nothing about a pair has changed since the last step, its results are kept.
 ///
 /// Results are sorted by the slots of a and b. They do not depend on threads. Without
 /// LayerPair::max_error, they equal those of single queries with Placement::world. They stay valid
-/// until the next step that is complete. After construction nothing is allocated.
+/// until the next step that is complete. After construction nothing is allocated, unless
+/// Motion::between() rejects a motion of a step.
 ///
 ///     cdprep::Scene scene(plan);
 ///     const auto crate = scene.add({.model = &model, .layer = 1, .world_from_model = pose});
@@ -208,14 +211,16 @@ public:
     CDPREP_API ~Scene();
 
     /// Adds an object to the lowest free slot. Returns nothing if the scene is full. Stops the
-    /// program if the layer is unknown, or the model does not serve what the layer asks for.
+    /// program if the model is null, the layer is unknown, or the model does not serve what the
+    /// layer asks for.
     CDPREP_API std::optional<ObjectId> add(const SceneObject& object) noexcept;
-    /// Removes an object. The next step ends its events. Returns false if there is none with this
-    /// id.
+    /// Removes an object. The next step lists the end of each effect that held for it. Returns
+    /// false if there is none with this id.
     CDPREP_API bool remove(ObjectId object) noexcept;
     /// Moves an object. Returns false if there is none with this id. For `continuous`, the object's
-    /// way begins at its pose in the last complete step. After put(), the way begins at the pose of
-    /// put(). The motion is that of Motion::between(), about the centre of the model's box.
+    /// way begins at its pose in the last complete step. If add() or put() was called since then,
+    /// the way begins at the pose of that call. The motion is that of Motion::between(), about the
+    /// centre of the model's box.
     CDPREP_API bool set_pose(ObjectId object, const Pose& world_from_model) noexcept;
     /// Puts an object at a pose, without a way for `continuous`. Returns false if there is none
     /// with this id.
@@ -225,10 +230,12 @@ public:
     CDPREP_API bool set_layer(ObjectId object, std::uint32_t layer) noexcept;
 
     /// Pauses these effects from the next step on, and resumes all others. Paused effects are not
-    /// computed, and their events end. Effects that the plan does not ask for stay as they are.
+    /// computed. If one held, the next step lists its end. Effects that the plan does not ask for
+    /// are ignored.
     CDPREP_API void set_paused(Ask effects) noexcept;
 
-    /// Sets the clock for the ticks of SceneCounts. Null, the initial value: no clock is read.
+    /// Sets the clock for the ticks of SceneCounts. With null, the initial value, no clock is read,
+    /// and the ticks are 0.
     CDPREP_API void set_clock(SceneClock clock) noexcept;
 
     /// Computes the effects of all objects as they are now. Uses as many workspaces as
@@ -236,16 +243,16 @@ public:
     CDPREP_API SceneStep step(std::span<Workspace> workspaces,
                               ParallelFor parallel_for = serial_for) noexcept;
     /// Does the same as step(), with pairs of slots that the caller's own broad phase found. The
-    /// pairs may have any order, and so may the two slots of a pair. They must contain all pairs
-    /// whose boxes meet: the scene does not find missing pairs. Pairs of free slots, of layers that
-    /// are not paired and of boxes that do not meet are ignored. If pairs are listed twice,
-    /// needed_pairs may be larger than necessary.
+    /// pairs may have any order, and so may the two slots of a pair. They must contain all pairs of
+    /// paired layers whose boxes meet: the scene does not find missing pairs. Pairs of free slots,
+    /// of layers that are not paired and of boxes that do not meet are ignored. If pairs are listed
+    /// twice, needed_pairs may be larger than necessary.
     CDPREP_API SceneStep step_with(std::span<const BoxPair> candidates,
                                    std::span<Workspace> workspaces,
                                    ParallelFor parallel_for = serial_for) noexcept;
     /// Returns the box of each slot in the next step, for the broad phase of step_with(). Boxes are
     /// relative to the plan's origin. With `continuous`, a box contains the whole way. Free slots
-    /// have absent boxes, and so have objects whose layer is paired with none.
+    /// have absent boxes, and so do objects of a layer without effects of two objects.
     [[nodiscard]] CDPREP_API std::span<const WorldBox> boxes() noexcept;
 
     [[nodiscard]] CDPREP_API std::span<const SceneHit> hits() const noexcept;
@@ -255,7 +262,8 @@ public:
     [[nodiscard]] CDPREP_API std::span<const SceneImpact> impacts() const noexcept;
     [[nodiscard]] CDPREP_API std::span<const SceneBoundedDistance> bounded_distances()
         const noexcept;
-    /// If options.work ended the search for two objects, they are listed without contacts.
+    /// If LayerPair::contacts.work ended the search for two objects, they are listed even without
+    /// contacts.
     [[nodiscard]] CDPREP_API std::span<const SceneContacts> contacts() const noexcept;
     /// The events of the last step that was complete, in the order of hits. For the same objects,
     /// ends come before stays, and stays before begins.
@@ -268,11 +276,14 @@ public:
     [[nodiscard]] CDPREP_API std::optional<SceneObject> find(ObjectId object) const noexcept;
     /// Returns the object in a slot, or an id with generation 0 if there is none.
     [[nodiscard]] CDPREP_API ObjectId object_at(std::uint32_t slot) const noexcept;
-    /// Returns a hash of all hits, lists, distances, impacts and events. It leaves out witness
-    /// points, features, the coordinates of manifold points, and the bounds of impacts. For
-    /// distances of 0 and for `haptic`, it leaves out the triangles. The hash is equal for any
-    /// number of threads and any instruction set. Three kinds of answers may differ between
-    /// instruction sets: those of `haptic`, those with a max_error, and impacts that are `near`.
+    /// Returns a hash of the results, to compare runs. Of distances, it leaves out the witnesses
+    /// and, for distances of 0, the triangles. Of bounded distances, it includes the objects,
+    /// `is_complete` and the bounds only. Of impacts, it includes the objects and the kind only. Of
+    /// contacts, it leaves out features, `members` and the coordinates of manifold points. Of
+    /// ContactsVerdict, it includes `found` only. The hash is equal for any number of threads and
+    /// any instruction set, with three exceptions: answers of `haptic`, those with a max_error, and
+    /// impacts that are `near`. These may differ between instruction sets. Impacts, and winding
+    /// numbers of unknown containment, also depend on the C library.
     [[nodiscard]] CDPREP_API std::uint64_t state_hash() const noexcept;
 
 private:

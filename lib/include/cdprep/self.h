@@ -21,8 +21,8 @@ struct SelfOptions {
 /// Returns the number of pairs. Stores the first of them in `room`, in the order of (a, b), by the
 /// rules of overlaps(). With an empty span it only counts.
 ///
-/// Triangles share a vertex if they use one vertex number of the model. A bake merges vertices with
-/// equal positions into one. Two vertices of a LiveModel may move to one position later. They
+/// Triangles share a vertex if they use the same vertex number of the model. A bake merges vertices
+/// with equal positions into one. Two vertices of a LiveModel may move to one position later. They
 /// remain two vertices, so triangles that touch there are a pair. Triangles that share a vertex are
 /// in no pair, even if they overlap, as in a flat fold. In a torn LiveModel, only the present
 /// triangles are in pairs.
@@ -31,9 +31,9 @@ struct SelfOptions {
 /// every machine and in every floating-point environment of the caller. An empty model has no
 /// pairs.
 ///
-/// Reads both options. Needs Ask::overlap and Ask::corners. A file baked for overlap alone may lack
-/// the numbers of vertices. Takes O(n + pairs) time for typical meshes, O(n^2) in the worst case.
-/// Never allocates.
+/// Reads both options. Needs Ask::overlap and Ask::corners. Ask::corners covers the numbers of
+/// vertices, which Ask::overlap does not require. Takes O(n + pairs) time for typical meshes,
+/// O(n^2) in the worst case. Never allocates.
 [[nodiscard]] CDPREP_API std::size_t self_overlaps(const Model& model, Workspace& workspace,
                                                    std::span<TrianglePair> room,
                                                    const SelfOptions& options = {}) noexcept;

@@ -31,8 +31,8 @@ public:
     /// Returns the number of bytes that in() takes: 24 per vertex and about 4 per triangle.
     [[nodiscard]] CDPREP_API static std::size_t bytes(const Model& model) noexcept;
 
-    /// Makes the sweep of a model that deforms in place, such as that of a LiveModel. The model
-    /// must outlive it. `memory` must start at a multiple of format::kSectionAlignment. Returns
+    /// Makes the sweep of a model that deforms in place, such as LiveModel::model(). The model must
+    /// outlive the sweep. `memory` must start at a multiple of format::kSectionAlignment. Returns
     /// nothing if `memory` is too small or misaligned. Needs Ask::within and Ask::corners of the
     /// model. At first, nothing moves.
     [[nodiscard]] CDPREP_API static std::optional<Sweep> in(std::span<std::byte> memory,
@@ -44,11 +44,12 @@ public:
     /// Ends the step: the positions of the model are those at time 1. A triangle that was appended
     /// within the step starts at its vertices' positions at time 0. Vertices that had no position
     /// start where the first vertex of the base was. If the base was empty, they start at the
-    /// origin. A triangle that was removed within the step is nowhere. Takes O(n) time.
+    /// origin. A triangle that was removed within the step is left out. Takes O(n) time.
     CDPREP_API void end() noexcept;
 
     /// Returns whether queries may use the sweep. The step must have ended, and the model must be
-    /// as it was then: neither moved, nor torn, nor rebuilt.
+    /// as it was then: neither moved, nor torn, nor rebuilt. LiveModel::image() counts as a change,
+    /// too.
     [[nodiscard]] CDPREP_API bool is_current() const noexcept;
 
     [[nodiscard]] const Model& model() const noexcept {

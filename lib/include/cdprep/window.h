@@ -22,9 +22,9 @@ struct WindowLimits {
 
 /// The content of a window.
 struct WindowFill {
-    /// Everything of A at most this far from B is in the window, model units. Less than requested
-    /// if the window is too small. Negative if not even everything at distance 0 fits: then the
-    /// window is empty.
+    /// The radius, in model units: everything of A at most this far from B is in the window. It is
+    /// less than requested if the window is too small. It is negative if not even everything at
+    /// distance 0 fits: then the window is empty.
     double radius = -1;
     std::uint32_t leaves = 0;  ///< in the window
 };
@@ -45,9 +45,9 @@ struct WindowFill {
 /// margin() >= 0. within() and pairs_within() are complete if margin() is at least the tolerance.
 /// Window::distance() reports whether its answer is complete.
 ///
-/// Each fill() copies O(leaves) bytes: 430 for a leaf, or 1,000 if A keeps doubles. The caller
-/// keeps two windows: the slow loop fills one while the fast loop reads the other, as in
-/// samples/haptic.cpp. A window must not be read while it is filled.
+/// Each fill() copies O(leaves) bytes: 430 for a leaf, or 1,000 if a coordinate of A is not a
+/// float. The caller keeps two windows: the slow loop fills one while the fast loop reads the
+/// other, as in samples/haptic.cpp. A window must not be read while it is filled.
 ///
 /// Move-only; a move leaves the window's bytes in place. A window that was moved from may only be
 /// destroyed or assigned to. Const members, and queries about model(), may run on any number of
@@ -66,9 +66,9 @@ public:
     [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const WindowLimits& limits);
 
     /// Makes an empty window. `memory` must start at a multiple of format::kSectionAlignment and
-    /// stay in place while the window lives. Writes all of `memory`, so that no later fill is the
-    /// first to touch a page. Allocates. Fails with `bad_argument` if `memory` is too small or
-    /// misaligned, or if there are no leaves, or more than kMostWindowLeaves.
+    /// stay in place while the window lives. Writes all the bytes that it takes, so that no later
+    /// fill is the first to touch a page. Allocates. Fails with `bad_argument` if `memory` is too
+    /// small or misaligned. Also fails if limits.leaves is 0 or exceeds kMostWindowLeaves.
     [[nodiscard]] CDPREP_API static Result<Window> in(std::span<std::byte> memory,
                                                       const WindowLimits& limits);
 
@@ -80,13 +80,14 @@ public:
     /// model units. If they do not fit, halves the radius until they do, then bisects four times
     /// between the last two radii. After 20 halvings, it tries the radius 0. An infinite radius
     /// requests all leaves. A negative radius or NaN gives an empty window. pair.a may be baked or
-    /// live, or the model of another window. Reads no other part of the pair.
+    /// live, or the model of another window. Of the pair, reads only the models and their
+    /// placement.
     ///
     /// Needs Ask::distance of both models. Takes O(log n + leaves log m) time for n triangles of A
     /// and m of B. Never allocates.
     CDPREP_API WindowFill fill(const Pair& pair, double radius) noexcept;
 
-    /// Returns what the last fill() returned.
+    /// Returns what the last fill() returned. Before the first one, the radius is negative.
     [[nodiscard]] CDPREP_API WindowFill filled() const noexcept;
 
     /// Returns the model to query. It is the same object after each fill().
@@ -99,7 +100,8 @@ public:
     /// fill and of this call may be of any kind.
     ///
     /// Negative if the probe has moved too far. Minus infinity for another probe, or one that has
-    /// deformed since. Infinity if A or the probe is empty. Takes O(1) time.
+    /// deformed since, or if filled().radius is negative. For the probe of the fill, infinity if
+    /// filled().radius is infinite or A was empty. Infinity for an empty probe. Takes O(1) time.
     [[nodiscard]] CDPREP_API double margin(const Model& probe,
                                            const Placement& placement) const noexcept;
 
@@ -110,9 +112,9 @@ public:
     /// is less than margin(). Also complete if triangles touch, but then the answer may name
     /// another touching pair than an answer about A. Apart from that, a complete answer is the
     /// answer about A, bit for bit if no errors are permitted. The bounds of an incomplete answer
-    /// are those of the window, with `lower` at most margin(). Reads the same options as
-    /// bounded_distance(), and needs the same Ask. Takes as long as bounded_distance() of the
-    /// window. Never allocates.
+    /// are those of the window, with `lower` at most margin(), or 0 if margin() is negative. Reads
+    /// the same options as bounded_distance(), and needs the same Ask. Takes as long as
+    /// bounded_distance() of the window. Never allocates.
     [[nodiscard]] CDPREP_API BoundedDistance
     distance(const Pair& pair, Workspace& workspace, const DistanceOptions& options = {},
              const DistanceBudget& budget = {}) const noexcept;

@@ -29,8 +29,8 @@ public:
     CDPREP_API explicit Workspace(const CellSearches& cells);
 
     /// Makes a workspace in the caller's memory, which must outlive it. Allocates nothing. Returns
-    /// nothing if the memory is smaller than size() or not aligned to alignment(). With null cells,
-    /// the workspace serves the same queries as Workspace().
+    /// nothing if the memory is smaller than size(cells) or not aligned to alignment(). With null
+    /// `cells`, the workspace serves the same queries as Workspace().
     [[nodiscard]] CDPREP_API static std::optional<Workspace> in_memory(
         std::span<std::byte> memory, const CellSearches* cells = nullptr) noexcept;
     /// Returns the least size of the memory for in_memory(), in bytes.

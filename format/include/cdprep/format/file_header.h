@@ -69,7 +69,7 @@ enum ModelFlags : std::uint32_t {
     return kind == SweptKind::line ? model_swept_lines : 0U;
 }
 
-/// The up direction of the imported file. Data only: nothing is rotated.
+/// The up direction of the imported file. It is only recorded: nothing is rotated.
 enum class UpAxis : std::uint32_t { unknown = 0, x = 1, y = 2, z = 3 };
 
 /// The start of the file. The section table follows at byte 256.
@@ -88,7 +88,8 @@ struct FileHeader {
     /// header's facts about the model. The same input, options and tool version give the same hash.
     std::uint64_t content_hash;
     /// Bytes 8 to 47 of the HDF5 superblock. Another HDF5 tool that rewrites the file moves the
-    /// sections but copies the user block. Then this field no longer matches the superblock.
+    /// sections but copies the user block. Then this field no longer matches the superblock. Images
+    /// that build_image() makes have no HDF5 part: this field is zero, and so are the bytes there.
     std::array<std::uint8_t, 40> superblock;
     std::uint32_t section_count;
     std::uint32_t required_features;  ///< a reader refuses unknown bits; 0 in this version
@@ -96,13 +97,16 @@ struct FileHeader {
     std::uint32_t triangle_count;
     std::uint32_t flags;  ///< ModelFlags
     UpAxis up_axis;
-    double metres_per_unit;       ///< length of one model unit; 0 if unknown
+    double metres_per_unit;       ///< length of one model unit; 0 if unknown or normalised
     Double3 frame_origin;         ///< model units
     std::int32_t frame_exponent;  ///< exponent of two
     std::uint32_t reserved0;      ///< zero
-    /// With model_normalized: model = (source - offset) * factor.
+    /// With model_normalized: model = (source - offset) * factor, up to rounding to float. The
+    /// offset is the middle of the source's bounding box, and the factor is 1 / its diagonal. The
+    /// factor is 1 if 1 / diagonal is not finite. Without model_normalized, or without triangles,
+    /// both are 0.
     Double3 normalize_offset;
-    double normalize_factor;                ///< 1 / diagonal of the source's bounding box
+    double normalize_factor;
     std::array<std::uint8_t, 72> reserved;  ///< zero; readers ignore it
 };
 

@@ -24,37 +24,41 @@ enum class DamageKind : std::uint32_t {
     bad_header = 6,        ///< the header's checksum does not match, or a field is out of range
     rewritten = 7,         ///< the HDF5 superblock does not match the header
     unknown_feature = 8,   ///< found: feature bits; limit: those that this version knows
-    bad_section = 9,       ///< a section overlaps another, is misaligned or out of order, ends past
-                           ///< the file's end, has a wrong element size or must be absent
+    bad_section = 9,       ///< a section must be absent, has a wrong element size, is misaligned
+                           ///< or out of order, or ends past the file's end. Or it overlaps another
+                           ///< one or the user block, or is empty but has an offset.
     missing_section = 10,  ///< a section that another one requires is missing
     bad_checksum = 11,     ///< found: checksum of the bytes; limit: the one in the table
     bad_count = 12,        ///< found: elements; limit: the number that the other facts require
-    bad_index = 13,        ///< found: index; limit: the largest one allowed
+    bad_index = 13,        ///< found: index, level, enumerator or flags; limit: the largest allowed
     bad_number = 14,       ///< a number is not finite, or is out of range
-    bad_order = 15,        ///< runs or nodes out of sequence, or a name without a zero at its end
+    bad_order = 15,        ///< runs, nodes or lists out of sequence, links that contradict each
+                           ///< other, or names that do not end with a zero
     bad_box = 16,          ///< deep check: a box does not contain what lies below it. Safety check:
-                           ///< an octree's box has lower > upper or leaves the frame, or a split
-                           ///< point lies outside its node's box.
-    bad_fact = 17,         ///< deep check: a recorded fact (flag, component, bounds) is false
+                           ///< an octree's box has lower > upper or leaves the frame. Or a split
+                           ///< point lies outside its node's box, divides no axis, or is not zero
+                           ///< in a leaf.
+    bad_fact = 17,         ///< deep check: a recorded fact is false (corner, bounds, hash, number)
 };
 
 /// One piece of damage: its place, the number found and the number allowed.
 struct Damage {
     DamageKind kind;
-    SectionId section;    ///< 0 if it concerns the user block
+    SectionId section;    ///< 0 if the damage concerns no section
     std::uint64_t at;     ///< offset in the file, in bytes
     std::uint64_t found;  ///< see DamageKind
     std::uint64_t limit;  ///< see DamageKind, inclusive
 };
 
 /// Returns the damage for an element that contradicts the geometry: DamageKind::bad_fact at element
-/// `index` of a section.
+/// `index` of a section. Damage::at is 0 if the file lacks the section. `file` must have passed
+/// find_header_damage().
 [[nodiscard]] CDPREP_API Damage wrong_fact(std::span<const std::byte> file, SectionId section,
                                            std::uint64_t index, std::uint64_t found,
                                            std::uint64_t expected) noexcept;
 
-/// Returns a sentence for people. It states the file, the damage, the number found, the number
-/// allowed, and the next step.
+/// Returns a message for people: the file, the damage and the next step. For most kinds of damage,
+/// it also states the number found and the number allowed.
 [[nodiscard]] CDPREP_API std::string damage_sentence(std::string_view file, const Damage& damage);
 
 /// Checks only the header, the section table and the 40 superblock bytes that the header repeats.
@@ -65,9 +69,11 @@ struct Damage {
     std::span<const std::byte> file) noexcept;
 
 /// Proves that a file is safe to query. Runs find_header_damage(). Then checks each present section
-/// in `wanted`: its checksum, its element count, every index and every coordinate. Vertex
-/// coordinates must be finite and at most kMaxCoordinate in absolute value. A section that a
-/// present one requires must be present too, wanted or not. Returns nothing if no damage is found.
+/// in `wanted`: its checksum, its element count, every coordinate, and every index that queries
+/// follow. Numbers in the imported file, such as source_vertex, are not checked. Vertex coordinates
+/// must be finite and at most kMaxCoordinate in absolute value. A section that a present one
+/// requires must be present too, wanted or not. The one exception: missing boxes of a tetra-tree
+/// are found only if the tetra-tree is wanted. Returns nothing if no damage is found.
 ///
 /// Sections outside `wanted` are not read. Sections that depend on each other are checked together,
 /// such as an octree's tables, nodes, grid and references. If `wanted` lacks a section on which
@@ -84,8 +90,8 @@ struct Damage {
 /// The bounds in the BVHs contain what lies below them. Aligned boxes are checked in exact
 /// arithmetic, oriented boxes and swept spheres in double precision. The tree order is a
 /// permutation of the source triangles. Each triangle belongs to one piece, and to one leaf of the
-/// BVH over pieces. Every triangle with a repeated corner is marked in degenerate_bits. The corners
-/// in bvh_leaves, the model's bounds and the content hash are right.
+/// BVH over pieces. Every triangle with a repeated corner is marked in degenerate_bits. The model's
+/// aligned bounds contain every vertex. The content of bvh_leaves and the content hash are right.
 ///
 /// Other facts, such as octrees and hulls, are checked by `cdprep info --deep`. Copies the sections
 /// that it compares. Takes O(bytes * levels of the BVH) time.

@@ -42,7 +42,7 @@ namespace cdprep::format {
 }
 
 /// Sets the register to a value that float_control() returned. Never inlined, so the compiler moves
-/// no arithmetic across the call.
+/// no access to shared memory across the call. It may move arithmetic on values in registers.
 CDPREP_API void set_float_control(std::uint64_t control) noexcept;
 
 /// Sets the default value of the register; see is_default_float_control().
@@ -71,8 +71,8 @@ public:
     FloatEnvironment(const FloatEnvironment&) = delete;
     FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
-    /// Runs call() in the caller's environment and returns its result. It serves visitors and
-    /// hooks. A mode that call() sets stays set for the caller.
+    /// Runs call(), a visitor or hook of the caller, in the caller's environment. Returns its
+    /// result. A mode that call() sets stays set for the caller.
     template <class Call>
     decltype(auto) outside(Call&& call) {
 #if defined(__GNUC__)

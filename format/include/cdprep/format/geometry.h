@@ -30,12 +30,11 @@ struct Triangle {
 
 /// Eight boxes side by side, ready for eight SIMD lanes: row = axis, column = box.
 ///
-/// Box j of node i of level 0 contains the eight triangles from 8 (8i + j) on, in tree order. Box j
-/// of node i of level l > 0 contains node 8i + j of level l - 1. So there are no child links. The
-/// triangle count alone fixes the shape (bvh_shape.h), and no file can contain a cycle. Nodes are
-/// stored level by level, root first. Box j is unused if the level below has no node 8i + j. For
-/// level 0, the level below consists of the leaves, of up to eight triangles each. Unused boxes
-/// have lower = 1, upper = -1.
+/// Box j of node i of level 0 contains leaf 8i + j: up to eight triangles from 8 (8i + j) on, in
+/// tree order. Box j of node i of level l > 0 contains node 8i + j of level l - 1. So there are no
+/// child links. The triangle count alone fixes the shape (bvh_shape.h), and no file can contain a
+/// cycle. Nodes are stored level by level, root first. Box j is unused if there is no leaf or node
+/// 8i + j below. Unused boxes have lower = 1, upper = -1.
 ///
 /// Coordinates are frame coordinates, (x - frame_origin) * 2^frame_exponent (FileHeader), rounded
 /// outwards. Every vertex of every triangle below lies in the box in exact arithmetic. So a reader
@@ -90,13 +89,13 @@ struct SweptNode {
 /// The corners of the eight triangles of one leaf, ready for eight lanes.
 ///
 /// With model_exact_leaves (FileHeader), corners and origin are in model coordinates. The corners
-/// are then the floats of positions_f32, without loss. Otherwise the origin is in frame
-/// coordinates, and `corner` is the frame coordinate minus the origin, rounded to float. Lanes past
-/// the last triangle repeat it.
+/// are then the vertices' coordinates without loss. Otherwise the origin is in frame coordinates,
+/// and `corner` is the frame coordinate minus the origin, rounded to float. Lanes past the last
+/// triangle repeat it.
 struct BvhLeaf {
     std::array<std::array<std::array<float, kBvhWidth>, 3>, 3> corner;  ///< [corner][axis][lane]
     std::array<float, 3> origin;                                        ///< near the leaf's middle
-    std::array<float, 3> half;  ///< >= |corner - origin| along each axis, frame units
+    std::array<float, 3> half;  ///< >= distance of corners from origin, by axis; frame units
     std::uint32_t count;        ///< triangles, 1 to 8
     std::uint32_t reserved;     ///< zero
 };
@@ -142,7 +141,8 @@ struct MassProperties {
 /// A use of one mesh by one node of the imported scene.
 ///
 /// Its triangles are a run of source numbers, from first_triangle on. Runs are consecutive, without
-/// gaps, and cover all triangles. Instances with equal `mesh` numbers use one mesh.
+/// gaps, and cover all triangles. Instances with equal `mesh` numbers use one mesh. Triangles that
+/// a repair added form the last instance, with a `mesh` number of its own.
 struct Instance {
     std::array<double, 12> model_from_node;  ///< 3 x 4, row by row; already applied to positions
     std::uint32_t mesh;                      ///< number of the mesh in the imported file

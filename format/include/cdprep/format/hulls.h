@@ -21,7 +21,7 @@ enum class HullScope : std::uint32_t {
 
 /// Bits of Hull::flags.
 enum HullFlags : std::uint32_t {
-    hull_exact = 1,  ///< all points are mesh vertices; otherwise the hull contains the exact one
+    hull_exact = 1,  ///< all points are mesh vertices; otherwise the hull contains the exact hull
 };
 
 /// A convex hull. In dimension 3 it is a closed polyhedron, in 2 a two-sided polygon. In 1 it is a
@@ -31,7 +31,7 @@ enum HullFlags : std::uint32_t {
 /// farther than `distance` from the exact hull, in model units. No point of a part is farther than
 /// `distance` from the surface and its interior. In each section, the elements of a hull directly
 /// follow those of the previous hull. Indices in these elements count from the hull's own first
-/// element.
+/// element, except the vertex numbers in hull_vertices.
 struct Hull {
     HullScope scope;
     std::uint32_t number;  ///< of the component, instance or part; 0 for the whole
@@ -67,7 +67,8 @@ struct HullGroup {
 /// The number of directions with a stored start point for hill climbing. They point to the middles
 /// of 8 x 8 cells on each face of a cube.
 inline constexpr std::uint32_t kHullStarts = 6 * 8 * 8;
-/// The value in hull_vertices for a point that is not a vertex of the imported file.
+/// The value in hull_vertices for a point that is not a vertex of the imported file, and for lanes
+/// past the last point.
 inline constexpr std::uint32_t kNoVertex = 0xffffffffU;
 
 static_assert(sizeof(Hull) == 88 && alignof(Hull) == 8);

@@ -18,10 +18,10 @@ using UserBlock = std::array<std::byte, kUserBlockSize>;
 
 /// Returns the first 4,096 bytes of a file.
 ///
-/// Takes the facts about the model from `facts`: counts, flags, units, frame and normalisation.
-/// Fills in the other fields: magic, version, marks, sizes, hashes, superblock and section count.
-/// `sections` has at most kMaxSections entries, complete with checksums and sorted by id.
-/// `superblock` holds the file's bytes 4,104 to 4,143.
+/// Takes the facts about the model from `facts`: required features, counts, flags, up axis, units,
+/// frame and normalisation. Fills in the other fields: magic, version, marks, file size, hashes,
+/// superblock and section count. `sections` has at most kMaxSections entries, complete with
+/// checksums and sorted by id. `superblock` holds the file's bytes 4,104 to 4,143.
 [[nodiscard]] CDPREP_API UserBlock make_user_block(const FileHeader& facts,
                                                    std::span<const SectionEntry> sections,
                                                    std::span<const std::byte, 40> superblock,

@@ -88,14 +88,16 @@ constexpr std::uint64_t mixed_slot(std::uint64_t key, std::uint32_t slot_bits) n
 
 /// The rule by which an adaptive octree chooses split points.
 enum class SplitRule : std::uint32_t {
-    median = 0,        ///< along each axis, the median of the midpoints of the triangles' boxes
-    surface_area = 1,  ///< along each axis, the one of 15 planes with least area times triangles
+    median = 0,        ///< along each axis, the median of the midpoints of the triangles' boxes,
+                       ///< clipped to the cell; the cell's middle if the median is on its boundary
+    surface_area = 1,  ///< along each axis, one of 15 planes: that with the least sum, over both
+                       ///< sides, of surface area times triangles
 };
 
 /// The box that an adaptive octree divides, and its settings. Each inner node of this octree has
 /// its own split point.
 struct AdaptiveOctree {
-    Double3 lower;  ///< of the root's closed box, the model's bounding box; model units
+    Double3 lower;  ///< of the root's closed box, the triangles' bounding box; model units
     Double3 upper;
     std::uint32_t level;      ///< no node is deeper; at most kOctreeBits
     std::uint32_t threshold;  ///< a cell with fewer triangles is not divided

@@ -38,7 +38,8 @@ enum class TetraBounding : std::uint32_t {
 enum TetraTreeFlags : std::uint32_t {
     tetra_centre_inside = 1,  ///< a ray from the centre crosses the surface more often in one
                               ///< direction (inwards or outwards) than in the other. If the mesh
-                              ///< is balanced, the winding number at the centre is then not 0
+                              ///< is balanced, the winding number at the centre is then not 0.
+                              ///< Not set together with tetra_centre_on
     tetra_centre_on = 2,      ///< a triangle contains the centre
 };
 
@@ -53,7 +54,7 @@ enum TetraTreeFlags : std::uint32_t {
 /// On level l, the coordinates of generators are integers divided by 2^l. So the test whether a
 /// cone contains a point is exact.
 struct TetraTree {
-    Double3 centre;           ///< C: the mean of the vertices, rounded; model units
+    Double3 centre;           ///< C: the mean of the triangles' vertices, rounded; model units
     std::uint32_t level;      ///< no cone is deeper; at most kMaxTetraLevel
     std::uint32_t threshold;  ///< a cone with fewer triangles is not split
     std::uint32_t top_level;  ///< the level of the cones in tetra_top; at most `level`
@@ -70,8 +71,8 @@ enum TetraNodeFlags : std::uint32_t {
     tetra_inner = 0x10,    ///< has children; a leaf lacks this bit
 };
 
-/// A cone that some triangle touches. Nodes are sorted by `key` and so stored level by level. The
-/// octants, keys 8 to 15, come first.
+/// A cone that is touched by a triangle that does not contain the centre. Nodes are sorted by `key`
+/// and so stored level by level. The octants, keys 8 to 15, come first.
 struct TetraNode {
     /// 8 + octant, then two bits per split. Bits 0, 1 and 2 of the octant stand for x, y and z. A
     /// bit is set if that coordinate is negative. The parent is key >> 2.
@@ -79,9 +80,9 @@ struct TetraNode {
     std::uint32_t first;  ///< leaf: its first reference; inner node: its first child
     std::uint32_t count;  ///< leaf: references; inner node: children
     /// The least and greatest distance n . (x - C) from the centre C along n. x ranges over the
-    /// points of the triangles in the closed cone. n is the octant's (+-1, +-1, +-1) / sqrt(3).
-    /// Frame units (2^FileHeader::frame_exponent), rounded outwards. radius_min is 0 with
-    /// TetraBounding::tetra.
+    /// points of the triangles in the closed cone, without those triangles that contain C. n is the
+    /// octant's (+-1, +-1, +-1) / sqrt(3). Frame units (model units *
+    /// 2^FileHeader::frame_exponent), rounded outwards. radius_min is 0 with TetraBounding::tetra.
     float radius_min;
     float radius_max;
     std::uint32_t flags;  ///< TetraNodeFlags
@@ -95,10 +96,10 @@ struct TetraNode {
 /// as exactly as the boxes in geometry.h contain vertices. An inner node's aligned box is the box
 /// around its children's aligned boxes.
 ///
-/// Each box is stored twice. So the boxes of up to four children lie side by side in one element,
-/// wherever the children begin. The index of that element is the first child's index divided by the
-/// stride, rounded down. The boxes of octants lie in element 0. Lanes past the last node hold
-/// unused boxes.
+/// The boxes of nodes 0 to 3 are stored once, all others twice. So the boxes of up to four children
+/// lie side by side in one element, wherever the children begin. The index of that element is the
+/// first child's index divided by the stride, rounded down. The boxes of octants lie in element 0.
+/// Lanes past the last node hold unused boxes.
 inline constexpr std::uint32_t kTetraBoxStride = 4;
 
 /// Returns the number of elements of tetra_boxes, and of tetra_oriented, for `nodes` nodes.

@@ -15,13 +15,14 @@ namespace cdprep::format {
 enum VerdictFacts : std::uint32_t {
     verdict_closed = 1,               ///< every edge is used by two triangles or more
     verdict_two_manifold = 2,         ///< at most two triangles per edge, one fan per vertex
-    verdict_oriented = 4,             ///< triangles traverse common edges in opposite directions
+    verdict_oriented = 4,             ///< where an edge has exactly two triangles, they traverse it
+                                      ///< in opposite directions
     verdict_orientable = 8,           ///< some choice of windings would make it oriented
     verdict_balanced = 16,            ///< directed uses of every edge cancel: winding numbers exist
     verdict_inverted = 32,            ///< balanced, and its signed volume is negative
     verdict_crossings_examined = 64,  ///< self_crossing was decided
-    verdict_self_crossing = 128,      ///< triangles cross, touch, or overlap in a plane where
-                                      ///< they are not neighbours
+    verdict_self_crossing = 128,      ///< triangles meet outside their common vertices and edges,
+                                      ///< or coincide
 };
 
 /// Bits of Verdict::promises: guarantees for queries on the mesh.
@@ -40,12 +41,14 @@ enum VerdictPromises : std::uint32_t {
 };
 
 /// The facts and promises of the whole mesh or of a component. The first verdict of the section is
-/// that of the mesh. Those of the components follow, in the order of their lowest triangle number.
+/// that of the mesh. Those of the components follow, in the order of `first_triangle`. Triangles
+/// that repeat a corner join no components and form none.
 struct Verdict {
     std::uint32_t facts;           ///< VerdictFacts
     std::uint32_t promises;        ///< VerdictPromises
     std::uint32_t triangle_count;  ///< including those that repeat a corner
-    std::uint32_t first_triangle;  ///< the lowest source number; 0 if there is none
+    std::uint32_t first_triangle;  ///< lowest source number of a triangle that repeats no corner;
+                                   ///< 0 if there is none
     std::uint32_t boundary_loops;  ///< holes, counted as loops of edges with one triangle
     std::int32_t euler;            ///< V - E + F, over the triangles that repeat no corner
     std::int32_t genus;            ///< handles of a closed orientable 2-manifold; otherwise -1

@@ -89,12 +89,12 @@ struct BvhOptions {
 /// options.quality and options.bounds. It is the same, byte for byte, for any parallel_for,
 /// standard library and machine.
 ///
-/// Triangles may be degenerate or equal. Triangles are split by number if the middles of their
-/// boxes agree to 2^-100 in box coordinates. Coordinates in `positions` must be finite and at most
-/// format::kMaxCoordinate in magnitude.
+/// Triangles may be degenerate or equal. Triangles whose boxes have equal middles are split by
+/// number. Coordinates in `positions` must be finite and at most format::kMaxCoordinate in
+/// magnitude.
 ///
 /// Takes O(n log n) time and 64 bytes of scratch memory per triangle, or 32 with Quality::fast.
-/// tests/bench/build_bvh_bench measures both.
+/// tests/bench/build_bvh_bench measures the time.
 [[nodiscard]] CDPREP_API Bvh build_bvh(std::span<const format::Double3> positions,
                                        std::span<const format::Triangle> triangles,
                                        const BvhOptions& options = {});
@@ -107,8 +107,9 @@ CDPREP_API void rebuild_bvh(Bvh& bvh, std::span<const format::Double3> positions
 
 /// Returns the cost of a BVH by the surface-area heuristic. It is the sum of the areas of all used
 /// boxes, divided by the area of the box around everything. It equals the expected number of boxes
-/// that a random line through that box crosses. Returns 0 if there are no triangles or all lie on a
-/// line. Lower is better. Compare only BVHs over the same triangles. Takes O(nodes) time.
+/// that a random line through that box crosses. Returns 0 if there are no triangles, or if all lie
+/// on a line parallel to a coordinate axis. Lower is better. Compare only BVHs over the same
+/// triangles. Takes O(nodes) time.
 [[nodiscard]] CDPREP_API double surface_cost(const Bvh& bvh) noexcept;
 [[nodiscard]] CDPREP_API double surface_cost(std::span<const format::BvhNode> nodes) noexcept;
 

@@ -63,7 +63,8 @@ struct ImageOptions {
 /// Returns the first image_size() bytes of `memory`. The bytes after them are not changed.
 ///
 /// `facts` supplies the header fields that describe the model: counts, flags, units, frame and
-/// normalisation. The function fills in the others. Model::open() checks that facts and sections
+/// normalisation. The function copies FileHeader::required_features and the reserved bytes too;
+/// leave them zero. It fills in the other fields. Model::open() checks that facts and sections
 /// agree. The sections must not overlap `memory`.
 ///
 /// Fails with `bad_argument`, and then writes nothing, if make_section_table() fails or

@@ -20,8 +20,8 @@ enum class Precision : std::uint8_t {
 };
 
 /// The arrays of a model that queries read. `cdprep bake` makes the same arrays from a mesh. It
-/// also adds notes about the imported file and, as its options say, hulls, pieces, octrees, bounds
-/// and mass.
+/// always adds bounds, verdicts, findings and notes about the imported file. Its options add hulls,
+/// pieces, octrees, tetra-trees and mass properties.
 struct ModelArrays {
     format::FileHeader facts{};
     Bvh bvh;
@@ -51,8 +51,8 @@ struct PlannedModel {
 };
 
 /// Returns an upper bound of image_size() for the arrays that build_model() builds from any mesh
-/// with these counts. The bound is the size for a mesh that uses every vertex, with degenerate
-/// triangles and as many components as possible. Takes O(1) time. Never allocates.
+/// with these counts. The bound is the size for a mesh with degenerate triangles. This mesh uses as
+/// many vertices, and has as many components, as possible. Takes O(1) time. Never allocates.
 ///
 ///     std::span<std::byte> room = arena.allocate(build::image_size_bound(planned), 64);
 ///     const auto arrays = build::build_model(positions, triangles, {.bounds = planned.bounds});
@@ -88,7 +88,9 @@ struct PlannedModel {
     const BvhOptions& options = {});
 
 /// Builds the same arrays with a BVH that build_bvh() built over these triangles. The mesh must
-/// meet the requirements of build_model(), which are not checked.
+/// meet the requirements of build_model(), which are not checked. With Precision::single_precision,
+/// every coordinate must be a float. Otherwise, rounded vertices may lie outside the boxes of
+/// `bvh`.
 [[nodiscard]] CDPREP_API ModelArrays arrange_model(std::span<const format::Double3> positions,
                                                    std::span<const format::Triangle> triangles,
                                                    Bvh bvh, Precision precision,

@@ -44,8 +44,9 @@ struct ClosestFeatures {
     double upper;  ///< the distance is at most this; proven
     Double3 witness_a;
     Double3 witness_b;
-    /// True if the nearest features are parallel: two edges, an edge and a face, or two faces.
-    /// Other pairs of points may then be equally near.
+    /// True if parallel features are nearest: two edges, an edge and a face, or two faces. `a` or
+    /// `b` may then name a vertex or an edge of such a feature. Other pairs of points may be
+    /// equally near.
     bool parallel;
 };
 
@@ -67,8 +68,8 @@ struct FeatureCache {
 /// With a cache, uses the method of Lin and Canny (1991). It walks from feature to neighbouring
 /// feature while the distance decreases. This takes O(1) time if the hulls have moved little. The
 /// farthest points of both hulls along the gap then prove the distance. GJK (convex_distance.h)
-/// computes the result if there is no cache, or if the walk or its proof fails. The proof fails if
-/// the hulls touch. Never allocates.
+/// computes the result if there is no cache, the cache is new, or a hull has no facets. It also
+/// does so if the walk or its proof fails. The proof fails if the hulls touch. Never allocates.
 [[nodiscard]] CDPREP_API std::optional<ClosestFeatures> closest_features(
     const FeatureHull& a, const FeatureHull& b, const Placement& placement,
     FeatureCache* cache = nullptr, QueryCounts* counts = nullptr) noexcept;

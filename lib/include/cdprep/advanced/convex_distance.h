@@ -27,7 +27,7 @@ namespace cdprep {
 // microseconds.
 
 /// The simplex with which the last GJK query about two hulls ended, as point numbers. The caller
-/// owns it. The next query about the same two hulls begins there: the less the hulls have moved,
+/// owns it. The next query about the same two hulls begins there. The less the hulls have moved,
 /// the less time it takes. Any content is allowed: it never changes whether hulls collide or are
 /// within a tolerance. It may change the last digits of bounds, or change bounds by the errors that
 /// options permit. Use one cache for each pair of hulls and thread. A new cache is all zero.
@@ -52,24 +52,26 @@ struct ConvexDistance {
     Double3 witness_b;  ///< on B as moved, up to rounding; at distance `upper` from witness_a
 };
 
-/// Returns the distance between two hulls. Returns nothing if the distance exceeds `max_distance`
-/// or a hull has no points. If the hulls touch, both bounds are 0 and the witnesses are a common
-/// point. Otherwise, lower is above 0, except for gaps near the smallest doubles. If faces or edges
-/// are parallel, many pairs of points are nearest; the witnesses are one of them.
+/// Returns the distance between two hulls. Returns nothing if a hull has no points, or if
+/// options.max_distance is negative or NaN. Also returns nothing if the distance is proven to
+/// exceed max_distance: `lower` of a result never exceeds it. If the hulls touch, both bounds are 0
+/// and the witnesses are a common point. Otherwise, lower is above 0, except for gaps near the
+/// smallest doubles. If faces or edges are parallel, many pairs of points are nearest; the
+/// witnesses are one of them.
 ///
-/// upper - lower is at most the error that `options` permits. It may exceed permitted relative
-/// errors below 1e-14. Here, options.relative_error is a share of upper. Without permitted errors,
-/// the limit is 1e-12 of upper plus 1e-14 of the size of A - B (convex_distance_laws_test). A - B
-/// is the Minkowski difference. Its size is the largest difference between a point of A and a point
-/// of B along a coordinate axis.
+/// upper - lower is at most the error that `options` permits. It may exceed permitted errors below
+/// 1e-14 of upper. Here, options.relative_error is a share of upper. Without permitted errors, the
+/// limit is 1e-12 of upper plus 1e-14 of the size of A - B (convex_distance_laws_test). A - B is
+/// the Minkowski difference. Its size is the largest difference between a point of A and a point of
+/// B along a coordinate axis.
 [[nodiscard]] CDPREP_API std::optional<ConvexDistance> convex_distance(
     const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
     const DistanceOptions& options = {}, ConvexCache* cache = nullptr,
     QueryCounts* counts = nullptr) noexcept;
 
 /// Returns whether two hulls are at most `tolerance` apart; inclusive. A tolerance of 0 tests
-/// whether they touch. Returns false for a negative tolerance or NaN. Exact: a tolerance that
-/// equals the distance gives true; the next smaller double gives false.
+/// whether they touch. Returns false for a negative tolerance or NaN, and if a hull has no points.
+/// Exact: a tolerance that equals the distance gives true; the next smaller double gives false.
 [[nodiscard]] CDPREP_API bool convex_within(const ConvexPoints& a, const ConvexPoints& b,
                                             const Placement& placement, double tolerance,
                                             ConvexCache* cache = nullptr,

@@ -23,9 +23,9 @@ struct Penetration {
 /// points. So every contact has a depth. If the hulls only touch, or both lie in one plane, upper
 /// is 0 up to rounding.
 ///
-/// upper - lower is at most 1e-12 of upper plus 1e-13 of the largest coordinate of the Minkowski
-/// difference A - B. A larger permitted error replaces this limit. upper - lower exceeds the limit
-/// only if the polytope described below would need more than 128 corners
+/// A - B is the Minkowski difference, and c its largest coordinate in magnitude. upper - lower is
+/// at most 1e-12 upper + 1e-13 c. A larger permitted error replaces this limit. upper - lower
+/// exceeds the limit only if the polytope described below would need more than 128 corners
 /// (convex_penetration_laws_test). Finely rounded hulls of thousands of points can need that many
 /// if they overlap deeply. Of `options`, only the permitted errors are read; the relative one is a
 /// share of upper.
@@ -33,8 +33,8 @@ struct Penetration {
 /// Uses the expanding polytope of van den Bergen (2001) with exact signs. The polytope lies within
 /// A - B. Its corners are differences of a point of A and a point of B. The polytope grows where
 /// its boundary is nearest to the origin. The distance from the origin to this boundary proves
-/// `lower`. The reach of A - B along the normal proves `upper`: from A's farthest point along it to
-/// B's farthest point against it.
+/// `lower`. The reach of A - B along the normal proves `upper`. The farthest points of A along the
+/// normal and of B against it give this reach.
 ///
 /// Takes ten to a hundred times as long as convex_distance(). Never allocates; uses 30 kB of stack.
 [[nodiscard]] CDPREP_API std::optional<Penetration> convex_penetration(

@@ -15,10 +15,10 @@ namespace cdprep {
 /// there are none.
 ///
 /// Six properties are checked, with exact signs. Every edge is convex, or flat between facets of
-/// one coplanar group. The points of exact hulls equal the vertices that hull_vertices names. The
-/// stored neighbours of a point are the ends of its facets' edges. No point of a hull lies in front
-/// of one of its facets. No vertex lies in front of a facet of the whole model's hull. If there are
-/// parts, each vertex is in at least one.
+/// one coplanar group. If the file has source_vertex, the points of exact hulls equal the vertices
+/// that hull_vertices names. The stored neighbours of a point are the ends of its facets' edges. No
+/// vertex lies in front of a facet of the whole model's hull. No point of any other hull lies in
+/// front of one of its facets. If there are parts, each vertex is in at least one.
 ///
 /// Three properties are not checked. Vertices of a component or an instance may lie outside its
 /// hull. Vertices may lie outside a hull that is a segment, or beside a polygon, in its plane. A

@@ -25,8 +25,8 @@ enum class FloatSearch : std::uint8_t {
 
 /// Calls `visit` with each FloatContact of the two models until `visit` returns false. Returns
 /// false if `visit` did; otherwise true. No pair in contact is missing. Serves studies of the cost
-/// of exactness, and callers that accept a few pairs that are not in contact. Reads only the
-/// placement of `pair`. Needs Ask::overlap. Costs less than overlaps().
+/// of exactness, and callers that accept a few pairs that are not in contact. Reads only the models
+/// and the placement of `pair`. Needs Ask::overlap of both models. Costs less than overlaps().
 CDPREP_API bool visit_float_contacts(const Pair& pair, Workspace& workspace, FloatSearch search,
                                      Visitor<FloatContact> visit);
 

@@ -18,7 +18,7 @@ namespace cdprep::build {
 struct TreeOrder {
     std::vector<format::Triangle> triangles;  ///< tree order, with new vertex numbers
     std::vector<std::uint32_t> vertices;      ///< the input vertex at each new place
-    std::vector<std::uint32_t> new_vertex;    ///< of each input vertex; kUnused if not used
+    std::vector<std::uint32_t> new_vertex;    ///< the place of each input vertex, or kUnused
     static constexpr std::uint32_t kUnused = 0xffffffffU;
 };
 
@@ -37,7 +37,7 @@ struct ComponentNumbers {
     std::vector<std::uint32_t> of_vertex;
 };
 
-/// Numbers the components. Takes O(n) time.
+/// Numbers the components. Takes O(n log n) time at most, and about O(n) for usual meshes.
 [[nodiscard]] CDPREP_API ComponentNumbers
 number_components(std::size_t vertex_count, std::span<const format::Triangle> triangles);
 
@@ -51,8 +51,9 @@ struct Topology {
 /// Finds the connected components: triangles connected through shared vertices. Finds whether each
 /// component is balanced: every edge is used equally often in both directions. A side between two
 /// equal vertex numbers does not count as an edge. A mesh without triangles is balanced. Volumes of
-/// components are clamped to the range of double. Takes O(n) time, plus a sort of the edges at each
-/// vertex.
+/// components are clamped to the range of double. A volume is 0 if it overflows to NaN, or if the
+/// component is not balanced. Takes the time of number_components(), O(n), plus a sort of the edges
+/// at each vertex.
 [[nodiscard]] CDPREP_API Topology find_topology(std::span<const format::Double3> positions,
                                                 std::span<const format::Triangle> triangles);
 

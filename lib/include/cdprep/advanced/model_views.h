@@ -65,8 +65,8 @@ struct BvhView {
 #define CDPREP_BVH_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
 #include "cdprep/format/section_table.inc"
     BvhShape shape;  ///< levels and counts; always set
-    /// For a LiveModel that can tear, one byte per leaf: a bit for each place that has a triangle.
-    /// Empty for all other models, where every place has a triangle.
+    /// For a LiveModel that can tear, and for a Window, one byte per leaf: a bit for each place
+    /// that has a triangle. Empty for all other models, where every place has a triangle.
     std::span<const std::uint8_t> lanes = {};
 };
 

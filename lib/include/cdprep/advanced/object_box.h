@@ -19,16 +19,16 @@ struct RootBox {
 };
 
 /// Returns a box that contains all points of a moved model, as transform_point() rounds them. The
-/// box extends `reach` beyond them, in model units. If two models are at most d apart, their boxes
-/// with a reach of d / 2 each meet. The reach must be finite and at least 0, and the model must be
-/// opened with its BVH. Otherwise, the program is aborted with a message.
+/// box extends at least `reach` beyond them, in model units. If two models are at most d apart,
+/// their boxes with a reach of d / 2 each meet. The reach must be finite and at least 0, and the
+/// model must be opened with its BVH. Otherwise, the program is aborted with a message.
 [[nodiscard]] CDPREP_API RootBox root_box(const Model& model, const Pose& world_from_model,
                                           double reach) noexcept;
 
 /// Returns the axis-aligned box around a root box, for BroadPhase; absent if there are no
-/// triangles. The box is relative to `origin`, which must be the same for all boxes. Its
-/// coordinates must be finite and at most 2^1000 in magnitude. Far from the origin, rounding to
-/// float widens the box: at a distance of 10^7, by about one unit on each side.
+/// triangles. The box is relative to `origin`, which must be the same for all boxes. The
+/// coordinates of `origin` must be finite and at most 2^1000 in magnitude. Rounding to float widens
+/// the box: at a distance of 10^7 from the origin, by about one unit on each side.
 [[nodiscard]] CDPREP_API WorldBox world_box(const RootBox& root,
                                             const Double3& origin = {}) noexcept;
 

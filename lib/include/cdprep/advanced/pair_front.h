@@ -16,14 +16,14 @@ inline constexpr std::uint32_t kFrontRoom = 512;
 /// move little from query to query, few planes have to be updated. If there is no room for more
 /// pairs, the search descends from the pairs that are kept. If the room is too small when a front
 /// is started, or if the models jump, the front is emptied. It then stays unused for `wait`
-/// queries: more after each failure.
+/// queries: none after the first failure, then more after each, up to 63.
 ///
 /// The members belong to the library; a new front is all zero.
 struct PairFront {
     std::array<std::uint64_t, 2> models = {};  ///< content hashes of A and B
     std::uint32_t count = 0;                   ///< pairs; 0: the front is empty
-    std::uint32_t begun_with = 0;  ///< the number of pairs after the last restart; 0: none yet
-    std::uint32_t failures = 0;    ///< consecutive times that the front was emptied
+    std::uint32_t begun_with = 0;  ///< pairs after the first full query since the restart, or 0
+    std::uint32_t failures = 0;    ///< consecutive times that the front was emptied; stops at 6
     std::uint32_t wait = 0;        ///< queries before the next restart
     std::array<std::uint64_t, kFrontRoom> pair = {};  ///< node pairs, each packed in one word
     /// The planes, in pair units: one column for each node pair. Rows 0 to 2: the direction across
@@ -35,9 +35,10 @@ struct PairFront {
 };
 
 /// Both caches of one pair of models, for queries through Structure::pieces: Pair::cache and
-/// Pair::front. They change speed, never answers. The first distance query fills the front with
-/// planes. This query takes about three times as long as one without caches. Later queries update a
-/// few planes. A PieceCache takes about 28 KiB.
+/// Pair::front. They change speed, never answers. Only a distance with permitted errors may become
+/// another one within these errors. The first distance query fills the front with planes. This
+/// query takes about three times as long as one without caches. Later queries update a few planes.
+/// A PieceCache takes about 28 KiB.
 struct PieceCache {
     PairCache pair;
     PairFront front;

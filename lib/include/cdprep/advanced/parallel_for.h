@@ -30,14 +30,15 @@ private:
 
 /// The caller's threads. The library starts none. It calls `run(count, task)`, which calls task(0)
 /// ... task(count - 1) and returns when all are done. The calls may be in any order and on any
-/// threads, or all on one. `run` must not throw, except to propagate an exception of a task. Query
-/// tasks never throw; build_bvh() tasks may throw std::bad_alloc.
+/// threads, or all on one. `count` may be 0. `run` must not throw, except to propagate an exception
+/// of a task. Query tasks never throw; build_bvh() tasks may throw std::bad_alloc.
 ///
-/// Tasks that begin late find little left to do. The best `run` executes tasks on its own thread
-/// too, until all have begun. It then waits for tasks that other threads have begun. A ParallelFor
-/// refers to the callable, a named object such as a lambda, and copies nothing. The callable must
-/// outlive the call, and any options that hold the ParallelFor. `run` runs in the floating-point
-/// environment of the caller; tasks compute in the default one on every thread.
+/// In queries, a task that begins late finds little work left, or none. The best `run` executes
+/// tasks on its own thread too, until all have begun. It then waits for tasks that other threads
+/// have begun. A ParallelFor refers to the callable, a named object such as a lambda, and copies
+/// nothing. The callable must outlive the call, and any options that hold the ParallelFor. `run`
+/// runs in the floating-point environment of the caller; tasks compute in the default one on every
+/// thread.
 ///
 ///     const auto run = [&](std::size_t count, cdprep::Task task) {
 ///         std::vector<std::jthread> threads;

@@ -25,8 +25,8 @@ namespace cdprep::build {
 ///         cost_when_built = surface_cost(bvh);
 ///     }
 ///
-/// Takes O(n) time. A repeated call with the same options allocates nothing, except 80 bytes per
-/// 4,096 triangles for oriented boxes.
+/// Takes O(n) time. A repeated call with the same options allocates nothing with
+/// BvhBounds::aligned. With other bounds, it allocates 80 bytes per 4,096 triangles.
 CDPREP_API double refit_bvh(Bvh& bvh, std::span<const format::Double3> positions,
                             std::span<const format::Triangle> triangles,
                             const BvhOptions& options = {});

@@ -14,7 +14,7 @@
 
 namespace cdprep {
 
-/// Two triangles of one BVH, in tree order, a < b.
+/// Two triangles of one BVH, by their places in tree order; a < b.
 struct SelfPair {
     std::uint32_t a;
     std::uint32_t b;

@@ -13,7 +13,7 @@ extern "C" {
 /* The precision in which a model keeps positions. */
 enum {
     CDPREP_AS_GIVEN = 0, /* doubles as doubles, floats as floats */
-    CDPREP_SINGLE = 1    /* doubles are rounded to the nearest floats; half as large */
+    CDPREP_SINGLE = 1 /* doubles are rounded to the nearest floats; positions are half as large */
 };
 
 /* A mesh, and what to build from it. The arrays are read only during the call.
@@ -24,13 +24,16 @@ enum {
  * arrays. */
 typedef struct cdprep_build_options {
     cdprep_head head;
-    uint32_t ask;            /* 0: all that a build can serve; otherwise these CDPREP_ASK_ bits */
-    uint32_t precision;      /* CDPREP_AS_GIVEN */
-    const double* positions; /* null: 3 numbers per vertex, model units */
-    const float* positions_f32; /* null: the same as floats; set one of the two */
-    const uint32_t* triangles;  /* null: 3 vertices per triangle, counter-clockwise from outside */
-    size_t vertex_count;        /* 0: a mesh without vertices needs no positions */
-    size_t triangle_count;      /* 0: a mesh without triangles needs no `triangles` */
+    uint32_t ask;       /* 0: all that a build can serve; otherwise these CDPREP_ASK_ bits */
+    uint32_t precision; /* CDPREP_AS_GIVEN */
+    /* Null; otherwise 3 numbers per vertex, model units. */
+    const double* positions;
+    /* Null; otherwise these numbers as floats. Set only one of the two arrays. */
+    const float* positions_f32;
+    /* Null; otherwise 3 vertices per triangle, counter-clockwise from outside. */
+    const uint32_t* triangles;
+    size_t vertex_count;               /* 0: a mesh without vertices needs no positions */
+    size_t triangle_count;             /* 0: a mesh without triangles needs no `triangles` */
     const cdprep_allocator* allocator; /* null: the heap; copied */
 } cdprep_build_options;
 
@@ -42,7 +45,7 @@ CDPREP_API void cdprep_build_options_init(cdprep_build_options* options, size_t 
  * on the counts, `ask`, `precision` and the type of the positions; no array is read. It covers the
  * worst mesh with these counts. A closed and connected mesh takes about a seventh less. On failure
  * *size is 0.
- * Errors: those of cdprep_model_build() that do not depend on the contents of the arrays. */
+ * Errors: those of cdprep_model_build() for `options`, except for the contents of the arrays. */
 CDPREP_API int cdprep_model_build_size(const cdprep_build_options* options, size_t* size,
                                        cdprep_error* error);
 
@@ -64,18 +67,20 @@ CDPREP_API int cdprep_model_build_size(const cdprep_build_options* options, size
  * lanes and in any floating-point environment. Takes O(n log n) time for n triangles.
  *
  * error.argument names an invalid number by its vertex or triangle: `options.positions[7]` is
- * vertex 7, `options.triangles[12]` is triangle 12. `memory` is checked after the arrays, and the
- * workspace last.
+ * vertex 7, `options.triangles[12]` is triangle 12. Null `options`, `workspace` and `model` are
+ * reported first. `memory` is checked after the arrays, and whether the workspace is in use last.
  * Errors:
- * - CDPREP_WHY_NULL: positions or triangles are missing.
+ * - CDPREP_WHY_NULL: `options`, `workspace`, `model`, positions or triangles are missing. Or the
+ *   allocator lacks a function, or `memory` is null and `size` is not 0.
  * - CDPREP_WHY_NO_MEANING: both arrays of positions are set, or an allocator is set in addition to
  *   memory.
  * - CDPREP_WHY_NOT_BAKED: a build cannot serve options.ask; the message names the `bake` option
  *   for it.
  * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite.
- * - CDPREP_WHY_OUT_OF_RANGE, in four cases: There are more than 2^31 - 1 vertices or triangles. A
- *   position is beyond 2^1000 or, with CDPREP_SINGLE, beyond the largest float. A triangle names a
- *   vertex that does not exist. `memory` is not aligned.
+ * - CDPREP_WHY_OUT_OF_RANGE, in five cases: `ask` or `precision` has an unknown value. There are
+ *   more than 2^31 - 1 vertices or triangles, or more than memory holds. A position is beyond
+ *   2^1000 or, with CDPREP_SINGLE, beyond the largest float. A triangle names a vertex that does
+ *   not exist. `memory` or the allocator's memory is not aligned.
  * - CDPREP_WHY_TOO_SMALL: `size` is less than the size from cdprep_model_build_size().
  * - CDPREP_WHY_BUSY: another call uses the workspace.
  * - CDPREP_OVER_BUDGET: there is not enough memory. */

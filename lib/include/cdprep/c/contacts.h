@@ -15,7 +15,7 @@ enum { CDPREP_VERTEX = 0, CDPREP_EDGE = 1, CDPREP_FACE = 2 };
 /* A vertex, edge or face, numbered as in the imported file. Unknown numbers are CDPREP_NONE. */
 typedef struct cdprep_feature {
     uint32_t kind;      /* CDPREP_VERTEX, _EDGE, _FACE */
-    uint32_t edge;      /* the edge starts at this corner of `triangle` and ends at the next */
+    uint32_t edge;      /* of an edge: it starts at this corner of `triangle`, ends at the next */
     uint32_t triangle;  /* one that has the vertex or edge, or that contains the contact point */
     uint32_t vertex[3]; /* the vertex, the ends of the edge, or three corners of the face */
 } cdprep_feature;
@@ -23,13 +23,15 @@ typedef struct cdprep_feature {
 typedef struct cdprep_contact_point {
     double on_a[3], on_b[3];
     double distance; /* from on_a to on_b along the normal; negative: overlap */
-    uint64_t id;     /* stays the same after a small motion; 0 for the only point of a contact */
+    /* Stays the same after a small motion. 0 without clusters for the contact's own on_a and on_b,
+     * which may be the only points. */
+    uint64_t id;
 } cdprep_contact_point;
 
 /* Bits of cdprep_contact.flags. */
 enum {
     /* the hulls have a common point, and either both lie within their solids or the pieces'
-     * triangles touch */
+     * triangles touch. Also set with CDPREP_CONTACT_DEEP. */
     CDPREP_CONTACT_OVERLAP = 1,
     /* the shortest direction snags at an edge inside a surface; the normal is another one */
     CDPREP_CONTACT_INTERNAL_EDGE = 2,
@@ -44,17 +46,17 @@ typedef struct cdprep_contact {
     uint32_t piece_a, piece_b;
     /* Stays the same as long as the two pieces are in contact. The high 32 bits are the source
      * number of a triangle of A's piece, the low 32 bits that of B's. With CDPREP_CONTACT_DEEP, the
-     * half of the enclosing model is CDPREP_NONE. */
+     * half of the enclosing model is CDPREP_NONE. A cluster has the smallest id of its members. */
     uint64_t id;
     cdprep_feature feature_a, feature_b; /* for an edge or face, only vertex[0] is known */
     uint32_t flags;
-    uint32_t point_count; /* in `points`; 0 without a manifold */
+    uint32_t point_count; /* in `points`; 0 with neither a manifold nor clusters */
     uint32_t members;     /* the number of contacts in this cluster; 1 without clusters */
     uint32_t reserved;    /* 0 */
     double on_a[3], on_b[3];
     double normal[3]; /* from A to B, of length 1 up to rounding */
     /* Bounds of the exact distance; negative: overlap. No translation shorter than -upper separates
-     * overlapping pieces. A translation by -lower along the normal separates them. */
+     * overlapping pieces. A translation of B by -lower along the normal separates them. */
     double lower, upper;
     cdprep_contact_point points[4]; /* the deepest first */
 } cdprep_contact;
@@ -80,7 +82,7 @@ typedef struct cdprep_contact_options {
      * counts 32 and, between two pieces, 1 for every 8 of their triangles. The search for near
      * triangles takes at most half of the work. The last contact may exceed the work. The work may
      * allow all contacts, and `most` fewer than half of them. Then some depths are bounded more
-     * closely first, and each such bound counts 8. */
+     * closely first, and each of these bounds counts 8. */
     uint64_t work;
     /* 0: no clusters. Otherwise, contacts that are linked by common pieces are joined if their
      * normals differ little. The value limits the angle to the normal of the deepest one, in
@@ -98,13 +100,13 @@ CDPREP_API void cdprep_contact_options_init(cdprep_contact_options* options, siz
  * alternates between the deepest remaining contact and the one farthest from all chosen ones.
  * `items` holds as many of the first contacts as it has room for. `options` may be null.
  * With CDPREP_SOLID, a component that is proven to be inside the other model makes a contact of its
- * own. No such contact is made if any triangles of the two models touch. Moving B by -lower along
- * the normal frees the component, and no translation shorter than -upper does. The translation
- * leads out of convex hulls that enclose the other model. If that model serves CDPREP_ASK_HULLS,
- * these hulls are its parts or, without parts, its whole hull. Otherwise, the only hull is its
- * bounding box.
+ * own. No contact of this kind is made if any triangles of the two models touch. If places are few,
+ * the list keeps these contacts before others. Moving B by -lower along the normal frees the
+ * component, and no translation shorter than -upper does. The translation leads out of convex hulls
+ * that enclose the other model. If that model serves CDPREP_ASK_HULLS, these hulls are its parts
+ * or, without parts, its whole hull. Otherwise, the only hull is its bounding box.
  * Uses body, degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
- * Takes the time of cdprep_pairs_within(), plus 5 to 10 microseconds per contact that is computed.
+ * Takes the time of cdprep_pairs_within(), plus up to 10 microseconds per contact that is computed.
  * CDPREP_SOLID adds the time of cdprep_containment().
  * Needs: CDPREP_ASK_CONTACTS; CDPREP_SOLID: also CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_contacts(const cdprep_pair* pair, const cdprep_contact_options* options,
@@ -137,7 +139,7 @@ typedef struct cdprep_hull {
 
 /* Finds a hull. If there is none with this number, hull->model is null, and the code is CDPREP_OK.
  * On failure, hull->model is null too.
- * Needs: CDPREP_ASK_HULLS; CDPREP_HULL_PIECE: CDPREP_ASK_PIECES, CDPREP_ASK_CORNERS */
+ * Needs: CDPREP_ASK_HULLS; CDPREP_HULL_PIECE: only CDPREP_ASK_PIECES, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_hull_find(const cdprep_model* model, uint32_t scope, uint32_t number,
                                 cdprep_hull* hull, cdprep_error* error);
 
@@ -148,7 +150,8 @@ CDPREP_API int cdprep_hull_mesh(const cdprep_hull* hull, cdprep_mesh* mesh, cdpr
 
 /* The result of the last query on one pair of hulls. The next query starts there. A zero-filled
  * struct is a new cache; any content is safe. A cache never changes whether hulls collide or are
- * within a distance. Among equally near points, it may change which ones are found. */
+ * within a distance. It may change the last digits of bounds, or change bounds by the permitted
+ * errors. Among equally near points, it may change which ones are found. */
 typedef struct cdprep_hull_cache {
     uint64_t words[8];
 } cdprep_hull_cache;
@@ -172,7 +175,8 @@ CDPREP_API int cdprep_hulls_collide(const cdprep_hull_pair* pair, uint32_t* hit,
 
 /* Stores the distance of two hulls; it is 0 if they have a common point. Without permitted errors,
  * the interval's width is at most 1e-12 upper + 1e-14 s. Here s is the size of the Minkowski
- * difference A - B. `options` may be null.
+ * difference A - B. It is the largest difference between a point of A and a point of B along an
+ * axis. relative_error is a share of `upper` here. `options` may be null.
  * Needs: as cdprep_hull_find() */
 CDPREP_API int cdprep_hulls_distance(const cdprep_hull_pair* pair,
                                      const cdprep_distance_options* options,
@@ -192,8 +196,9 @@ typedef struct cdprep_penetration {
     double on_a[3], on_b[3]; /* the points that touch after this motion */
 } cdprep_penetration;
 
-/* Stores the penetration depth of two hulls. `options` may be null. Takes the time of ten
- * to a hundred distance queries.
+/* Stores the penetration depth of two hulls. It is the length of the shortest translation of B
+ * after which they only touch. relative_error is a share of `upper` here. `options` may be null.
+ * Takes the time of ten to a hundred distance queries.
  * Errors: CDPREP_WHY_NO_MEANING for a finite max_distance.
  * Needs: as cdprep_hull_find() */
 CDPREP_API int cdprep_hulls_penetration(const cdprep_hull_pair* pair,

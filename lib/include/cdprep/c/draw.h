@@ -19,18 +19,20 @@ enum {
     CDPREP_DRAW_PIECES = 8,  /* hulls of convex pieces. Needs CDPREP_ASK_PIECES, _CORNERS */
     /* for scenes: lines between contact points, and normals. Needs the BVH */
     CDPREP_DRAW_CONTACTS = 16,
-    CDPREP_DRAW_OVERLAPS = 32, /* for scenes: triangles in lists of overlaps and self-overlaps */
-    /* The numbers of parts and pieces that are drawn; for scenes, the slots of objects. The number
-     * of a slot stands in the middle of its model's box. Without the BVH, it stands at the model's
-     * origin. */
+    /* for scenes: triangles in lists of overlaps and self-overlaps. Objects in these lists need
+     * CDPREP_ASK_CORNERS */
+    CDPREP_DRAW_OVERLAPS = 32,
+    /* The numbers of parts and pieces that are drawn; for scenes, also the slots of objects. The
+     * number of a slot stands in the middle of its model's box. Without the BVH, it stands at the
+     * model's origin. */
     CDPREP_DRAW_NUMBERS = 64
 };
 
 /* What to draw, and the caller's functions. A function ends the drawing by returning 0. Points have
  * three numbers; a triangle has three points, counter-clockwise from outside. Colours are
- * 0xRRGGBBAA: surfaces grey, boxes green, contacts yellow, overlaps red. Parts and pieces have one
- * of eight colours, by their number. The functions run in the caller's floating-point environment.
- * They may run queries, but must not change the scene. */
+ * 0xRRGGBBAA: surfaces grey, boxes green, contacts yellow, overlaps red, texts white. Parts and
+ * pieces have one of eight colours, by their number. The functions run in the caller's
+ * floating-point environment. They may run queries, but must not change the scene. */
 typedef struct cdprep_draw {
     cdprep_head head;
     uint32_t what; /* 0: nothing; otherwise bits CDPREP_DRAW_ */
@@ -43,11 +45,11 @@ typedef struct cdprep_draw {
     int (*triangle)(void* context, const double corners[9], uint32_t rgba);
     /* Null, which is refused if `what` has numbers. The text ends with a zero. */
     int (*label)(void* context, const double at[3], const char* text, uint32_t rgba);
-    void* context; /* passed to all three */
+    void* context; /* null; passed to all three */
 } cdprep_draw;
 
-/* Makes default options: nothing is drawn. Writes `size` bytes, which must be
- * sizeof(cdprep_draw). */
+/* Makes default options: nothing is drawn. Writes `size` bytes, which must be sizeof(cdprep_draw).
+ * Null does nothing. */
 CDPREP_API void cdprep_draw_init(cdprep_draw* draw, size_t size);
 
 /* Draws a model, moved by `world_from_model`. Triangles come in tree order. Takes O(shapes) time,

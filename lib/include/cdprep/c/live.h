@@ -12,14 +12,14 @@ extern "C" {
 
 /* A live model. It is queried through cdprep_live_model(). While one call changes it, other calls
  * of this header that use it fail with CDPREP_WHY_BUSY. During a change, no query about its model
- * may run: this is not checked. A scene finds changes if pairs of the object's layer have
- * CDPREP_ASK_DEFORM or _TEAR. Otherwise, after a change, set the pose of each object that uses the
- * model. */
+ * may run: this is not checked. A scene finds changes of an object's model if pairs of the object's
+ * layer have CDPREP_ASK_DEFORM or _TEAR. Otherwise, after a change, set the pose of each object
+ * that uses the model. */
 typedef struct cdprep_live cdprep_live;
 
 typedef struct cdprep_live_options {
     cdprep_head head;
-    const cdprep_model* model; /* null: the base, baked or built; unused after making */
+    const cdprep_model* model; /* null, which is refused: the base, baked or built; unused later */
     uint32_t max_triangles;    /* 0: no triangles are added or removed; else the maximum */
     uint32_t max_vertices;     /* 0: as in the base; triangles may use vertex numbers below this */
     const cdprep_allocator* allocator; /* null: the heap; copied */
@@ -29,9 +29,9 @@ typedef struct cdprep_live_options {
 CDPREP_API void cdprep_live_options_init(cdprep_live_options* options, size_t size);
 
 /* Stores the number of bytes that cdprep_live_make() needs for these options. On failure *size is
- * 0. Without max_triangles, it is about 120 for each triangle. With max_triangles, it is about 150
- * for each triangle of this limit. Takes as long as cdprep_live_make(), and as much memory while it
- * runs.
+ * 0. Without max_triangles, it is about 100 for each triangle. With max_triangles, it is 125 to 150
+ * for each triangle of this limit. In both cases, up to 140 KB are added. These numbers are for one
+ * vertex per two triangles. Takes as long as cdprep_live_make(), and as much memory while it runs.
  * Errors: those of cdprep_live_make(). */
 CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size,
                                 cdprep_error* error);
@@ -39,17 +39,18 @@ CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size
 /* Makes a live model. On failure *live is null. End it with cdprep_live_end().
  *
  * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_live_size() bytes.
- * With null memory of size 0, the allocator makes one allocation of that size. In addition, the
- * model takes about 1 KiB of the heap. Takes O(n) time, and O(n log n) with max_triangles. No later
- * call but cdprep_live_end() and cdprep_live_image() allocates or frees memory, except to report an
- * error. Triangles are spread over the memory for max_triangles. A limit far above the number in
- * use therefore makes queries slower.
+ * If `memory` is null and `size` is 0, the allocator makes one allocation of cdprep_live_size()
+ * bytes. In addition, the model takes about 1 KiB of the heap. Takes O(n) time, and O(n log n) with
+ * max_triangles. No later call but cdprep_live_end() and cdprep_live_image() allocates or frees
+ * memory, except to report an error. Triangles are spread over the memory for max_triangles. A
+ * limit far above the number in use therefore makes queries slower.
  *
  * Errors:
  * - CDPREP_WHY_NULL: no base.
  * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: the base does not serve CDPREP_ASK_OVERLAP and
  *   CDPREP_ASK_CORNERS.
- * - CDPREP_WHY_OUT_OF_RANGE: max_triangles or max_vertices is too large, or less than the base has.
+ * - CDPREP_WHY_OUT_OF_RANGE: max_triangles, max_vertices or the base is too large, or a limit is
+ *   less than the base has.
  * - CDPREP_WHY_OUT_OF_RANGE: the base has vertices that a repair made, or equal numbers for two
  *   vertices or two triangles.
  * - CDPREP_WHY_OUT_OF_RANGE: the base is the model of a live model made with max_triangles.
@@ -61,18 +62,17 @@ CDPREP_API int cdprep_live_size(const cdprep_live_options* options, size_t* size
 CDPREP_API int cdprep_live_make(const cdprep_live_options* options, void* memory, size_t size,
                                 cdprep_live** live, cdprep_error* error);
 
-/* Ends a live model, unless another call uses it. Null does nothing. */
+/* Ends a live model. Does nothing for null, or while another call changes the live model. */
 CDPREP_API void cdprep_live_end(cdprep_live* live);
 
 /* Returns the model to query, or null if `live` is null. It is the same object after each change,
  * and lives as long as the live model: do not close it. It serves CDPREP_ASK_COLLIDE, _OVERLAP,
- * _DISTANCE, _WITHIN, _CONTINUOUS, _SELF, _DEFORM, _TEAR, _HAPTIC, _INSIDE, _RAY, _CLOSEST, _TOUCH,
- * _CORNERS and _SOLID.
+ * _DISTANCE, _WITHIN, _CONTINUOUS, _SELF, _DEFORM, _TEAR, _HAPTIC, _INSIDE, _RAY, _CLOSEST, _TOUCH
+ * and _CORNERS. It also serves CDPREP_ASK_SOLID if the base does.
  *
- * After cdprep_live_append() or cdprep_live_remove(), the model counts as open and has no
- * components. Queries about solids then store CDPREP_UNKNOWN, unless boxes or surfaces decide. All
- * numbers of triangles are less than cdprep_live_info.number_bound. cdprep_marks needs that many
- * bits for this model. */
+ * Once a triangle was added or removed, the model counts as open and has no components. Queries
+ * about solids then store CDPREP_UNKNOWN, unless boxes or surfaces decide. All numbers of triangles
+ * are less than cdprep_live_info.number_bound. cdprep_marks needs that many bits for this model. */
 CDPREP_API const cdprep_model* cdprep_live_model(const cdprep_live* live);
 
 /* New positions of vertices. */
@@ -93,41 +93,43 @@ CDPREP_API void cdprep_live_move_init(cdprep_live_move* moved, size_t size);
  * last position counts. A pair cache of the model stays valid.
  *
  * With max_triangles, a vertex that no triangle uses may get its first position. Takes O(n) time
- * without moved.vertices. With it, takes O(m log n) time for m triangles at these vertices, but
- * O(n) time in three cases:
- * - A vertex leaves a cube of about twice the model's size.
- * - The model has become much smaller than that cube.
+ * without moved.vertices. With it, takes O(m log n) time for m triangles at these vertices, and
+ * reads one bit per leaf. In three cases, it takes O(n) time:
+ * - A vertex of a triangle leaves the frame, a cube of two to four times the model's size when
+ *   chosen.
+ * - The model has become much smaller than this cube.
  * - The first coordinate that is not a float appears, or the last one disappears.
  *
  * On failure, nothing changes. Errors:
  * - CDPREP_WHY_NULL: no positions.
  * - CDPREP_WHY_NO_MEANING: both arrays of positions are set.
  * - CDPREP_WHY_NOT_FINITE: a position is NaN or infinite. error.argument names it:
- *   `moved.positions[7]` is the eighth.
- * - CDPREP_WHY_OUT_OF_RANGE, in five cases: There are too few positions for all vertices. A vertex
- *   does not exist. A position is beyond 2^1000. Positions are doubles and the model keeps floats.
- *   `moved` points into the model.
+ *   `moved.positions[7]` is the eighth position.
+ * - CDPREP_WHY_OUT_OF_RANGE, in six cases: moved.count exceeds 2^31 - 1. There are too few
+ *   positions for all vertices. A vertex does not exist. A position is beyond 2^1000. Positions are
+ *   doubles and the model keeps floats. `moved` points into the model.
  * - CDPREP_WHY_BUSY: another call changes the live model or uses the workspace. */
 CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* moved,
                                  cdprep_workspace* workspace, cdprep_error* error);
 
 /* Adds `count` triangles: 3 vertices each, numbered as in cdprep_live_refit(). *first is the number
  * of the first triangle; the others get the next numbers. Answers name a triangle by its number,
- * which no other triangle gets later. Takes O(m log n) time for m triangles. Besides, triangles of
- * full subtrees are distributed anew: each subtree at most once, and at most 4096 triangles at a
- * time.
+ * which no other triangle gets later. Takes O(m log n) time for m triangles, and reads one bit per
+ * leaf. In addition, triangles of full subtrees are distributed anew: each subtree at most once,
+ * and at most 4096 triangles at a time. Takes O(n) more if a vertex lies outside the frame of
+ * cdprep_live_refit().
  *
  * On failure, nothing changes and *first is CDPREP_NONE. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.
  * - CDPREP_WHY_OUT_OF_RANGE, in four cases: There would be more triangles than max_triangles. A
  *   vertex does not exist or has no position; the message names it and its triangle. Numbers would
- *   exceed 2^31 - 1. `triangles` points into the model.
+ *   reach 2^31 - 1. `triangles` points into the model.
  * - CDPREP_WHY_BUSY: another call changes the live model. */
 CDPREP_API int cdprep_live_append(cdprep_live* live, const uint32_t* triangles, size_t count,
                                   uint32_t* first, cdprep_error* error);
 
 /* Removes `count` triangles by their numbers. A number that is listed twice counts once. Takes
- * O(m log n) time.
+ * O(m log n) time for m numbers, and reads one bit per leaf.
  *
  * On failure, nothing changes. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.
@@ -150,7 +152,7 @@ typedef struct cdprep_live_info {
     uint32_t triangles;    /* now */
     uint32_t number_bound; /* all numbers of triangles are less than this */
     uint32_t vertices;     /* all numbers of vertices with a position are less than this */
-    uint32_t is_torn;      /* CDPREP_YES after the first append or remove; else CDPREP_NO */
+    uint32_t is_torn;      /* CDPREP_YES once a triangle was added or removed; else CDPREP_NO */
     double surface_cost;   /* of the BVH: lower is better; compare it with the value at the start */
     uint64_t reserved[4];  /* 0 */
 } cdprep_live_info;
@@ -180,10 +182,11 @@ CDPREP_API int cdprep_live_triangles(const cdprep_live* live, cdprep_live_triang
 
 /* Stores the address of the bytes of a live model as it is now, to save or to send. The stride is
  * 1, and the count is the number of bytes. cdprep_model_open_memory() accepts a copy of them. The
- * address stays valid as long as the live model. The bytes stay valid until its next change. They
+ * address stays valid while the live model exists. The bytes stay valid until its next change. They
  * depend only on the base, the positions and the order that cdprep_live_rebuild() made. Takes
  * O(bytes) time. Allocates. The call writes to the model, so no query may use the model during the
- * call.
+ * call. Caches, sweeps and windows treat the call as a change of the model. So they ignore gaps
+ * proven before, and a sweep needs a new step.
  * On failure, image->data is null. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made with max_triangles. Build a model of
  *   cdprep_live_triangles() instead.

@@ -48,8 +48,9 @@ typedef struct cdprep_moving_pair {
     uint32_t body;       /* CDPREP_SURFACE */
     uint32_t most_steps; /* 256: the search ends after this many distance queries */
     /* 0. The search ends when no point moves farther than this between `lower` and `upper`,
-     * relative to the other model. It also ends when the surfaces are this near and no time of
-     * contact is found. Model units. A tolerance close to rounding errors is raised. */
+     * relative to the other model. It also ends after narrowing [lower, upper] 32 times. Otherwise
+     * it ends when the surfaces are this near, and no time of contact is found. Model units. A
+     * tolerance close to rounding errors is raised. */
     double tolerance;
     cdprep_motion motion_a, motion_b; /* no motion, at the identity */
 } cdprep_moving_pair;
@@ -65,11 +66,13 @@ enum {
 };
 
 typedef struct cdprep_impact {
-    uint32_t kind;          /* CDPREP_IMPACT_ */
-    uint32_t steps;         /* distance queries */
-    double lower;           /* at all times before this, the surfaces are apart; 1 for _NONE */
-    double upper;           /* at this time they touch; infinity if no such time was found */
-    cdprep_nearest nearest; /* at `lower`, in the world; found is CDPREP_NO for _NONE and time 0 */
+    uint32_t kind;  /* CDPREP_IMPACT_ */
+    uint32_t steps; /* distance queries of the search, without that for `nearest` */
+    double lower;   /* at all times before this, the surfaces are apart; 1 for _NONE */
+    double upper;   /* at this time they touch; infinity if no such time was found */
+    /* At `lower`, in world coordinates. `found` is CDPREP_NO for _NONE, and for a contact at time
+     * 0. */
+    cdprep_nearest nearest;
 } cdprep_impact;
 
 /* Stores when two moving models first touch: an interval of time that holds the first contact. The
@@ -103,11 +106,11 @@ typedef struct cdprep_sweep cdprep_sweep;
  * Needs of the model: CDPREP_ASK_WITHIN, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_sweep_size(const cdprep_model* model, size_t* size, cdprep_error* error);
 
-/* Makes the sweep of a model that deforms in place, such as that of a live model. The model must
- * outlive it. At first, nothing moves. On failure *sweep is null. End it with cdprep_sweep_end().
- * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_sweep_size()
- * bytes. With null memory of size 0, the allocator makes one allocation; a null allocator means the
- * heap. No later call allocates.
+/* Makes the sweep of a model that deforms in place, such as the model of a cdprep_live. The model
+ * must outlive the sweep. At first, nothing moves. On failure *sweep is null. End it with
+ * cdprep_sweep_end(). `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least
+ * cdprep_sweep_size() bytes. If `memory` is null and `size` is 0, the allocator makes one
+ * allocation. A null allocator means the heap. No later call allocates.
  * Errors: CDPREP_WHY_TOO_SMALL, CDPREP_WHY_OUT_OF_RANGE and CDPREP_WHY_NO_MEANING for memory, as in
  * cdprep_live_make(); CDPREP_OVER_BUDGET.
  * Needs of the model: CDPREP_ASK_WITHIN, CDPREP_ASK_CORNERS */
@@ -115,7 +118,7 @@ CDPREP_API int cdprep_sweep_make(const cdprep_model* model, const cdprep_allocat
                                  void* memory, size_t size, cdprep_sweep** sweep,
                                  cdprep_error* error);
 
-/* Ends a sweep, unless another call uses it. Null does nothing. */
+/* Ends a sweep. Does nothing for null, or while another call starts or finishes a step. */
 CDPREP_API void cdprep_sweep_end(cdprep_sweep* sweep);
 
 /* Begins a step: the positions of the model are those at time 0. Takes O(vertices) time. */
@@ -143,7 +146,7 @@ CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error
  * Takes as long as cdprep_within() with a tolerance of half of the other model's motion. Each pair
  * of triangles near each other takes about 1 us more for each part. Never allocates.
  * Errors: CDPREP_WHY_STALE: the step is not finished, or the model has changed since: it was moved,
- * torn or rebuilt.
+ * torn or rebuilt, or passed to cdprep_live_image().
  * Needs of the other model: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_sweep_may_touch(const cdprep_sweep* sweep, const cdprep_model* other,
                                       const cdprep_motion* motion, cdprep_workspace* workspace,

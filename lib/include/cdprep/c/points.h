@@ -47,7 +47,9 @@ typedef struct cdprep_point_state {
 
 /* Stores whether `count` points are inside a model, that is, whether their winding numbers are not
  * 0. Exact for closed models (cdprep_model_info.closed). `through` may be any structure except
- * CDPREP_THROUGH_PIECES. Takes O(log n + ray hits) time per point.
+ * CDPREP_THROUGH_PIECES. For octrees and tetra-trees, the workspace must have `cells`, and the
+ * model must serve the structure's CDPREP_ASK_ bit. Through the BVH, takes O(log n + ray hits) time
+ * per point. Takes O(n) time for a point in the box of an open model.
  * Needs: CDPREP_ASK_INSIDE */
 CDPREP_API int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* workspace,
                                     cdprep_point_state* answers, cdprep_error* error);
@@ -56,7 +58,7 @@ CDPREP_API int cdprep_points_inside(const cdprep_point_query* query, cdprep_work
 
 typedef struct cdprep_ray {
     double origin[3];    /* model coordinates */
-    double direction[3]; /* any length but 0; one so short that t overflows is refused */
+    double direction[3]; /* any length but 0; one so short that t could overflow is refused */
     double max_t;        /* 0 or more, in lengths of the direction; INFINITY for the whole ray */
 } cdprep_ray;
 
@@ -81,13 +83,14 @@ typedef struct cdprep_ray_hit_list {
     size_t room, count;
 } cdprep_ray_hit_list;
 
+/* Receives each hit and the caller's context; returning 0 ends the search. */
 typedef int (*cdprep_ray_visitor)(void* context, const cdprep_ray_hit* hit);
 
 /* Stores the first hit of each ray; `hits` must have room for `count` results. Each hit is decided
  * exactly. A triangle includes its edges and vertices, so no ray passes between two triangles that
- * share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits where it
- * enters. t is rounded. So either of two hits with nearly equal t may be the first. A hit near
- * max_t may be accepted or rejected. Takes O(log n) time for most rays.
+ * share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits at the point
+ * where the ray enters the triangle. t is rounded. So either of two hits with nearly equal t may be
+ * the first. A hit near max_t may be accepted or rejected. Takes O(log n) time for most rays.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_cast(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                 cdprep_ray_hit* hits, cdprep_error* error);
@@ -104,7 +107,7 @@ CDPREP_API int cdprep_rays_all(const cdprep_ray_query* query, cdprep_workspace* 
                                cdprep_ray_hit_list* lists, cdprep_error* error);
 
 /* Calls `visit` with each hit of one ray, in no particular order. `count` must be 1, because a hit
- * does not name its ray.
+ * does not name its ray. Returns CDPREP_OK even if the visitor ended the search.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_visit(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                  cdprep_ray_visitor visit, void* context, cdprep_error* error);
@@ -112,14 +115,14 @@ CDPREP_API int cdprep_rays_visit(const cdprep_ray_query* query, cdprep_workspace
 /* --- Shapes --------------------------------------------------------------------------------- */
 
 enum {
-    CDPREP_BOX = 1,     /* limits a and b, a <= b, which may be infinite */
+    CDPREP_BOX = 1,     /* limits a and b, a <= b; a may be -infinity, b may be infinity */
     CDPREP_SPHERE = 2,  /* centre a, radius */
     CDPREP_CAPSULE = 3, /* ends a and b, radius; radius 0 is the segment */
     CDPREP_TRIANGLE = 4 /* corners a, b, c */
 };
 
-/* A closed, solid shape, and the placement of the model. Fields that the shape does not use are
- * ignored. */
+/* A closed, solid shape, and the placement of the model. A negative radius is refused. Of a, b, c
+ * and radius, those that the shape does not use are ignored. */
 typedef struct cdprep_shape_query {
     cdprep_head head;
     const cdprep_model* model;
@@ -137,6 +140,7 @@ typedef struct cdprep_triangle_list {
     size_t room, count;
 } cdprep_triangle_list;
 
+/* Receives each triangle and the caller's context; returning 0 ends the search. */
 typedef int (*cdprep_triangle_visitor)(void* context, uint32_t triangle);
 
 /* Stores whether a shape has a point in common with a triangle of the model. Exact, also for
@@ -152,15 +156,16 @@ CDPREP_API int cdprep_touch(const cdprep_shape_query* query, cdprep_workspace* w
 CDPREP_API int cdprep_touch_list(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                  cdprep_triangle_list* list, cdprep_error* error);
 
-/* Calls `visit` with each triangle that the shape touches, in no particular order.
+/* Calls `visit` with each triangle that the shape touches, in no particular order. Returns
+ * CDPREP_OK even if the visitor ended the search.
  * Needs: CDPREP_ASK_TOUCH */
 CDPREP_API int cdprep_touch_visit(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                   cdprep_triangle_visitor visit, void* context,
                                   cdprep_error* error);
 
 /* Stores the distance of a shape from the surface. `degenerate` must keep its default. In the
- * answer, `a` is the model and `b` is the shape. For a sphere, on_b is its centre; for a capsule,
- * on_b is on its segment. triangle_b is CDPREP_NONE.
+ * answer, the model is A and the shape is B. For a sphere, on_b is its centre; for a capsule, on_b
+ * is on its segment. If there is a result, triangle_b is CDPREP_NONE.
  * Needs: CDPREP_ASK_TOUCH */
 CDPREP_API int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                      cdprep_nearest* nearest, cdprep_error* error);
@@ -168,8 +173,8 @@ CDPREP_API int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_wor
 /* Both functions run `count` queries on the lanes of the workspace, about one model or several. The
  * answers are those of cdprep_touch() and cdprep_shape_distance(), in the same order. All queries
  * are checked first. If one is invalid, none runs, and error.argument names it
- * ("queries[3].radius"). The size in the head of the first query is the stride of the array. A
- * batch of about ten queries or more is faster than single calls.
+ * ("queries[3].radius"). The size in the head of the first query is the stride of the array. With
+ * several lanes, a batch of about ten queries or more is faster than single calls.
  * Needs: CDPREP_ASK_TOUCH */
 CDPREP_API int cdprep_touch_many(const cdprep_shape_query* queries, size_t count,
                                  cdprep_workspace* workspace, uint32_t* touches,

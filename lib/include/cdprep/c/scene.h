@@ -19,34 +19,35 @@ extern "C" {
 
 enum { CDPREP_LAYERS = 32 }; /* the number of layers of a scene; an object is in one of them */
 
-/* The effects for pairs of objects of two layers, which may be the same. Two layers form at most
- * one pair.
+/* The effects for pairs of objects of two layers. The two layers may be the same. No other pair may
+ * have the same two layers.
  *
  * CDPREP_ASK_SELF tests each object of one layer against itself: `a` and `b` are both that layer.
  * CDPREP_ASK_CONTINUOUS finds when two objects touch on the way from their last poses to the
  * present ones. CDPREP_ASK_HAPTIC computes a distance within a limit of work. CDPREP_ASK_DEFORM and
  * CDPREP_ASK_TEAR compute nothing. They state that models of the layers may change between two
- * steps, so that each step looks for changes. A pair with either of them may not have
- * CDPREP_ASK_CONTACTS or _CONTINUOUS. A pair with CDPREP_ASK_HAPTIC may not have
+ * steps, so that each step looks for changes. A pair with either of them must not have
+ * CDPREP_ASK_CONTACTS or _CONTINUOUS. A pair with CDPREP_ASK_HAPTIC must not have
  * CDPREP_ASK_DISTANCE or CDPREP_SOLID.
  *
  * With `max_error`, the plan chooses the cheapest method that is certified for every model of both
- * layers. The choice depends on numbers in the files, never on a measured time. One method is the
- * search through the BVH, which ends at max_error. The other is for CDPREP_SOLID: the distance
- * between enclosing parts (bake --structures hull --parts N). It needs at most 6 pairs of parts,
- * one of each model. The sum of the errors of both models must be at most max_error. Then the
- * nearest points lie on parts, and the triangles are CDPREP_NONE. Two objects still use the BVH if
- * their own models have no parts, or parts with larger errors than the plan knows. With either
- * method, the bounds contain the exact distance. They are at most max_error apart, plus rounding.
- * Rounding is at most 3e-12 of `upper`, plus 1e-13 of the largest coordinate of a model or a
- * translation.
+ * layers. The choice depends on numbers in the files and in cdprep_model_use, never on a measured
+ * time. One method is the search through the BVH, which ends at max_error. The other is for
+ * CDPREP_SOLID: the distance between enclosing parts (bake --structures hull --parts N). The
+ * numbers of parts of both models must have a product of at most 6. The errors of both models must
+ * have a sum of at most max_error. Neither layer may be in a pair with CDPREP_ASK_DEFORM or _TEAR.
+ * Then the nearest points lie on parts, and the triangles are CDPREP_NONE. Two objects still use
+ * the BVH if one of their models has no parts. They also do so if the sum of the errors of their
+ * parts is larger than the plan knows. With either method, the bounds contain the exact distance.
+ * They are at most max_error apart, plus rounding. Rounding is at most 3e-12 of `upper`, plus 1e-13
+ * of the largest coordinate of a model or a translation.
  *
  * With `max_error`, an effect that is reported not to hold does not hold. An effect may be reported
  * to hold although the exact distance exceeds its limit by up to max_error, plus rounding. The
  * limits are 0 for collide, max_distance for distance and tolerance for within. CDPREP_ASK_WITHIN
  * is exact unless the pair also has CDPREP_ASK_DISTANCE and CDPREP_SURFACE. CDPREP_ASK_COLLIDE is
  * exact unless parts decide it; then no containment is reported. While distance is paused, both are
- * exact. All other effects are exact. */
+ * exact. `max_error` changes no other effect. */
 typedef struct cdprep_layer_pair {
     cdprep_head head;
     uint32_t a, b; /* 0: below CDPREP_LAYERS */
@@ -59,7 +60,8 @@ typedef struct cdprep_layer_pair {
     /* CDPREP_NO. CDPREP_YES: each step also lists an event for each effect that goes on. */
     uint32_t lists_stays;
     double tolerance; /* 0: for within, model units */
-    /* 0: for distance and haptic, model units. Larger distances are not found. */
+    /* 0: for distance and haptic, model units. Objects that are proven to be farther apart are left
+     * out. */
     double max_distance;
     /* 0: for distance, model units: the largest permitted error of answers; see above. */
     double max_error;
@@ -85,8 +87,8 @@ typedef struct cdprep_model_use {
     uint32_t serves;
     uint32_t layers; /* 0: the layers of its objects; bit i is layer i */
     /* 0: if `model` is null, the number of enclosing parts of a closed model with one component.
-     * Otherwise, the plan reads the parts from the model, if it was opened with CDPREP_ASK_HULLS
-     * and _SOLID. */
+     * They count only if `serves` has CDPREP_ASK_HULLS. If `model` is not null, the plan reads its
+     * parts from the model. For this, the model must be opened with CDPREP_ASK_HULLS and _SOLID. */
     uint32_t part_count;
     uint32_t reserved; /* 0 */
     double part_error; /* 0: with part_count, the largest error of those parts, model units */
@@ -99,7 +101,7 @@ CDPREP_API void cdprep_model_use_init(cdprep_model_use* model_use, size_t size);
 typedef struct cdprep_plan_options {
     cdprep_head head;
     const cdprep_layer_pair* layer_pairs; /* null */
-    const cdprep_model_use* models;       /* null: only cdprep_scene_add() checks models */
+    const cdprep_model_use* models;       /* null: only the scene checks models */
     /* Null: messages and texts number the layers. Otherwise the names of layers 0, 1, ..., in
      * UTF-8; copied. A layer with an empty name is named by its number. */
     const char* const* layer_names;
@@ -107,8 +109,8 @@ typedef struct cdprep_plan_options {
     uint32_t model_count;      /* 0 */
     uint32_t layer_name_count; /* 0: at most CDPREP_LAYERS */
     uint32_t max_objects;      /* 0: objects of a scene, at most 2^29 */
-    /* 0: the number of pairs of objects whose boxes meet at a time, plus that of objects tested
-     * against themselves. Room for twice as many is faster. */
+    /* 0: the maximum number of pairs of objects whose boxes meet at a time. An object that is
+     * tested against itself counts as a pair. Room for twice as many is faster. */
     uint32_t max_pairs;
     /* 1: at most 256. A step uses at most this many lanes of its workspace. */
     uint32_t lanes;
@@ -118,7 +120,7 @@ typedef struct cdprep_plan_options {
     const cdprep_allocator* allocator;
     /* 0: a point near the objects. Their boxes are relative to it, so that they stay tight in
      * float. The point changes which boxes meet, and so how many pairs need room. It changes no
-     * result. */
+     * result, except what CDPREP_ASK_HAPTIC keeps from earlier steps. */
     double origin[3];
 } cdprep_plan_options;
 
@@ -131,18 +133,22 @@ typedef struct cdprep_plan cdprep_plan;
  * visits. */
 typedef int (*cdprep_text_visitor)(void* context, const char* sentence);
 
-/* Compiles a plan. Invalid layer pairs and models do not end the checks. `refusals` receives a
- * sentence for each invalid entry, and `error` describes the first. `refusals` may be null. On
- * failure *plan is null. The plan takes some kilobytes. Takes O(layer pairs^2 + models) time.
+/* Compiles a plan. Invalid layer pairs and models do not end the checks. Exception: an invalid head
+ * of an array's first element ends the checks of that array. `refusals` receives a sentence for
+ * each invalid layer pair or model, and `error` describes the first. If another field of the
+ * options is invalid, only `error` describes it. `refusals` may be null. On failure *plan is null.
+ * The plan takes some kilobytes. Takes O(layer pairs (layer pairs + models)) time.
  * Errors, which name the argument, such as `options.layer_pairs[3].tolerance`:
  * - CDPREP_WHY_OUT_OF_RANGE: a layer, an effect, an enumerator, a number or a count.
- * - CDPREP_WHY_NULL: a name of a layer, or an array with a count above 0, is null.
- * - CDPREP_WHY_NOT_FINITE: a tolerance, angle, maximum distance or the origin is NaN or infinite.
- * - CDPREP_WHY_NO_MEANING: Two layers form a second pair. Or a field is set that no effect of its
- *   pair uses. Or `serves`, `name`, `part_count` or `part_error` is set in addition to a model. Or
- *   `part_error` is set without `part_count`.
+ * - CDPREP_WHY_NULL: a name of a layer, a function of the allocator, or an array with a count above
+ *   0 is null.
+ * - CDPREP_WHY_NOT_FINITE: a tolerance, an error, an angle, `max_distance` or the origin is NaN or
+ *   infinite.
+ * - CDPREP_WHY_NO_MEANING: two pairs have the same layers. Or a field is set that no effect of its
+ *   pair uses. Or, although a model is given, `serves`, `name`, `part_count` or `part_error` is
+ *   set. Or `part_error` is set without `part_count`.
  * - CDPREP_WHY_NOT_BAKED: a model does not serve an effect of its `layers`, because its file lacks
- *   the sections.
+ *   the sections. If `model` is null: because `serves` lacks the effect.
  * - CDPREP_WHY_NOT_OPENED: a model does not serve an effect of its `layers`, because the sections
  *   were not opened.
  * - CDPREP_OVER_BUDGET: there is not enough memory. */
@@ -150,9 +156,10 @@ CDPREP_API int cdprep_plan_compile(const cdprep_plan_options* options, cdprep_te
                                    void* context, cdprep_plan** plan, cdprep_error* error);
 
 /* Stores a text of several lines that describes a plan. It lists the queries of each layer pair,
- * the effects that are not computed, and the layers in no pair. Then it lists the sections that are
- * read, and the size of a scene. *length is the length of the whole text, without the zero at its
- * end. Stores at most `room` - 1 characters, and a zero. `text` may be null if `room` is 0. */
+ * and the effects that are not computed. It lists layers that are never tested together, and layers
+ * in no pair that have a name or a model. Then it lists the sections that are read, and the size of
+ * a scene. *length is the length of the whole text, without the zero at its end. Stores at most
+ * `room` - 1 characters, and a zero. `text` may be null if `room` is 0. */
 CDPREP_API int cdprep_plan_text(const cdprep_plan* plan, char* text, size_t room, size_t* length,
                                 cdprep_error* error);
 
@@ -160,15 +167,16 @@ CDPREP_API int cdprep_plan_text(const cdprep_plan* plan, char* text, size_t room
 CDPREP_API int cdprep_plan_ask(const cdprep_plan* plan, uint32_t layer, uint32_t* ask,
                                cdprep_error* error);
 
-/* Ends a plan. Null does nothing. Scenes keep what they need: the memory is released when the last
- * of them ends. */
+/* Ends a plan. Null does nothing. Scenes of the plan may still run: its memory is released when the
+ * last of them ends. */
 CDPREP_API void cdprep_plan_end(cdprep_plan* plan);
 
 /* --- Scenes -----------------------------------------------------------------------------------
  *
- * A step runs the plan's queries for pairs of objects near each other, if one of the two has moved.
- * Without max_error, its results are those of single queries with CDPREP_MOVE_BOTH. Results do not
- * depend on the number of lanes, and are sorted by the slots of `a` and `b`. */
+ * A step runs the plan's queries for pairs of objects near each other. If nothing about a pair has
+ * changed since the last step, its results are kept. Without max_error, the results are those of
+ * single queries with CDPREP_MOVE_BOTH. Results do not depend on the number of lanes, and are
+ * sorted by the slots of `a` and `b`. */
 
 /* Objects and their results. While one call changes a scene, all other calls on it fail with
  * CDPREP_WHY_BUSY; cdprep_scene_end() then does nothing. Any number of threads may read a scene at
@@ -182,17 +190,19 @@ typedef struct cdprep_object {
     uint32_t generation;
 } cdprep_object;
 
-/* Stores the number of bytes that cdprep_scene_make() needs for this plan. It depends only on the
- * limits, the effects and cdprep_contact_options.most. It is about 460 to 620 bytes for each object
- * and 480 to 2,500 for each pair. CDPREP_ASK_HAPTIC takes 2,200 more for each pair.
- * CDPREP_ASK_OVERLAP and _SELF take 24 more for each triangle pair, and 16 KiB for each lane.
- * CDPREP_ASK_CONTACTS takes 1,630 more for each contact, and 20 to 120 KiB for each lane. */
+/* Stores the number of bytes that cdprep_scene_make() needs for this plan. It depends on the limits
+ * and on the layer pairs: their number, effects, `body`, cdprep_contact_options.most and method for
+ * max_error. It is about 460 to 620 bytes for each object and 360 to 2,450 for each pair.
+ * CDPREP_ASK_HAPTIC takes 2,300 more for each pair. CDPREP_ASK_OVERLAP and _SELF take 24 more for
+ * each triangle pair, and 16 KiB for each lane. CDPREP_ASK_CONTACTS takes 1,630 more for each
+ * contact, and 16 to 120 KiB for each lane. */
 CDPREP_API int cdprep_scene_size(const cdprep_plan* plan, size_t* size, cdprep_error* error);
 
 /* Makes an empty scene in the caller's memory. The memory must start at a multiple of
  * CDPREP_ALIGNMENT, have at least cdprep_scene_size() bytes, and outlive the scene. If `memory` is
  * null and `size` is 0, the scene takes its memory from the plan's allocator, in one allocation. On
- * failure *scene is null. No other function of a scene allocates.
+ * failure *scene is null. No other function of a scene allocates, except for the message of an
+ * error or of a motion that is too long.
  * Errors: CDPREP_WHY_TOO_SMALL; CDPREP_WHY_OUT_OF_RANGE for the alignment; CDPREP_OVER_BUDGET. */
 CDPREP_API int cdprep_scene_make(cdprep_plan* plan, void* memory, size_t size, cdprep_scene** scene,
                                  cdprep_error* error);
@@ -216,8 +226,8 @@ CDPREP_API void cdprep_object_options_init(cdprep_object_options* options, size_
  * is added, and all ids are 0. The size in the head of the first object is the stride of the array.
  * Errors, which name the argument, such as `objects[3].world_from_model`: CDPREP_WHY_NOT_BAKED or
  * CDPREP_WHY_NOT_OPENED for a model that does not serve its layer; CDPREP_WHY_NOT_RIGID;
- * CDPREP_WHY_OUT_OF_RANGE for a layer, or for `count` if the scene has too few free slots;
- * CDPREP_WHY_BUSY. */
+ * CDPREP_WHY_NOT_FINITE for a pose; CDPREP_WHY_OUT_OF_RANGE for a layer or a pose, or for `count`
+ * if the scene has too few free slots; CDPREP_WHY_BUSY. */
 CDPREP_API int cdprep_scene_add(cdprep_scene* scene, const cdprep_object_options* objects,
                                 size_t count, cdprep_object* ids, cdprep_error* error);
 
@@ -235,8 +245,8 @@ CDPREP_API int cdprep_scene_set_layer(cdprep_scene* scene, cdprep_object id, uin
 /* Sets the poses of objects, from model to world coordinates: poses[i] is that of ids[i]. If an id
  * repeats, its last pose counts. An object counts as moved even if its pose is the same. For
  * CDPREP_ASK_CONTINUOUS, the object moves from its pose in the last complete step to the new pose.
- * The middle of its model's box moves along a straight line. The object turns the shorter way, by
- * pi at most.
+ * If it was added or put since then, the motion begins at that pose. The middle of its model's box
+ * moves along a straight line. The object turns the shorter way, by pi at most.
  * Errors: CDPREP_WHY_STALE, CDPREP_WHY_NOT_FINITE, CDPREP_WHY_OUT_OF_RANGE, CDPREP_WHY_NOT_RIGID;
  * then no pose is set. */
 CDPREP_API int cdprep_scene_set_poses(cdprep_scene* scene, const cdprep_object* ids,
@@ -310,7 +320,8 @@ typedef struct cdprep_scene_overlap {
     size_t count;
 } cdprep_scene_overlap;
 
-/* The distance of two objects that are at most max_distance apart: a.slot < b.slot. */
+/* The distance of two objects that are at most max_distance apart: a.slot < b.slot. With max_error,
+ * they may be that much farther apart. */
 typedef struct cdprep_scene_distance {
     cdprep_object a, b;
     uint32_t layer_pair;
@@ -327,8 +338,9 @@ typedef struct cdprep_scene_self_overlap {
     size_t count;
 } cdprep_scene_self_overlap;
 
-/* The time at which two objects touch on the way from their poses in the last step to the present
- * ones: a.slot < b.slot. */
+/* The time at which two objects first touch on the way from their poses in the last step to the
+ * present ones: a.slot < b.slot. If a motion is too long to compute, the kind is
+ * CDPREP_IMPACT_UNFINISHED and `lower` is 0. */
 typedef struct cdprep_scene_impact {
     cdprep_object a, b;
     uint32_t layer_pair;
@@ -343,7 +355,9 @@ typedef struct cdprep_scene_bounded {
     uint32_t layer_pair;
     /* CDPREP_YES: there was a complete answer since the boxes of the two objects met. */
     uint32_t has_last;
-    uint64_t late;                        /* the number of late answers since then */
+    /* The number of late answers since the last complete one or, without one, since the boxes
+     * met. */
+    uint64_t late;
     cdprep_bounded bounded;               /* points are in the world */
     cdprep_bounded last;                  /* the last complete answer, if has_last */
     cdprep_pose last_pose_a, last_pose_b; /* the poses of that answer */
@@ -417,15 +431,20 @@ CDPREP_API int cdprep_scene_impacts(const cdprep_scene* scene, const cdprep_scen
 CDPREP_API int cdprep_scene_bounded_distances(const cdprep_scene* scene,
                                               const cdprep_scene_bounded** distances, size_t* count,
                                               cdprep_error* error);
-/* Events are in the order of hits. */
+/* Events are in the order of hits. For the same objects, CDPREP_EVENT_END comes before _STAY, and
+ * _STAY before _BEGIN. */
 CDPREP_API int cdprep_scene_events(const cdprep_scene* scene, const cdprep_event** events,
                                    size_t* count, cdprep_error* error);
 
-/* Stores a hash of these arrays. It leaves out nearest points, features, the points of manifolds
- * and the bounds of impacts. For distances of 0, it leaves out the triangles. The hash is equal on
- * every machine and for any number of lanes, with three exceptions. These are bounded distances,
+/* Stores a hash of these arrays, to compare runs. Of distances, it leaves out the nearest points
+ * and, for distances of 0, the triangles. Of bounded distances, it includes the objects, `complete`
+ * and the bounds only. Of impacts, it includes the objects and the kind only. Of contact lists, it
+ * includes the objects, `layer_pair`, `found`, `count` and the items. Of these items, it leaves out
+ * features, `members`, and on_a and on_b of the points of manifolds. The hash is equal for any
+ * number of lanes and any instruction set, with three exceptions. These are bounded distances,
  * answers with a max_error, and impacts that are CDPREP_IMPACT_NEAR. They may differ between
- * instruction sets. Takes O(elements) time. */
+ * instruction sets. Impacts, and winding numbers of unknown containment, also depend on the C
+ * library. Takes O(elements) time. */
 CDPREP_API int cdprep_scene_hash(const cdprep_scene* scene, uint64_t* hash, cdprep_error* error);
 
 /* Indices into cdprep_counts.n for cdprep_scene_counts(). All but the first describe the last
@@ -437,7 +456,7 @@ enum {
     CDPREP_SCENE_MOVED = 1,
     /* Pairs of objects whose boxes meet, and objects that are tested against themselves. */
     CDPREP_SCENE_CANDIDATES = 2,
-    /* Candidates of which neither object moved: no query runs. */
+    /* Candidates about which nothing changed: their last results are kept, and no query runs. */
     CDPREP_SCENE_KEPT = 3,
     /* Candidates whose oriented bounding boxes are apart: no query runs. */
     CDPREP_SCENE_APART = 4,
@@ -461,7 +480,8 @@ enum {
     CDPREP_SCENE_TICKS_CONTINUOUS = 20,
     CDPREP_SCENE_TICKS_SELF = 21,
     CDPREP_SCENE_TICKS_HAPTIC = 22,
-    /* The ticks of the stages of a step, one after the other. They add up to the whole step. */
+    /* The ticks of the stages of a step, one after the other. They add up to the whole step,
+     * without the copying of results for the C API. */
     CDPREP_SCENE_TICKS_BOXES = 23,   /* of boxes, the broad phase and the reuse of results */
     CDPREP_SCENE_TICKS_QUERIES = 24, /* of all queries, from start to end */
     CDPREP_SCENE_TICKS_LISTS = 25    /* of lists and events */
@@ -497,8 +517,8 @@ typedef struct cdprep_broad_phase_options {
 CDPREP_API void cdprep_broad_phase_options_init(cdprep_broad_phase_options* options, size_t size);
 
 /* Stores the number of bytes that cdprep_broad_phase_make() needs for these options. It is about
- * 165 for each box and 24 for each pair. Each lane but the first adds 4 for each box. `options` may
- * be null. */
+ * 165 for each box, 24 for each pair and 4 KiB for each lane. Each lane but the first adds 4 for
+ * each box. `options` may be null. */
 CDPREP_API int cdprep_broad_phase_size(const cdprep_broad_phase_options* options, size_t* size,
                                        cdprep_error* error);
 
@@ -511,8 +531,9 @@ CDPREP_API int cdprep_broad_phase_make(const cdprep_broad_phase_options* options
 /* Ends a broad phase, by the rules of cdprep_workspace_end(). */
 CDPREP_API void cdprep_broad_phase_end(cdprep_broad_phase* broad_phase);
 
-/* A closed, axis-aligned box. It may be flat or a point. Infinite numbers count as the largest
- * finite ones. If lower > upper along an axis, the box is absent: it forms no pair. */
+/* A closed, axis-aligned box. It may be flat or a point. If lower > upper along an axis, the box is
+ * absent: it forms no pair. In all other boxes, infinite numbers count as the largest finite
+ * ones. */
 typedef struct cdprep_world_box {
     float lower[3], upper[3];
 } cdprep_world_box;
@@ -532,10 +553,10 @@ typedef struct cdprep_box_pair {
 typedef struct cdprep_box_update {
     cdprep_head head;
     const cdprep_world_box* boxes;    /* null: with count 0 */
-    const cdprep_box_filter* filters; /* null: all boxes form pairs; otherwise one for each box */
-    /* Null: any box may have moved. Otherwise, the numbers of the boxes that may have changed, or
-     * whose filters may have. They may be in any order, and may repeat. This is faster if few boxes
-     * move. Then `count` must be that of the last update. */
+    const cdprep_box_filter* filters; /* null: all boxes may form pairs; or one for each box */
+    /* Null: any box may have moved. Otherwise, the numbers of all boxes that may have changed, or
+     * whose filters may have changed. They may be in any order, and may repeat. With these numbers,
+     * an update is faster if few boxes move. `count` must then be that of the last update. */
     const uint32_t* moved;
     uint32_t count;       /* 0: of boxes, at most max_boxes */
     uint32_t moved_count; /* 0 */
@@ -546,9 +567,9 @@ CDPREP_API void cdprep_box_update_init(cdprep_box_update* update, size_t size);
 typedef struct cdprep_box_pairs {
     const cdprep_box_pair* items; /* sorted by a, then b; valid until the next update */
     size_t count;                 /* 0 if not complete */
-    /* 0 if complete; otherwise the max_pairs that this update needs. */
+    /* 0 if complete or if the call failed; otherwise the max_pairs that this update needs. */
     uint64_t needed;
-    uint32_t complete; /* CDPREP_NO: there are too many pairs */
+    uint32_t complete; /* CDPREP_NO: there are too many pairs, or the call failed */
     uint32_t escaped;  /* boxes that left the larger box around them, or whose filter changed */
     uint32_t kept;     /* CDPREP_YES: pairs of larger boxes are kept for the next update */
     uint32_t reserved; /* 0 */
@@ -556,7 +577,8 @@ typedef struct cdprep_box_pairs {
 
 /* Stores the pairs of boxes that meet, computed on the lanes of the workspace. They do not depend
  * on the number of lanes. Too many pairs are no error: then `complete` is CDPREP_NO. Takes O(n +
- * pairs) time if few boxes leave their larger boxes, otherwise O(n log n + pairs).
+ * pairs) time if few boxes leave their larger boxes. Otherwise, it takes O(n log n + pairs) for
+ * boxes of similar size that are spread out.
  * Errors: CDPREP_WHY_NOT_FINITE for a box with NaN; CDPREP_WHY_OUT_OF_RANGE for counts and numbers
  * of boxes; CDPREP_WHY_BUSY. An update that fails changes nothing in the broad phase. */
 CDPREP_API int cdprep_broad_phase_update(cdprep_broad_phase* broad_phase,
@@ -569,8 +591,9 @@ CDPREP_API int cdprep_broad_phase_update(cdprep_broad_phase* broad_phase,
 /* The requirements of a plan for the objects of one layer. */
 typedef struct cdprep_layer_info {
     uint32_t ask; /* as cdprep_plan_ask() stores it */
-    /* The filter for boxes of its objects: this layer, and the layers with which it is paired. It
-     * accepts no layer if no pair of this layer has an effect of two objects. */
+    /* The filter for boxes of its objects: this layer, and the layers with which it is paired. A
+     * pair counts only if it has an effect of two objects: not only CDPREP_ASK_SELF, _DEFORM or
+     * _TEAR. */
     cdprep_box_filter filter;
     uint32_t reserved; /* 0 */
     double reach;      /* the margin around boxes of its objects, model units */
@@ -582,14 +605,15 @@ typedef struct cdprep_layer_info {
 CDPREP_API int cdprep_plan_layer(const cdprep_plan* plan, uint32_t layer, cdprep_layer_info* info,
                                  cdprep_error* error);
 
-/* Stores the axis-aligned box around a model that `world_from_model` moves. The box is enlarged by
- * `reach` on all sides, in model units. It contains every vertex as the pose moves it. It is absent
- * if the model has no triangles. The box is relative to the point `origin`, 3 numbers. A null
- * `origin` means the point 0 0 0. All boxes of a broad phase must have the same origin. Limits
- * beyond the largest float are rounded outwards, so that an upper limit is infinite. Far from the
- * origin, rounding to float widens the box: at 10^7 by about a unit on each side. If two models are
- * at most d apart, their boxes with a reach of d / 2 each meet. Takes some 100 ns. On failure the
- * box is absent.
+/* Stores an axis-aligned box around a model that `world_from_model` moves. First, the model's own
+ * box is enlarged by `reach` on all sides, in model units. Then the pose moves this box, and the
+ * result is the box around it. It contains every vertex as the pose moves it, and all points within
+ * `reach` of them. It is absent if the model has no triangles. The box is relative to the point
+ * `origin`, 3 numbers. A null `origin` means the point 0 0 0. All boxes of a broad phase must have
+ * the same origin. Limits beyond the largest float are rounded outwards: an upper limit becomes
+ * infinite. Far from the origin, rounding to float widens the box: at 10^7 by about a unit on each
+ * side. If two models are at most d apart, their boxes with a reach of d / 2 each meet. Takes some
+ * 100 ns. On failure the box is absent.
  * Errors: CDPREP_WHY_NOT_RIGID; CDPREP_WHY_NOT_FINITE and CDPREP_WHY_OUT_OF_RANGE for numbers.
  * CDPREP_WHY_NOT_BAKED or _NOT_OPENED for a model without a BVH (section bvh_nodes). */
 CDPREP_API int cdprep_model_box(const cdprep_model* model, const cdprep_pose* world_from_model,
@@ -597,20 +621,22 @@ CDPREP_API int cdprep_model_box(const cdprep_model* model, const cdprep_pose* wo
                                 cdprep_error* error);
 
 /* Stores the address of an array of boxes and the number of its elements, which is max_objects. Box
- * i is that of slot i in the next step, relative to the plan's origin. It contains the object as it
- * is now, enlarged by the `reach` of its layer (cdprep_plan_layer()). With CDPREP_ASK_CONTINUOUS,
- * it contains the whole motion since the last step. Free slots have absent boxes. So have objects
- * of a layer without effects of two objects. The array belongs to the scene, and is valid until the
- * scene changes. Takes O(changed objects) time. Errors: CDPREP_WHY_BUSY. */
+ * i is the box of slot i in the next step, relative to the plan's origin. It contains the object as
+ * it is now, enlarged by the `reach` of its layer (cdprep_plan_layer()). With
+ * CDPREP_ASK_CONTINUOUS, it contains the whole motion since the last step. Free slots have absent
+ * boxes, and so do objects of a layer without effects of two objects. The array belongs to the
+ * scene, and is valid until the scene changes. Takes O(changed objects) time, or O(max_objects) if
+ * the plan has CDPREP_ASK_DEFORM or _TEAR.
+ * Errors: CDPREP_WHY_BUSY. */
 CDPREP_API int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** boxes,
                                   size_t* count, cdprep_error* error);
 
 /* Does the same as cdprep_scene_step(), but with the pairs that the caller's own broad phase found.
  * The candidates are pairs of slots, sorted by a, then b, as cdprep_broad_phase_update() stores
- * them. In each pair, a < b, and no pair occurs twice. They must contain all pairs whose boxes
- * meet: the scene does not find missing pairs. Pairs whose boxes do not meet, or whose layers are
- * not paired, are ignored. Takes O(candidates + pairs log pairs) time, plus the time of the
- * queries.
+ * them. In each pair, a < b, and no pair occurs twice. They must contain all pairs of paired layers
+ * whose boxes meet: the scene does not find missing pairs. Pairs whose boxes do not meet, or whose
+ * layers are not paired, are ignored. Takes O(max_objects + candidates + pairs log pairs) time,
+ * plus the time of the queries.
  * Errors, which name the argument, such as `candidates[3]`. After an error nothing has changed, and
  * `complete` is CDPREP_NO:
  * - CDPREP_WHY_OUT_OF_RANGE: a slot is not below max_objects, or a >= b, or the pair does not come

@@ -9,8 +9,8 @@ extern "C" {
 #endif
 
 /* A window is a copy of the part of a large model near a small one. It serves loops that must
- * answer in time. A slow loop fills one window while a fast loop queries another; then they are
- * swapped. */
+ * answer in time. A slow loop fills one window while a fast loop queries another; then the loops
+ * swap the two windows. */
 
 /* A window. It is queried through cdprep_window_model(). While one call fills it, other calls of
  * this header that use it fail with CDPREP_WHY_BUSY. During a fill, no other query about its model
@@ -36,9 +36,9 @@ CDPREP_API int cdprep_window_size(const cdprep_window_options* options, size_t* 
 /* Makes an empty window. On failure *window is null. End it with cdprep_window_end().
  *
  * `memory` must start at a multiple of CDPREP_ALIGNMENT and have at least cdprep_window_size()
- * bytes. With null memory of size 0, the allocator makes one allocation of that size. In addition,
- * the window takes about 1 KiB of the heap. No later call but cdprep_window_end() allocates or
- * frees memory, except to report an error.
+ * bytes. If `memory` is null and `size` is 0, the allocator makes one allocation of
+ * cdprep_window_size() bytes. In addition, the window takes about 1 KiB of the heap. No later call
+ * but cdprep_window_end() allocates or frees memory, except to report an error.
  *
  * Errors:
  * - CDPREP_WHY_NULL: no options.
@@ -49,7 +49,7 @@ CDPREP_API int cdprep_window_size(const cdprep_window_options* options, size_t* 
 CDPREP_API int cdprep_window_make(const cdprep_window_options* options, void* memory, size_t size,
                                   cdprep_window** window, cdprep_error* error);
 
-/* Ends a window, unless another call uses it. Null does nothing. */
+/* Ends a window. Does nothing for null, or while another call fills the window. */
 CDPREP_API void cdprep_window_end(cdprep_window* window);
 
 /* Returns the model to query, or null if `window` is null. It is the same object after each fill,
@@ -66,9 +66,9 @@ typedef struct cdprep_window_info {
 } cdprep_window_info;
 
 /* Fills a window with the leaves of pair.a that may be at most `radius` from pair.b, the probe. If
- * they do not fit, info->radius is less than `radius`. `radius` must be at least 0. Infinity asks
- * for all leaves; if they fit, info->radius is 2^1000. Of `pair`, uses only the models and their
- * placement.
+ * they do not fit, info->radius is less than `radius`, or info->is_empty is CDPREP_YES. `radius`
+ * must be at least 0. Infinity asks for all leaves; if they fit, info->radius is 2^1000. Of `pair`,
+ * uses only the models and their placement.
  * Takes O(log n + leaves log m) time for n triangles of A and m of B.
  * On failure, the window is as before, and *info is all 0. Errors: those of cdprep_distance().
  * CDPREP_WHY_OUT_OF_RANGE: pair.a or pair.b is the model of this window. CDPREP_WHY_BUSY.
@@ -80,7 +80,8 @@ CDPREP_API int cdprep_window_fill(cdprep_window* window, const cdprep_pair* pair
  * is the window's model. The margin is the radius, minus the largest displacement of a point of the
  * probe since the fill, minus rounding. The displacement is relative to the large model. The margin
  * is negative if the probe has moved too far. It is -2^1000 if pair.b is not the probe of the last
- * fill, or has deformed since. It is 2^1000 if nothing can be missing. Takes O(1) time.
+ * fill, or has deformed since. It is also -2^1000 if that fill stored CDPREP_YES in is_empty. It is
+ * 2^1000 if nothing can be missing. Takes O(1) time.
  * Errors: those of cdprep_distance(). CDPREP_WHY_OUT_OF_RANGE: pair.a is not the model of a window.
  * CDPREP_WHY_BUSY: the window is being filled.
  * Needs: CDPREP_ASK_DISTANCE */
@@ -90,7 +91,7 @@ CDPREP_API int cdprep_window_margin(const cdprep_pair* pair, double* margin, cdp
  * pair.a is the window's model. Works like cdprep_distance_bounded(). But the answer is complete
  * only if the distance or max_distance is less than the margin, or triangles touch. A complete
  * answer is that of the large model, but may name another pair of triangles that touch. If the
- * answer is not complete, `lower` is at most the margin.
+ * answer is not complete, `lower` is at most the margin, or 0 if the margin is negative.
  * Errors: those of cdprep_distance_bounded() and cdprep_window_margin().
  * Needs: CDPREP_ASK_DISTANCE */
 CDPREP_API int cdprep_window_distance(const cdprep_pair* pair,

@@ -14,7 +14,7 @@
 
 namespace cdprep::build {
 
-/// An octree with a split point chosen for each node (format/octree.h).
+/// An octree with a split point chosen for each divided node (format/octree.h).
 struct AdaptiveOctree {
     format::AdaptiveOctree tree{};
     std::vector<format::AdaptiveOctreeNode> nodes;
@@ -48,14 +48,15 @@ inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
 /// triangles.
 ///
 /// An axis is not divided if its plane would cut every triangle's box, unless that holds for all
-/// three axes. A cell is a leaf if no plane is inside it, or if each child would list all of the
-/// cell's triangles or none. So a cell whose triangles are all equal is not divided. A level and
-/// those below it are not divided if the tree would get more references than build_octree() allows.
+/// three axes. A cell is a leaf if no plane is inside it. It is also a leaf if each child would
+/// list all of the cell's triangles or none. So a cell whose triangles are all equal is not
+/// divided. A level and those below it are not divided if the tree would get more references than
+/// build_octree() allows.
 ///
-/// Takes O(levels * references) time. The memory beside the result is at most the sum of
-/// kAdaptiveScratchPerTriangle, PerReference and PerNode, each times its number. This holds for one
-/// thread. On several threads, medians that are computed at once take up to 24 bytes per reference
-/// more. Throws only std::bad_alloc.
+/// Takes O(levels * references) time. On one thread, the memory beside the result is at most the
+/// sum of three products, plus a few KiB. These are kAdaptiveScratchPerTriangle times the number of
+/// triangles, and the same for references and nodes of the result. On several threads, medians that
+/// are computed at once take up to 24 bytes per reference more. Throws only std::bad_alloc.
 [[nodiscard]] CDPREP_API AdaptiveOctree build_adaptive_octree(
     std::span<const format::Double3> positions, std::span<const format::Triangle> triangles,
     const AdaptiveOctreeOptions& options = {});

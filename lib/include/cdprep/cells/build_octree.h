@@ -16,15 +16,15 @@
 namespace cdprep::build {
 
 /// An octree of cells of equal shape (format/octree.h), and the tables that find a cell by its key.
-/// The tables make it a hashed octree. They have three forms. Vectors that the options exclude are
-/// empty.
+/// These tables, in three forms, make the octree a hashed octree. Vectors that the options exclude
+/// are empty. The last element of `top` is the number of leaves.
 struct Octree {
     format::OctreeGrid grid{};
     std::vector<format::OctreeNode> nodes;
     std::vector<std::uint32_t> references;
     std::vector<std::uint64_t> leaf_codes;     ///< sorted form: Z-order codes of the leaves
     std::vector<std::uint32_t> leaf_nodes;     ///< the node of each of these leaves
-    std::vector<std::uint32_t> top;            ///< first leaf of each cell of grid.top_level
+    std::vector<std::uint32_t> top;            ///< leaves before each cell of grid.top_level
     std::vector<std::uint32_t> modulus_table;  ///< published form: chained, slot by last key bits
     std::vector<std::uint32_t> mixed_table;    ///< the same, slot by a mixed key
     std::vector<format::CellBox> boxes;        ///< one per node, around its contents
@@ -44,7 +44,8 @@ struct OctreeOptions {
 inline constexpr std::uint64_t kMostFreeReferences = std::uint64_t{1} << 22;
 inline constexpr std::uint64_t kMostReferencesPerTriangle = 64;
 
-/// The memory that a build uses for each vertex, reference and node of the result, in bytes.
+/// The scratch memory of a build, in bytes: for each vertex of the input, and for each reference
+/// and node of the result.
 inline constexpr std::size_t kScratchPerVertex = 16;
 inline constexpr std::size_t kScratchPerReference = 10;
 inline constexpr std::size_t kScratchPerNode = 96;
@@ -56,12 +57,14 @@ inline constexpr std::size_t kScratchPerNode = 96;
 /// parallel_for and processor.
 ///
 /// The total number of references is at most kMostFreeReferences plus kMostReferencesPerTriangle
-/// for each triangle. A level whose division would exceed this is not divided, nor is any level
-/// below. For example, a triangle as large as the cube would touch about 2^42 cells of level 21. If
-/// coordinates are NaN, the result is meaningless; mesh readers reject such coordinates.
+/// for each triangle, and at most 2^31. A level whose division would exceed this limit is not
+/// divided, nor is any level below. For example, a triangle as large as the cube would touch about
+/// 2^42 cells of level 21. If coordinates are NaN, the result is meaningless; mesh readers reject
+/// such coordinates.
 ///
 /// Takes O(levels * references) time. Scratch memory is at most kScratchPerVertex * vertices +
-/// kScratchPerReference * references + kScratchPerNode * nodes bytes. Throws only std::bad_alloc.
+/// kScratchPerReference * references + kScratchPerNode * nodes bytes, plus a few KiB. Throws only
+/// std::bad_alloc.
 [[nodiscard]] CDPREP_API Octree build_octree(std::span<const format::Double3> positions,
                                              std::span<const format::Triangle> triangles,
                                              const OctreeOptions& options = {});

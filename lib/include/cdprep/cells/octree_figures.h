@@ -27,8 +27,8 @@ struct OctreeFigures {
     friend bool operator==(const OctreeFigures&, const OctreeFigures&) = default;
 };
 
-/// Returns the figures of a model's octree. All but `triangles` are 0 if the model was baked
-/// without an octree. Takes O(nodes + references) time.
+/// Returns the figures of a model's octree. All but `triangles` are 0 if the model was baked or
+/// opened without an octree. Takes O(nodes + references) time.
 [[nodiscard]] CDPREP_API OctreeFigures octree_figures(const Model& model) noexcept;
 
 /// Returns the same figures for an octree in memory that was built over `triangle_count` triangles.

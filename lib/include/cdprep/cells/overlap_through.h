@@ -47,8 +47,8 @@ struct StructureOptions {
 /// The workspace then has no room to remember all pairs found. For each pair without room, the
 /// search determines which of the cells that list the pair reports it.
 ///
-/// Needs Ask::overlap and ask_of() the structure of both models. Never allocates; takes some 20 KiB
-/// of stack.
+/// Needs Ask::overlap and ask_of() the structure of both models. For octrees and tetra-trees, the
+/// workspace must be made with cells(). Never allocates; takes some 20 KiB of stack.
 [[nodiscard]] CDPREP_API std::size_t overlaps_through(const Pair& pair,
                                                       const StructureOptions& through,
                                                       Workspace& workspace,

@@ -43,9 +43,10 @@ inline constexpr StructurePreset kPaperPreset = {
 
 /// The fastest settings for overlaps and collisions. Cells are small enough to be separated by the
 /// boxes around their contents, and no smaller. The lists of two cells that meet are compared in
-/// blocks of 64 triangles. More cells would produce the same blocks again. The table gives times
-/// relative to the BVH, as medians over twelve pairs of models. The first number of an entry is for
-/// light poses, the second for deep ones (tests/bench/results, structure_queries.csv):
+/// clusters of up to 64 triangles. More cells would compare the same clusters again. The table
+/// gives times relative to the BVH, as medians over twelve pairs of models. The first number of an
+/// entry is for light poses, the second for deep ones
+/// (tests/bench/results/xeon_avx512/structure_queries.csv):
 ///
 ///                      octree       adaptive     hashed       tetra-tree
 ///     tuned, collide   2.4, 2.5     2.3, 2.7     5.6, 5.3     3.6, 3.9

@@ -12,7 +12,8 @@ namespace cdprep {
 /// Figures that describe a tetra-tree (format/tetra_tree.h): its size, and how well its cones
 /// divide the model. Layers are the triangles that a ray from the centre crosses; a star-shaped
 /// model has one. Avoid a tetra-tree if there are more than about four layers, or if the centre is
-/// outside or near the surface.
+/// outside or near the surface. Triangles that contain the centre touch every cone. Figures of
+/// cones and layers ignore them.
 struct TetraFigures {
     std::uint64_t triangles = 0;     ///< of the model
     std::uint64_t nodes = 0;         ///< stored cones: those that some triangle touches
@@ -35,10 +36,10 @@ struct TetraFigures {
     friend bool operator==(const TetraFigures&, const TetraFigures&) = default;
 };
 
-/// Returns the figures of a model's tetra-tree. All but `triangles` are 0 if the model was baked
-/// without a tetra-tree. Layers are 0 if the model was opened without positions and triangles.
-/// Takes O(nodes + references) time, tens of nanoseconds per reference. Allocates four bytes per
-/// triangle.
+/// Returns the figures of a model's tetra-tree. All but `triangles` are 0 if the model was baked or
+/// opened without a tetra-tree. Layers are 0 if the model was opened without positions or without
+/// triangles. Takes O(nodes + references) time, tens of nanoseconds per reference. Allocates four
+/// bytes per triangle.
 [[nodiscard]] CDPREP_API TetraFigures tetra_figures(const Model& model);
 
 /// Returns the same figures for a tetra-tree in memory that was built over these triangles.

@@ -58,8 +58,9 @@ namespace cdprep::exact {
 [[nodiscard]] CDPREP_API TriangleContact contact_without_filter(const Corners& a,
                                                                 const Corners& b) noexcept;
 
-/// Returns the edges that bound the common segment of two triangles that touch. Returns nothing
-/// when both lie in one plane or one has no area. Exact.
+/// Returns the edges that bound the common segment of two triangles that touch. Exact. Returns
+/// nothing if both lie in one plane or one has no area. If the triangles do not touch, the result
+/// has no meaning.
 [[nodiscard]] CDPREP_API std::optional<CrossingEnds> crossing_ends(const Corners& a,
                                                                    const Corners& b) noexcept;
 

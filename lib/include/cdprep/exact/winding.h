@@ -27,8 +27,9 @@ namespace cdprep::exact {
                                                   const Corners& t) noexcept;
 
 /// Returns an `o` for winding_term() whose ray runs from q along +x: a point with smaller x, at
-/// least `reach` away. `reach` should be about the model's size: with a much smaller value, the
-/// filter decides few triangles. The result differs from q unless |q.x| is near the largest double.
+/// least `reach` away. `reach` must be positive, and should be about the model's size. With a much
+/// smaller value, the filter decides few triangles. If q.x is near the lowest double, the result is
+/// nearer to q, or equals it.
 [[nodiscard]] CDPREP_API Double3 before_along_x(const Double3& q, double reach) noexcept;
 
 }  // namespace cdprep::exact
