@@ -186,11 +186,11 @@ void add_accuracy(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     const Command command = app.add_command("accuracy", "Measure what accuracy costs in time");
     command.set_notes(
-        "Answers the same queries about A and B in several ways, from coarse to exact. The poses "
-        "are seeded, and their exact answers are known. Reports the time, the size and the errors "
-        "of each way. The exit code is 6 when a way breaks its promise. Examples: an enclosing "
-        "shape misses a contact, or an interval does not contain the distance. Queries run on one "
-        "thread; --jobs applies to building the structures.",
+        "The command answers the same queries about A and B in several ways, from coarse to exact. "
+        "The poses are seeded, and their exact answers are known. It reports the time, the size "
+        "and the errors of each way. The exit code is 6 when a way breaks its promise. For "
+        "example, an enclosing shape misses a contact, or an interval does not contain the "
+        "distance. Queries run on one thread; --jobs applies to building the structures.",
         {"cdprep accuracy arm.obj part.obj --quick",
          "cdprep accuracy arm.obj part.obj --format html -o cost.html"});
     command.add_option("A", arguments->a, "The model that does not move: a mesh or a baked file")

@@ -13,7 +13,7 @@ void add_reindex(const Command& app, Exit& exit) {
         "reindex", "Rebuild the section table of a file that another HDF5 tool rewrote");
     command.set_notes(
         "The runtime maps a file and finds its sections by this table. Tools that rewrite HDF5 "
-        "files, such as h5repack, move the sections. The content stays as it is.",
+        "files, such as h5repack, move the sections. The content of the sections stays as it is.",
         {"h5repack arm.cdp.h5 smaller.cdp.h5", "cdprep reindex smaller.cdp.h5"});
     command.add_option("file", *file, "A baked file (.cdp.h5)").required();
     command.callback([file, &exit] {

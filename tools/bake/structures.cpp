@@ -200,9 +200,9 @@ void add_cell_rules(const Command& command, StructureArguments& arguments) {
     command
         .add_option(
             "--split", arguments.split,
-            "Split planes of octree-adaptive. median: at the median of the triangles' centres; "
-            "area: where area times number of triangles, summed over both sides, is least. "
-            "Default: set by the preset")
+            "Split planes of octree-adaptive. median: at the median of the centres of the "
+            "triangles' boxes; area: the one of 15 planes where area times number of triangles, "
+            "summed over both sides, is least. Default: set by the preset")
         .type_name("RULE")
         .check(one_of({"median", "area"}))
         .group(kGroup);
@@ -227,8 +227,8 @@ void add_cell_rules(const Command& command, StructureArguments& arguments) {
 void add_hull_options(const Command& command, HullChoice& hulls) {
     command
         .add_option("--hull-vertices", hulls.max_vertices,
-                    "Maximum number of vertices of a convex hull; the hull then encloses the exact "
-                    "hull")
+                    "For --structures hull: maximum number of vertices of each hull and part. "
+                    "Hulls then enclose the exact ones")
         .check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles))
         .group(kGroup);
     command
@@ -253,7 +253,8 @@ void add_structure_options(const Command& command, StructureArguments& arguments
         .add_option("--structures", arguments.list,
                     "Comma-separated structures for 'cdprep query --structure': octree, "
                     "octree-adaptive, hashed-octree, tetra-tree, hull; or all, or none. Default: "
-                    "all if --effects is all, tetra-tree if it includes inaccessible, else none")
+                    "all if --effects includes all, else none. --effects inaccessible adds "
+                    "tetra-tree")
         .type_name("LIST")
         .group(kGroup);
     command
@@ -271,11 +272,11 @@ void add_structure_options(const Command& command, StructureArguments& arguments
     number("--octree-level", arguments.octree_level, 0, format::kOctreeBits,
            "Maximum depth of octrees. Default: set by the preset");
     number("--octree-threshold", arguments.octree_threshold, 1, format::kMaxTriangles,
-           "Octrees: do not divide a cell with fewer triangles");
+           "Octrees: do not divide a cell with fewer triangles. Default: set by the preset");
     number("--tetra-level", arguments.tetra_level, 0, format::kMaxTetraLevel,
            "Maximum depth of the tetra-tree. Default: set by the preset");
     number("--tetra-threshold", arguments.tetra_threshold, 1, format::kMaxTriangles,
-           "Tetra-tree: do not split a cone with fewer triangles");
+           "Tetra-tree: do not split a cone with fewer triangles. Default: set by the preset");
     add_cell_rules(command, arguments);
     add_hull_options(command, arguments.hulls);
 }

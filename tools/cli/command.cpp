@@ -86,7 +86,7 @@ void add_max_pairs(const Command& command, std::uint64_t& pairs) {
 }
 
 void add_jobs(const Command& command, std::size_t& threads) {
-    command.add_option("-j,--jobs", threads, "Number of threads; 0: one per processor")
+    command.add_option("-j,--jobs", threads, "Number of threads. Default: 0, one per processor")
         .check(whole_from(0, kMostThreads))
         .group("General");
 }

@@ -45,17 +45,20 @@ void add_import_arguments(const Command& command, ImportArguments& arguments) {
         .group(group);
     command
         .add_option("--import-memory", arguments.memory_bytes,
-                    "Memory limit of an import, such as 2GB")
+                    "Memory limit of an import, such as 2GB. Default: 8GB")
         .type_name("SIZE")
         .check(size_to_petabyte())
         .group(group);
     command
         .add_option("--import-file-size", arguments.file_bytes,
-                    "Size limit of an imported file, such as 4GB")
+                    "Size limit of an imported file, such as 4GB. Default: 16GB")
         .type_name("SIZE")
         .check(size_to_petabyte())
         .group(group);
-    command.add_option("--import-time", arguments.seconds, "Time limit of an import")
+    command
+        .add_option("--import-time", arguments.seconds,
+                    "Time limit of the process that imports formats other than OBJ, STL, PLY and "
+                    "OFF. Default: 300")
         .type_name("SECONDS")
         .check(whole_from(1, kMostSeconds))
         .group(group);

@@ -124,7 +124,8 @@ void add_study_options(const Command& command, Arguments& arguments) {
         .add_option(
             "--pairs", arguments.pairs,
             "Pairs of models in Table 4. paper: the published ones; all: every pair of models; "
-            "fitting: paper when every model is a published one, else all")
+            "fitting: paper when every model is a published one, else all. One model alone is "
+            "paired with itself")
         .type_name("PAIRS")
         .check(one_of({"fitting", "paper", "all"}))
         .show_default()
@@ -137,7 +138,8 @@ void add_study_options(const Command& command, Arguments& arguments) {
         .group("Study");
     command
         .add_option("--rounds", options.rounds,
-                    "Rounds of each measurement. Default: 5; with --quick: 1")
+                    "Maximum number of rounds of each measurement; slow ones have fewer. Default: "
+                    "5; with --quick: 1")
         .check(whole_from(1, kMostRounds))
         .group("Study");
     command
@@ -187,7 +189,8 @@ void add_compare(const Command& app, Exit& exit) {
         "times of collisions, overlapping triangles, distances, tolerances and contacts of each "
         "pair. Published figures are shown beside ours if a model has the published numbers of "
         "vertices and triangles. The table 'talk' shows what each step of pruning leaves. All "
-        "models are scaled to a diagonal of 1. The exit code is 6 when exact strategies disagree.",
+        "models are scaled to a diagonal of 1. The exit code is 6 when an exact strategy is wrong, "
+        "a step of pruning loses a pair, or Table 1 lacks a published feature.",
         {"cdprep compare bunny.ply horse.ply --quick",
          "cdprep compare scans/*.ply --format html -o tables.html"});
     command

@@ -272,7 +272,7 @@ void add_physics_options(const Command& command, EncloseOptions& enclosed) {
         .group(physics);
     command
         .add_flag("--strict", enclosed.strict,
-                  "Refuse .urdf, .sdf and .mjcf of a mesh without a unit (exit 1)")
+                  "Refuse .urdf, .sdf, .mjcf and .xml of a mesh without a unit (exit 1)")
         .group(physics);
 }
 
@@ -284,12 +284,14 @@ void add_decompose(const Command& app, Exit& exit) {
     command.set_notes(
         "By default, the command cuts the surface into pieces that lie on their own convex hulls: "
         "exactly, or within --tolerance. It works for every mesh; no piece crosses a boundary, a "
-        "non-manifold edge or an edge with opposite windings. Names of nodes have no effect.\n\n"
-        "With --max-error or --parts, the command encloses the solid in few convex pieces instead. "
-        "A proven bound on the distance by which they stick out is reported. Components and nodes "
-        "stay separate. A node named UCX_..., ...-convcolonly, ...-convcol, ...-convex or "
-        "..._convex is replaced by its convex hull. Other groups that 'cdprep bake' would leave "
-        "out stay separate even if they are open.\n\n"
+        "non-manifold edge or an edge whose triangles have opposite windings. Names of nodes have "
+        "no effect.\n\n"
+        "With --max-error, --parts or --max-parts, the command encloses the solid in few convex "
+        "pieces instead. A proven bound on the distance by which they stick out is reported. "
+        "Components and nodes stay separate, unless --merge-components is given. A node named "
+        "UCX_..., ...-convcolonly, ...-convcol, ...-convex or ..._convex is replaced by its convex "
+        "hull. Other groups that 'cdprep bake' would leave out stay separate even if they are "
+        "open.\n\n"
         "If the request cannot be met, the best result is written and the exit code is 1.",
         {"cdprep decompose part.obj -o pieces.ply",
          "cdprep decompose robot.obj -o robot.urdf --max-error 0.5 --unit mm",
@@ -305,7 +307,9 @@ void add_decompose(const Command& app, Exit& exit) {
     const Option exact = add_surface_options(command, *arguments);
     add_enclosing_options(command, arguments->enclose, exact);
     add_physics_options(command, arguments->enclose);
-    command.add_flag("--table", arguments->table, "Report every piece and its node")
+    command
+        .add_flag("--table", arguments->table,
+                  "Report every piece. Enclosing pieces are listed with their nodes")
         .group("Report");
     add_report_format(command, arguments->format);
     add_normalize(command, arguments->load.normalize);

@@ -124,7 +124,7 @@ void add_content_options(const Command& command, ExportOptions& options) {
         .group(content);
     command
         .add_flag("!--no-visual", options.has_visual,
-                  "Write the colliders alone, without the mesh itself")
+                  "Write the colliders alone, without the mesh itself. Not for unreal or json")
         .group(content);
     command
         .add_flag("--keep-points", options.keeps_points,
@@ -142,18 +142,19 @@ void add_export(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     const Command command = app.add_command("export", "Write colliders for a physics engine");
     command.set_notes(
-        "Reads a file that was baked with --structures hull, and --parts or --max-error for convex "
-        "parts. Without parts, the convex hull of the whole is the collider.\n\n"
+        "The command reads a file that was baked with --structures hull, and --parts or "
+        "--max-error for convex parts. Without parts, the convex hull of the whole is the "
+        "collider.\n\n"
         "godot: a GLB with nodes NAME_00-convcolonly. unreal: a GLB with nodes UCX_NAME_00. unity: "
         "a GLB with the parts below a node named colliders. mujoco: MJCF. gazebo: SDF. urdf: URDF. "
-        "All have the mesh itself too. json: points, triangles and mass, for loaders of other "
-        "engines.\n\n"
+        "All have the mesh itself too; MJCF has it only if it encloses a volume. json: points, "
+        "triangles and mass, for loaders of other engines.\n\n"
         "Unity reads GLB by a package such as glTFast. Unity makes no colliders by itself: add a "
         "convex MeshCollider to each node below colliders. A URDF names its meshes by paths "
         "relative to itself. ROS tools expect --package, or file:// before the paths.\n\n"
-        "All but json are in metres and turned to the up axis of the engine. Points that hull "
-        "builders of engines ignore are dropped. The others move out by less than the reported "
-        "error, so that the colliders still enclose the mesh.",
+        "All but json are in metres. They are turned to the up axis of the engine if the model "
+        "states its own. Points that hull builders of engines ignore are dropped. Other points "
+        "move out by at most the reported error, so that the colliders still enclose the mesh.",
         {"cdprep bake chair.glb --structures hull --parts 16",
          "cdprep export chair.cdp.h5 --for godot -o game/chair.glb",
          "cdprep export robot.cdp.h5 --for mujoco --floating -o robot.xml"});

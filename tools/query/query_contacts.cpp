@@ -85,22 +85,23 @@ Exit run(const ContactArguments& arguments) {
 
 constexpr const char* kNotes =
     "Each line of ndjson describes one pose. 'count' is the number of contacts listed. 'found' "
-    "counts pairs of pieces within the tolerance; 'computed' counts those whose contact was "
-    "computed. 'work' is what --budget limits. 'searched' is false if --budget ended the search. "
-    "'complete' is false if --budget or --most left contacts out. Each of 'contacts' has an 'id' "
-    "of two numbers, which stays the same as long as its two pieces touch. 'piece_a' and 'piece_b' "
-    "are these pieces. 'normal' has length 1 and points from A to B. 'lower' and 'upper' are "
-    "bounds of the distance. They are negative where the pieces overlap, and 'overlap' is true. "
-    "Moving B by -lower along the normal then separates them. 'point_a' and 'point_b' are the "
-    "nearest or deepest points. 'feature_a' and 'feature_b' are the vertices, edges or triangles "
-    "there, numbered as in the imported files. 'internal_edge' is true if the normal was turned so "
-    "that nothing catches on an edge inside the surface. 'from_behind' is true if the contact is "
-    "on the back of a surface. 'members' counts the contacts that --cluster-deg joined into this "
-    "one. With --manifold, 'points' lists the deepest point first. Each entry has a point on each "
-    "model, a distance, and an 'id' in hexadecimal. With --as solid, a component inside the other "
-    "model makes a contact with 'deep' true. Moving B by -lower along the normal frees the "
-    "component. For this, the files must be baked with --effects contacts,collide. The translation "
-    "can be shorter if the enclosing model is baked with parts: --structures hull --parts N.";
+    "counts pairs of pieces within the tolerance, and enclosed components; 'computed' counts those "
+    "whose contact was computed. 'work' is what --budget limits. 'searched' is false if --budget "
+    "ended the search. 'complete' is false if --budget or --most left contacts out. Each of "
+    "'contacts' has an 'id' of two numbers, which stays the same as long as its two pieces are in "
+    "contact. 'piece_a' and 'piece_b' are these pieces. 'normal' has length 1 and points from A to "
+    "B. 'lower' and 'upper' are bounds of the distance. Where the pieces overlap, they are 0 or "
+    "negative, and 'overlap' is true. Moving B by -lower along the normal then separates them. "
+    "'point_a' and 'point_b' are the nearest or deepest points. 'feature_a' and 'feature_b' are "
+    "the vertices, edges or triangles there, numbered as in the imported files. 'internal_edge' is "
+    "true if the normal was turned so that nothing catches on an edge inside the surface. "
+    "'from_behind' is true if the contact is on the back of a surface. 'members' counts the "
+    "contacts that --cluster-deg joined into this one. With --manifold, 'points' lists the deepest "
+    "point first. Each entry has a point on each model, a distance, and an 'id' in hexadecimal. "
+    "With --as solid, a component inside the other model makes a contact with 'deep' true. Moving "
+    "B by -lower along the normal frees the component. For this, the files must be baked with "
+    "--effects contacts,collide. The translation can be shorter if the enclosing model is baked "
+    "with parts: --structures hull --parts N.";
 
 }  // namespace
 
@@ -143,8 +144,9 @@ void add_contacts(const Command& query, Exit& exit) {
         .group("Query");
     command
         .add_option("--cluster-deg", arguments->cluster_deg,
-                    "Join contacts whose normals differ by at most this angle, with at most four "
-                    "points each. Needs --most")
+                    "Join contacts that are linked by common pieces, if their normals differ from "
+                    "that of the deepest by at most this angle. A joined contact has at most four "
+                    "points. Needs --most")
         .type_name("DEGREES")
         .check(zero_or_more("degrees"))
         .needs(most)

@@ -79,7 +79,7 @@ void add_inaccessible(const Command& query, Exit& exit) {
         "inaccessible",
         "List triangles occluded along every ray from outside to the tetra-tree's centre");
     command.set_notes("", {"cdprep query inaccessible arm.cdp.h5 --export occluded.ply"});
-    command.add_option("model", arguments->model, "A file baked with --structures tetra-tree")
+    command.add_option("model", arguments->model, "A file baked with --effects inaccessible")
         .required();
     command
         .add_option("--export", arguments->coloured,

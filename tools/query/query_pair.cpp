@@ -456,12 +456,15 @@ const char* structure_text(PairQuestion question) {
 std::string read_of_pairs(PairQuestion question) {
     switch (question) {
         case PairQuestion::within:
-            return "each with its pair's tolerance. --tolerance replaces it. ";
+            return "each with its pair's tolerance. --tolerance replaces it. Touching parts "
+                   "clash. ";
         case PairQuestion::distance:
             return "each with its pair's max_distance and body. --max-distance and --as replace "
-                   "them. ";
+                   "them. Touching parts clash. ";
         default:
-            return "each with its pair's overlap and body. --contact and --as replace them. ";
+            return "each with its pair's overlap and body. --contact and --as replace them. Parts "
+                   "that only touch clash unless the overlap is proper. For solids, a pair is "
+                   "also printed if an open mesh leaves unknown whether one contains the other. ";
     }
 }
 
@@ -473,8 +476,8 @@ std::string scene_notes(PairQuestion question) {
            "get #2, #3 and so on. Nodes that use one mesh share its model. A transform that "
            "deviates from a rigid one by at most 1e-5 is rounded to a rigid one. The summary "
            "states the largest deviation as 'rounding'. Other transforms that are not rigid are "
-           "applied to the vertices. The answers are exact for the resulting parts. Touching parts "
-           "clash. The lines do not depend on the number of threads.";
+           "applied to the vertices. The answers are exact for the resulting parts. The lines do "
+           "not depend on the number of threads.";
 }
 
 void add_pair_format(const Command& command, std::string& word, bool serves_scenes) {
@@ -543,9 +546,9 @@ void add_question(const Command& query, PairQuestion question, const char* name,
         command
             .add_option(
                 "--level-of-detail", arguments->level_of_detail,
-                "Test two solids by the cones of their tetra-trees at this level. Each "
-                "cone has one facet outside its triangles and one inside. The answer is yes, no or "
-                "unknown, with the level's error for each model")
+                "Test two solids by the cones of their tetra-trees at this level. Each cone has "
+                "one facet outside its triangles and one inside. The answer is yes, no or unknown, "
+                "with the level's error for each model. Needs --structure tetra-tree")
             .type_name("LEVEL")
             .check(whole_from(0U, format::kMaxTetraLevel))
             .group("Structure");

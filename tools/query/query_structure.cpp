@@ -86,9 +86,9 @@ void add_structure(const Command& command, StructureWords& words, const char* de
 void add_structure_steps(const Command& command, StructureWords& words) {
     command
         .add_option("--leaf-test", words.leaf_test,
-                    "Exact test of two triangles, for structures other than bvh and pieces. "
-                    "guigue-devillers: signs against planes (default); feito: six edges against "
-                    "triangles. Both give the same answers")
+                    "Exact test of two triangles, for octree, octree-adaptive, hashed-octree and "
+                    "tetra-tree. guigue-devillers: signs against planes (default); feito: six "
+                    "edges against triangles. Both give the same answers")
         .type_name("TEST")
         .check(one_of({"guigue-devillers", "feito"}))
         .group("Structure");

@@ -581,7 +581,7 @@ void add_simulate(const Command& app, Exit& exit) {
         command
             .add_option("--frames", arguments->frames,
                         "Number of frames; the first is at time 0. Default: duration_s / step_s of "
-                        "the scene, at least 1")
+                        "the scene, at least 1; for a recording, all its frames")
             .type_name("N")
             .check(whole_from(1, kMostFrames))
             .excludes(plan)
