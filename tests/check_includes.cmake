@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: MIT
 # Fails when a file includes something that its room may not know about.
-# Run by ctest as: cmake -D ROOT=<source dir> -P check_includes.cmake
+# Run by ctest as: cmake -D ROOT=<source dir> -P check_includes.cmake. ROOT is the folder above by
+# default.
 
 cmake_minimum_required(VERSION 3.25)
+if(NOT ROOT)
+    cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH ROOT)
+endif()
 
 # A room, then the rooms beside itself whose headers it may include. Public headers of the library,
 # "cdprep/...", may be included everywhere but in format, which may include its own alone. No

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Box against box, eight at a time. Included by kernel sources alone, after they have defined the
-// lanes. F is a type of eight floats, and R holds the same eight once or twice. R::kRows rows are
-// tested at once. Each type has a mask type.
+// Box against box, eight at a time. There are two stages, of aligned and of oriented boxes. Each
+// tests the six directions of faces, and leaves out the nine of edges. Included by kernel sources
+// alone, after they have defined the lanes. F is a type of eight floats, and R holds the same eight
+// once or twice. R::kRows rows are tested at once. Each type has a mask type.
 #pragma once
 
 #include <cassert>
@@ -50,6 +51,7 @@ Boxes<F> scaled_boxes(const float* node, float scale) noexcept {
     return boxes;
 }
 
+/// Returns boxes of A along the axes of B.
 template <class F>
 Boxes<F> turned_to_b(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
     Boxes<F> turned;

@@ -197,7 +197,7 @@ inline void prefetch_children(const Tree& tree, const TreePlace& below, unsigned
 
 /// The hits that a walk searches for.
 enum class Search : std::uint8_t {
-    all,    ///< every pair of leaves; oriented boxes prune
+    all,    ///< every pair of leaves that no test of boxes separates
     first,  ///< deepest first, so that a hit comes early
 };
 
@@ -247,7 +247,8 @@ inline void prefetch_step(const Tree& a, const Tree& b, const OpenStep& step) no
     prefetch_children(b, below.b, kernels::boxes_of_b(step.pairs));
 }
 
-/// Tests the children of a pair that is not a pair of leaves. Sets `depths` with Search::first.
+/// Tests the children of a pair that is not a pair of leaves, by the separating-axis tests of
+/// kernels/box_overlap.h. Sets `depths` with Search::first.
 template <Search kSearch>
 void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed,
                const kernels::BoundTests& tests, const PendingPair& pair, const WaysDown& descent,

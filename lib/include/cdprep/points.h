@@ -116,7 +116,7 @@ struct RayOptions {
 
 /// Returns whether `ray` hits any triangle, that is, whether cast_ray() would return a hit. Exact
 /// if max_t is infinite. Stops at the first hit found, so it is faster than cast_ray(). Suffices
-/// for shadows and lines of sight. Needs Ask::ray.
+/// for shadows and lines of sight. Needs Ask::ray. Never allocates.
 [[nodiscard]] CDPREP_API bool ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                                        const RayOptions& options = {}) noexcept;
 
@@ -125,7 +125,8 @@ struct RayOptions {
 /// Returns the number of hits. Sorts the hits by t, then by triangle, and stores as many of the
 /// first ones as fit in `hits`. With an empty span, the function only counts. Hits are decided
 /// exactly, as in cast_ray(). A ray through an edge or vertex hits all triangles there. Needs
-/// Ask::ray.
+/// Ask::ray. Takes O(log n) time for typical meshes, and time in proportion to the hits. Never
+/// allocates.
 [[nodiscard]] CDPREP_API std::size_t all_ray_hits(const Model& model, const Ray& ray,
                                                   Workspace& workspace, std::span<RayHit> hits,
                                                   const RayOptions& options = {}) noexcept;
@@ -133,7 +134,8 @@ struct RayOptions {
 using RayVisitor = Visitor<RayHit>;
 
 /// Calls `visit` with every hit that all_ray_hits() finds, as the search finds it, in no particular
-/// order. Returns false if `visit` ended the search. Needs Ask::ray.
+/// order. Returns false if `visit` ended the search. Needs Ask::ray. Takes as long as
+/// all_ray_hits(). Never allocates.
 CDPREP_API bool visit_ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                                RayVisitor visit, const RayOptions& options = {}) noexcept;
 
@@ -199,7 +201,8 @@ struct ShapeOptions {
 ///
 /// Returns the number of triangles. Stores their source numbers in `room`, sorted; only the
 /// smallest ones if `room` is too short. With an empty span, the function only counts. The answer
-/// is as exact as that of touches(). Needs Ask::touch.
+/// is as exact as that of touches(). Needs Ask::touch. Takes O(log n) time for most shapes, and
+/// time in proportion to the triangles near the shape. Never allocates.
 [[nodiscard]] CDPREP_API std::size_t touching_triangles(const Model& model, const Shape& shape,
                                                         Workspace& workspace,
                                                         std::span<std::uint32_t> room,
@@ -209,7 +212,8 @@ struct ShapeOptions {
 using TriangleVisitor = Visitor<std::uint32_t>;
 
 /// Calls `visit` once for each triangle that touching_triangles() finds, as the search finds it, in
-/// no particular order. Returns false if `visit` ended the search. Needs Ask::touch.
+/// no particular order. Returns false if `visit` ended the search. Needs Ask::touch. Takes as long
+/// as touching_triangles(). Never allocates.
 CDPREP_API bool visit_touching_triangles(const Model& model, const Shape& shape,
                                          Workspace& workspace, TriangleVisitor visit,
                                          const ShapeOptions& options = {}) noexcept;
