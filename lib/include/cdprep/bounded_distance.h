@@ -21,7 +21,7 @@ inline constexpr std::uint64_t kWorkOfExact = 16;     ///< one tested beyond dou
 /// The distance of two surfaces, or bounds of it if the search ended early.
 struct BoundedDistance {
     /// True: the search was completed, and `nearest` is what distance() returns. False: the answer
-    /// is late. Its bounds hold, but they may be wide.
+    /// is late: the work did not suffice. Its bounds hold, but they may be wide.
     bool is_complete = false;
     /// The exact distance is in [lower, upper], model units. They are 0 and infinity if nothing is
     /// known.
@@ -66,7 +66,7 @@ struct DistanceBudget {
 /// answer within them. A late answer has the bounds of the search so far. `upper` is that of the
 /// nearest pair found. `lower` is the least bound of the pairs found and of all pairs of boxes not
 /// yet visited. If rounding hides whether triangles touch, a search in exact arithmetic decides.
-/// `lower` is 0 if this search does not end.
+/// `lower` is 0 if the work does not suffice for this search.
 ///
 /// With a cache, `lower` is at least the last proven gap minus the motion since then. The pair that
 /// was nearest before is measured first. So late bounds are close if the models moved little. If no

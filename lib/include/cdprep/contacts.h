@@ -178,11 +178,11 @@ struct ContactsVerdict {
 /// contact names one piece of the component. It also names the piece of the other model that is
 /// nearest to a vertex of the component. The translation moves the component out of hulls that
 /// enclose the other model. These hulls are the parts of that model (`bake --structures hull
-/// --parts`), else its whole hull, else its bounding box. A translation by -lower along `normal`
-/// frees the component. No translation shorter than -upper frees it: -upper is the distance of one
-/// of its vertices from the other surface. A deep contact counts in `found`. With options.most,
-/// other contacts get only the places that deep contacts leave free. A model that is not closed
-/// encloses nothing.
+/// --parts`). Without parts, it is the hull of the whole model or, without hulls, its bounding box.
+/// A translation by -lower along `normal` frees the component. No translation shorter than -upper
+/// frees it: -upper is the distance of one of its vertices from the other surface. A deep contact
+/// counts in `found`. With options.most, other contacts get only the places that deep contacts
+/// leave free. A model that is not closed encloses nothing.
 ///
 /// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
 /// are the corners of one face, clipped by the other. ManifoldPoint::distance is the distance of

@@ -138,9 +138,9 @@ struct TrianglePair {
 /// pairs. With an empty `room`, the function only counts. The order costs a sort of the stored
 /// pairs.
 ///
-/// Exact: the answer is that of exact arithmetic on the vertices as transform_point() moves them.
-/// The answer is the same on every machine and in every floating-point environment of the caller.
-/// An empty model overlaps nothing.
+/// Exact: the answer is that of exact arithmetic on the moved vertices, as transform_point() rounds
+/// them. The answer is the same on every machine and in every floating-point environment of the
+/// caller. An empty model overlaps nothing.
 ///
 /// Reads options.overlap, degenerate and through. Needs Ask::overlap and ask_of(options.through) of
 /// both models. Takes O(log n + pairs) time for typical meshes, O(n m) in the worst case. Here n
@@ -255,9 +255,9 @@ struct Distance {
 /// tolerance of 0 tests whether they touch. Returns false for a negative tolerance or NaN, and if a
 /// model is empty.
 ///
-/// Exact for the vertices as transform_point() moves them. A tolerance equal to the exact distance
-/// gives true, and the next smaller double gives false. Stops at the first pair of triangles that
-/// is near enough.
+/// Exact for the moved vertices, as transform_point() rounds them. A tolerance equal to the exact
+/// distance gives true, and the next smaller double gives false. Stops at the first pair of
+/// triangles that is near enough.
 ///
 /// Reads options.through. Any structure but Structure::pieces means the BVH. Needs Ask::within and
 /// ask_of(options.through) of both models. Takes as long as distance(), or less if the distance
@@ -271,8 +271,8 @@ struct Distance {
 /// of 0 gives the pairs of overlaps() with Overlap::closed; an infinite one gives all pairs. A
 /// negative tolerance, a NaN or an empty model gives none.
 ///
-/// Exact for the vertices as transform_point() moves them. A degenerate triangle counts as its
-/// segment or point, unless it is skipped.
+/// Exact for the moved vertices, as transform_point() rounds them. A degenerate triangle counts as
+/// its segment or point, unless it is skipped.
 ///
 /// Reads options.degenerate and through. Any structure but Structure::pieces means the BVH. Needs
 /// Ask::within and ask_of(options.through) of both models. Takes O(log n + pairs) time for typical

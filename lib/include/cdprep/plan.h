@@ -69,9 +69,9 @@ struct LayerPair {
 /// the cheapest way that is certified for every model of both layers. It reads ModelUse::parts and
 /// never a clock, so the same files give the same plan.
 ///
-/// For `distance`, [lower, upper] contains the exact distance, and is at most PairRung::error wide,
-/// plus rounding. Rounding is at most 3e-12 of `upper`, plus 1e-13 of the largest coordinate of a
-/// model or a translation.
+/// For `distance`, [lower, upper] contains the exact distance. Its width is at most
+/// PairRung::error, plus rounding. Rounding is at most 3e-12 of `upper`, plus 1e-13 of the largest
+/// coordinate of a model or a translation.
 ///
 /// An error never removes an effect from SceneHit::holds. It may add one if the exact distance is
 /// above the threshold by at most PairRung::error, plus rounding. This threshold is 0 for
@@ -157,8 +157,8 @@ public:
     /// Returns the plan, or every reason why there is none, a sentence each. Refuses unknown
     /// layers, repeated pairs of layers, effects that a scene does not support, and numbers out of
     /// range. Also refuses options that no effect reads, and models that do not serve an effect of
-    /// their layers. If a pair has an effect that a scene does not support, its options are not
-    /// checked.
+    /// their layers. If a pair of layers has an effect that scenes do not support, the other
+    /// options of this pair are not checked.
     [[nodiscard]] CDPREP_API static Compiled compile(const PlanOptions& options);
 
     [[nodiscard]] const SceneLimits& limits() const noexcept {

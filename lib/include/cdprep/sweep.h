@@ -71,13 +71,14 @@ private:
 /// Returns whether the deforming model may touch B during the step of the sweep. The coordinates of
 /// the deforming model are those of the world in which `motion` moves B.
 ///
-/// `false` is proven: no triangle of one touches a triangle of the other at any time of the step.
-/// `true` means that the convex hull of a triangle's path, relative to B, comes near a triangle of
-/// B. It does not say whether they touch, nor when. may_touch() does not test containment:
-/// collide() with Body::solid does. It does not test a model against itself, or two models that
-/// both deform. Triangles that were removed within the step are left out. The hull contains all
-/// places through which the triangle passes. So a step with less motion gives fewer false alarms.
-/// If B turns by more than a quarter of a radian, the step is tested in up to 64 parts.
+/// `false` is certain: no triangle of one model touches a triangle of the other at any time of the
+/// step. `true` means that the convex hull of a triangle's path, relative to B, comes near a
+/// triangle of B. It does not say whether they touch, nor when. may_touch() does not test
+/// containment: collide() with Body::solid does. It does not test a model against itself, or two
+/// models that both deform. Triangles that were removed during the step are left out. The hull
+/// contains all places through which the triangle passes. So a step with less motion gives fewer
+/// false alarms. If B turns by more than a quarter of a radian, the step is tested in up to 64
+/// parts.
 ///
 /// Requires sweep.is_current(). Needs Ask::within of B. Takes as long as within() with a tolerance
 /// of half of B's motion. Each pair of triangles near each other takes about 1 us more for each

@@ -59,7 +59,7 @@ struct PieceLeaf {
     std::uint32_t count;           ///< 1 to kBvhWidth
 };
 
-/// The largest number of corners of the hull around a node of the BVH over pieces.
+/// A hull around a node of the BVH over pieces has at most this many corners.
 inline constexpr std::uint32_t kPieceHullCorners = 32;
 
 /// A convex hull of few corners around the contents of a node of the BVH over pieces. It contains

@@ -34,7 +34,7 @@ struct ConvexPoints {
     /// Empty, or for each direction_cell() the number of a point that is far along its directions.
     /// Any point gives the correct result. A point near the farthest one saves steps.
     std::span<const std::uint32_t> starts;
-    /// An alternative to `blocks`, for hulls of few points without neighbours. Point i is
+    /// Used instead of `blocks` for hulls with few points, whose `neighbours` are empty. Point i is
     /// floats[corners[i]] or, if `floats` is empty, doubles[corners[i]].
     std::span<const std::uint32_t> corners{};
     std::span<const format::Float3> floats{};

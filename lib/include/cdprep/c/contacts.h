@@ -105,7 +105,7 @@ CDPREP_API void cdprep_contact_options_init(cdprep_contact_options* options, siz
  * component, and no translation shorter than -upper does. The translation leads out of convex hulls
  * that enclose the other model. If that model serves CDPREP_ASK_HULLS, these hulls are its parts
  * or, without parts, its whole hull. Otherwise, the only hull is its bounding box.
- * Uses body, degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
+ * Reads `body`, `degenerate` and `through`: CDPREP_THROUGH_BVH or CDPREP_THROUGH_PIECES.
  * Takes the time of cdprep_pairs_within(), plus up to 10 microseconds per contact that is computed.
  * CDPREP_SOLID adds the time of cdprep_containment().
  * Needs: CDPREP_ASK_CONTACTS; CDPREP_SOLID: also CDPREP_ASK_SOLID */

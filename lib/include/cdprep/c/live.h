@@ -107,7 +107,7 @@ CDPREP_API void cdprep_live_move_init(cdprep_live_move* moved, size_t size);
  *   `moved.positions[7]` is the eighth position.
  * - CDPREP_WHY_OUT_OF_RANGE, in six cases: moved.count exceeds 2^31 - 1. There are too few
  *   positions for all vertices. A vertex does not exist. A position is beyond 2^1000. Positions are
- *   doubles and the model keeps floats. `moved` points into the model.
+ *   doubles and the model stores floats. `moved` points into the model.
  * - CDPREP_WHY_BUSY: another call changes the live model or uses the workspace. */
 CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* moved,
                                  cdprep_workspace* workspace, cdprep_error* error);

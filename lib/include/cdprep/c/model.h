@@ -91,8 +91,8 @@ CDPREP_API int cdprep_model_open_memory(const void* bytes, size_t size,
                                         const cdprep_open_options* options, cdprep_model** model,
                                         cdprep_error* error);
 
-/* Closes a model. Does nothing for null, or for the model of a live model or a window. No call may
- * be using the model. */
+/* Closes a model. No call may be using the model. Does nothing for null. Also does nothing for a
+ * model that belongs to a live model (cdprep_live_model()) or a window (cdprep_window_model()). */
 CDPREP_API void cdprep_model_close(cdprep_model* model);
 
 /* Returns CDPREP_OK if a model serves all bits of `ask`. Otherwise fails as a query that needs

@@ -136,12 +136,12 @@ CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error
  * function lists all pairs in the order of (a, b). If there is too little room, the list keeps the
  * smallest pairs.
  *
- * CDPREP_NO is proven: no triangles touch at any time of the step. CDPREP_YES means that the convex
- * hull of a triangle's path comes near a triangle of the other model. The path is relative to that
- * model. It is not known whether they touch, or when. Containment is not tested. A model is not
- * tested against itself, nor against another model that deforms. Triangles that were removed within
- * the step are left out. A step with less motion gives fewer false alarms. If the other model turns
- * by more than a quarter of a radian, the step is tested in up to 64 parts.
+ * CDPREP_NO is certain: no triangles touch at any time of the step. CDPREP_YES means that the
+ * convex hull of a triangle's path comes near a triangle of the other model. The path is relative
+ * to that model. It is not known whether they touch, or when. Containment is not tested. A model is
+ * not tested against itself, nor against another model that deforms. Triangles that were removed
+ * during the step are left out. A step with less motion gives fewer false alarms. If the other
+ * model turns by more than a quarter of a radian, the step is tested in up to 64 parts.
  *
  * Takes as long as cdprep_within() with a tolerance of half of the other model's motion. Each pair
  * of triangles near each other takes about 1 us more for each part. Never allocates.

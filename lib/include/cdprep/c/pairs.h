@@ -114,7 +114,7 @@ typedef struct cdprep_collision {
  * With CDPREP_PROPER, triangles may touch without an overlap. If a vertex that would decide then
  * lies on the other surface, all vertices are tested. CDPREP_UNKNOWN means: the other model is
  * open, or every vertex of a component may lie on its surface.
- * Uses body, overlap, degenerate; through: any, for surfaces and solids.
+ * Reads `body`, `overlap`, `degenerate` and `through`: any structure, for surfaces and solids.
  * Takes O(log n) time for most poses, O(1) with a cache if little has moved. If no triangles
  * overlap, CDPREP_SOLID adds the time of cdprep_containment(), or of testing all vertices.
  * Needs: CDPREP_ASK_COLLIDE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
@@ -125,7 +125,7 @@ CDPREP_API int cdprep_collide(const cdprep_pair* pair, cdprep_workspace* workspa
  * touch. `hit` and `containment` are equal. For touching surfaces the answer has no meaning. If the
  * surfaces may touch, use cdprep_collide() with CDPREP_SOLID.
  * Inside means a winding number other than 0. Exact for closed models (cdprep_model_info.closed).
- * An open model can make the answer unknown, as in cdprep_collide(). Uses none of the options;
+ * An open model can make the answer unknown, as in cdprep_collide(). Reads none of the options;
  * `body` stays CDPREP_SURFACE.
  * Takes O(components (log n + ray hits)) time, or O(n) per component against an open model.
  * Needs: CDPREP_ASK_COLLIDE, CDPREP_ASK_SOLID */
@@ -136,7 +136,7 @@ CDPREP_API int cdprep_containment(const cdprep_pair* pair, cdprep_workspace* wor
  * CDPREP_YES are proven. CDPREP_UNKNOWN means that this level does not decide
  * (cdprep_model_level_error()). CDPREP_YES requires that both models are closed and contain the
  * centre of their tetra-tree. A level beyond the deepest counts as the deepest. The workspace must
- * have `cells` (cdprep_workspace_options). Uses none of the options; `body` stays CDPREP_SURFACE.
+ * have `cells` (cdprep_workspace_options). Reads none of the options; `body` stays CDPREP_SURFACE.
  * Takes O(pairs of cones that meet) time.
  * Needs: CDPREP_ASK_TETRA_TREE */
 CDPREP_API int cdprep_collide_at_level(const cdprep_pair* pair, uint32_t level,
@@ -159,20 +159,21 @@ typedef int (*cdprep_overlap_visitor)(void* context, const cdprep_overlap* overl
 
 /* Lists all pairs of triangles that overlap, sorted by a, then b. If there are more pairs than
  * `room`, the list keeps the smallest pairs.
- * Uses overlap, degenerate; through: any.
+ * Reads `overlap`, `degenerate` and `through`: any structure.
  * Takes O(log n + pairs) time for typical meshes, O(n m) in the worst case.
  * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_overlaps(const cdprep_pair* pair, cdprep_workspace* workspace,
                                cdprep_overlap_list* list, cdprep_error* error);
 
 /* Stores the list of cdprep_overlaps(), computed on all lanes of the workspace. Use this function
- * for a query that takes a millisecond or more. Does not use the cache. Uses overlap, degenerate.
+ * for a query that takes a millisecond or more. Does not use the cache.
+ * Reads `overlap` and `degenerate`.
  * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_overlaps_split(const cdprep_pair* pair, cdprep_workspace* workspace,
                                      cdprep_overlap_list* list, cdprep_error* error);
 
 /* Calls `visit` with each pair once, as it is found, in no particular order. Returns CDPREP_OK even
- * if the visitor ended the search. Uses overlap, degenerate.
+ * if the visitor ended the search. Reads `overlap` and `degenerate`.
  * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_overlaps_visit(const cdprep_pair* pair, cdprep_workspace* workspace,
                                      cdprep_overlap_visitor visit, void* context,
@@ -189,8 +190,8 @@ typedef struct cdprep_marks {
 } cdprep_marks;
 
 /* Marks the triangles of each model that overlap any triangle of the other, and clears all other
- * bits. Takes less time than cdprep_overlaps() if few triangles form many pairs. Uses overlap,
- * degenerate. Errors: CDPREP_WHY_TOO_SMALL for too few words.
+ * bits. Takes less time than cdprep_overlaps() if few triangles form many pairs.
+ * Reads `overlap` and `degenerate`. Errors: CDPREP_WHY_TOO_SMALL for too few words.
  * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_overlaps_mark(const cdprep_pair* pair, cdprep_workspace* workspace,
                                     cdprep_marks* marks, cdprep_error* error);
@@ -217,7 +218,7 @@ typedef int (*cdprep_crossing_visitor)(void* context, const cdprep_crossing* cro
  * most half a unit in the last place, plus 2^-45 of a unit. Subnormal coordinates may be off by one
  * unit in the last place. Triangles that share an edge get bit-identical segment ends on it, except
  * where these 2^-45 decide the rounding.
- * Uses overlap, degenerate. Takes some microseconds more per pair than cdprep_overlaps().
+ * Reads `overlap` and `degenerate`. Takes some microseconds more per pair than cdprep_overlaps().
  * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_crossings(const cdprep_pair* pair, cdprep_workspace* workspace,
                                 cdprep_crossing_list* list, cdprep_error* error);
@@ -252,8 +253,9 @@ typedef struct cdprep_nearest {
  * least `upper`. If there are several, it is the first in the order of (triangle_a, triangle_b).
  * Surfaces that touch give a pair of triangles that touches. Which one depends on the instruction
  * set and the structure. With permitted errors, the result may be any pair and interval within
- * them. Which one may depend on the cache, the front, the structure and the instruction set.
- * `options` may be null. Uses body; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
+ * them. This choice may depend on `cache`, `front`, `through` and the instruction set.
+ * `options` may be null.
+ * Reads `body` and `through`: CDPREP_THROUGH_BVH or CDPREP_THROUGH_PIECES.
  * Takes O(log n) time for typical meshes; visits every triangle in the worst case.
  * Needs: CDPREP_ASK_DISTANCE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_distance(const cdprep_pair* pair, const cdprep_distance_options* options,
@@ -287,21 +289,23 @@ CDPREP_API int cdprep_distance_bounded(const cdprep_pair* pair,
                                        cdprep_error* error);
 
 /* Stores whether two surfaces are at most `tolerance` apart. `tolerance` must be at least 0. Exact
- * to the last bit. Uses through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES. Takes as long as
- * cdprep_distance(), or less if the distance differs clearly from `tolerance`.
+ * to the last bit.
+ * Reads `through`: CDPREP_THROUGH_BVH or CDPREP_THROUGH_PIECES.
+ * Takes as long as cdprep_distance(), or less if the distance differs clearly from `tolerance`.
  * Needs: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_within(const cdprep_pair* pair, double tolerance, cdprep_workspace* workspace,
                              uint32_t* within, cdprep_error* error);
 
 /* Lists all pairs of triangles that are at most `tolerance` apart, sorted by a, then b. `tolerance`
  * must be at least 0. Exact.
- * Uses degenerate; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
+ * Reads `degenerate` and `through`: CDPREP_THROUGH_BVH or CDPREP_THROUGH_PIECES.
  * Needs: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_pairs_within(const cdprep_pair* pair, double tolerance,
                                    cdprep_workspace* workspace, cdprep_overlap_list* list,
                                    cdprep_error* error);
 
-/* Calls `visit` with each pair of cdprep_pairs_within(), in no particular order. Uses degenerate.
+/* Calls `visit` with each pair of cdprep_pairs_within(), in no particular order.
+ * Reads `degenerate`.
  * Needs: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_pairs_within_visit(const cdprep_pair* pair, double tolerance,
                                          cdprep_workspace* workspace, cdprep_overlap_visitor visit,

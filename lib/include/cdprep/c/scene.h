@@ -129,8 +129,8 @@ CDPREP_API void cdprep_plan_options_init(cdprep_plan_options* options, size_t si
 /* A compiled plan. It is read-only: any number of scenes and threads may use it. */
 typedef struct cdprep_plan cdprep_plan;
 
-/* Receives a sentence, which ends with a zero, and the caller's context. Returning 0 ends the
- * visits. */
+/* Receives a sentence, as a string that ends with a zero byte, and the caller's context. Returning
+ * 0 ends the visits. */
 typedef int (*cdprep_text_visitor)(void* context, const char* sentence);
 
 /* Compiles a plan. Invalid layer pairs and models do not end the checks. Exception: an invalid head
@@ -443,8 +443,8 @@ CDPREP_API int cdprep_scene_events(const cdprep_scene* scene, const cdprep_event
  * features, `members`, and on_a and on_b of the points of manifolds. The hash is equal for any
  * number of lanes and any instruction set, with three exceptions. These are bounded distances,
  * answers with a max_error, and impacts that are CDPREP_IMPACT_NEAR. They may differ between
- * instruction sets. Impacts, and winding numbers of unknown containment, also depend on the C
- * library. Takes O(elements) time. */
+ * instruction sets. All impacts also depend on the C library. So do winding numbers where the
+ * containment is CDPREP_UNKNOWN. Takes O(elements) time. */
 CDPREP_API int cdprep_scene_hash(const cdprep_scene* scene, uint64_t* hash, cdprep_error* error);
 
 /* Indices into cdprep_counts.n for cdprep_scene_counts(). All but the first describe the last

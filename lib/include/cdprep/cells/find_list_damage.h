@@ -21,8 +21,8 @@ namespace cdprep {
 /// These checks are exact: no rounding changes a sign. Radii of a tetra-tree count as damage if
 /// they exclude more of a triangle than rounding can explain. If a cone's planes cut the triangle,
 /// the radii may exclude a millionth of the size of the part inside. The boxes of an octree's cells
-/// must contain the contents of the cells, up to rounding. The boxes of cones must contain the
-/// corners of triangles in the cones, up to rounding; other points are not checked.
+/// must contain the contents of the cells, up to rounding. The box of a cone must contain, up to
+/// rounding, the triangle corners that lie in this cone. Other points of triangles are not checked.
 ///
 /// format::find_deep_damage() must find nothing in `file`. `model` is this file, opened with all
 /// its sections. Takes O(references * levels) steps of about a microsecond. Allocates.
