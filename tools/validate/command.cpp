@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -164,9 +165,10 @@ private:
         is_stuck_ = true;
     }
 
-    /// Ends a report that is written during the run.
+    /// Ends a report that is written during the run. Whoever writes it now may hold the lock for a
+    /// moment, or for good where nobody reads the output.
     void give_up() {
-        const std::unique_lock lock(progress_mutex_, std::try_to_lock);
+        const std::unique_lock lock(progress_mutex_, std::chrono::milliseconds(50));
         if (!lock || is_ended_ || output_.is_file()) return;
         is_ended_ = true;  // the command may get as far as its own end before the program ends
         writer_.set_interrupted(static_cast<int>(Exit::interrupted));
@@ -197,7 +199,7 @@ private:
     ReportOutput output_;
     std::optional<ValidationPage> page_;
     Progress& progress_;
-    std::mutex progress_mutex_;
+    std::timed_mutex progress_mutex_;
     std::size_t done_ = 0;
     bool is_ended_ = false;
     std::atomic<bool> is_stuck_ = false;  ///< the output accepts no more text
