@@ -46,8 +46,8 @@ inline constexpr std::uint32_t kMostWorldBoxes = std::uint32_t{1} << 29;
 
 struct BroadPhaseLimits {
     std::uint32_t boxes;  ///< at most kMostWorldBoxes
-    /// The maximum number of pairs of boxes that meet. If boxes move little, a limit of twice as
-    /// many pairs as meet makes updates faster.
+    /// The maximum number of pairs of boxes that meet. If boxes move little, updates are faster
+    /// with a limit of twice the number of pairs that meet.
     std::uint32_t pairs;
     std::uint32_t threads = 1;  ///< the maximum number of tasks at once; at least one
 };
@@ -59,8 +59,8 @@ struct BroadPhaseUpdate {
     std::span<const BoxPair> pairs = {};
     bool complete = true;      ///< false: `pairs` is empty; see `needed` and `refused`
     std::uint64_t needed = 0;  ///< a sufficient limits.pairs, if there are too many pairs
-    /// The first box with a NaN, in the order of `moved` if that is given. An update with such a
-    /// box changes nothing.
+    /// The first box with a NaN, in the order of `moved` if given. An update with such a box
+    /// changes nothing.
     std::optional<std::uint32_t> refused = std::nullopt;
     /// Boxes that left the larger box around them, or whose filter has changed.
     std::uint32_t escaped = 0;
@@ -69,12 +69,12 @@ struct BroadPhaseUpdate {
 
 /// Finds the pairs of boxes that meet, as boxes move. Touching counts.
 ///
-/// Each box gets a larger box around it, and pairs of larger boxes that meet are kept from update
-/// to update. New pairs are searched for only for boxes that leave their larger box, in a tree with
-/// eight boxes per node. If many boxes leave, all pairs are searched for anew. If many leave in two
-/// updates in a row, or limits.pairs is too small for the pairs of larger boxes, the next updates
-/// use no larger boxes. The tree follows the Z-order curve (Morton 1966). The answer does not
-/// depend on the kind of search, or on the threads.
+/// Each box gets a larger box around it. Pairs of larger boxes that meet are kept from update to
+/// update. Only a box that leaves its larger box needs a search for new pairs. The search uses a
+/// tree with eight boxes per node, in the order of the Z-order curve (Morton 1966). If many boxes
+/// leave, all pairs are searched for anew. The next updates use no larger boxes if many boxes leave
+/// in two updates in a row. The same holds if limits.pairs is too small for the pairs of larger
+/// boxes. The answer does not depend on the kind of search, or on the threads.
 ///
 /// An update takes O(n + pairs) time if few boxes leave. Otherwise, it takes O(n log n + pairs) for
 /// boxes of similar size that are spread out. If all boxes meet, every pair is tested.
@@ -93,8 +93,8 @@ public:
     /// limits are invalid.
     [[nodiscard]] CDPREP_API static std::optional<BroadPhase> in_memory(
         std::span<std::byte> memory, const BroadPhaseLimits& limits) noexcept;
-    /// Returns the number of bytes that a broad phase takes: about 165 for each box, 24 for each
-    /// pair and 4 KiB for each thread. Each thread but the first adds 4 for each box.
+    /// Returns the size in bytes: about 165 for each box, 24 for each pair and 4 KiB for each
+    /// thread. Each thread but the first adds 4 for each box.
     [[nodiscard]] CDPREP_API static std::size_t size(const BroadPhaseLimits& limits) noexcept;
     [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two
 

@@ -52,9 +52,8 @@ enum ContactFlags : std::uint32_t {
     /// Ignore this contact in a solver; other piece pairs give the separating direction.
     contact_from_behind = 4,
     /// A component of one model lies inside the other, and no triangles of the two models touch:
-    /// see contacts(). The point on the component's model lies on a hull or box around the
-    /// component, and may be off the surface. The translation by -lower along `normal` moves
-    /// point_b to point_a.
+    /// see contacts(). The component's point lies on a hull or box around the component, and may be
+    /// off the surface. The translation by -lower along `normal` moves point_b to point_a.
     contact_deep = 8,
 };
 
@@ -100,13 +99,13 @@ struct ContactOptions {
     std::uint32_t most = 0;
     /// The maximum work, 0 for no limit. Each pair of near triangles counts 1. Each contact counts
     /// kWorkOfContact and, between two pieces, 1 for every kTrianglesOfWork of their triangles. The
-    /// search for near triangles takes at most half of the work. The last contact may take the sum
-    /// beyond this. If the work allows all contacts, but `most` allows fewer than half, some depths
-    /// are first bounded more closely. Each such bound counts kWorkOfBound.
+    /// search for near triangles takes at most half of the work. The last contact may exceed the
+    /// work. If the work allows all contacts, but `most` allows fewer than half, some depths are
+    /// first bounded more closely. Each such bound counts kWorkOfBound.
     std::uint64_t work = 0;
-    /// Joins contacts that are linked by common pieces, if their normals differ little. The limit
-    /// is the angle to the normal of the deepest one, in radians. A joined contact has at most four
-    /// points. 0: joins none. Needs `most`.
+    /// Joins contacts that are linked by common pieces, if their normals differ little. The value
+    /// limits the angle to the normal of the deepest contact, in radians. A joined contact has at
+    /// most four points. 0: joins none. Needs `most`.
     double cluster_angle = 0;
 };
 
@@ -119,7 +118,7 @@ struct ContactsVerdict {
     std::size_t count;       ///< contacts stored in `room`
     std::uint64_t found;     ///< pairs of pieces found within the tolerance, and
                              ///< enclosed components
-    std::uint64_t computed;  ///< how many of these had their contact computed
+    std::uint64_t computed;  ///< the number of these whose contact was computed
     std::uint64_t work;      ///< counted as in ContactOptions::work
     bool searched;           ///< the search covered the whole surface; false if `work` ended it
     bool complete;           ///< all contacts are in `room`, or in the clusters there
@@ -130,10 +129,11 @@ struct ContactsVerdict {
 /// gives no contacts but those of enclosed components (see below).
 ///
 /// Without options.most, stores the first contacts in `room`, in the order of (piece_a, piece_b),
-/// and then those of enclosed components. With an empty span it only counts them (`found`). With
-/// options.most, stores at most that many contacts, the deepest first (by `upper`, then by pieces).
-/// If there are more, the choice alternates between the deepest remaining contact and the one
-/// farthest from all chosen ones. With options.most, only contacts that may be listed are computed.
+/// and then those of enclosed components. With an empty span, the function only counts the contacts
+/// (`found`). With options.most, stores at most that many contacts, the deepest first (by `upper`,
+/// then by pieces). If there are more, the choice alternates between the deepest remaining contact
+/// and the one farthest from all chosen ones. With options.most, only contacts that may be listed
+/// are computed.
 ///
 /// If `lower` is negative, a solver must move B by -lower along `normal` to separate the pieces.
 ///
@@ -144,29 +144,31 @@ struct ContactsVerdict {
 ///     ---------  A                                   --> -upper: shorter, but sideways
 ///     apart             shallow                 at an edge inside a surface
 ///
-/// If two pieces are apart, their contact names the nearest features of their hulls. If no triangle
-/// has these features, the contact names features of the nearest triangles and has their distance.
-/// The distance interval is no wider than that of convex_distance(). A piece is contained if its
-/// hull lies within the solid. Two pieces overlap if their hulls overlap and either their triangles
-/// touch or both pieces are contained. Then `normal` is the direction of the shortest separating
-/// translation, unless this translation snags (see below). The candidates are the face normals of
-/// both hulls and the directions perpendicular to an edge of each. If a hull has many faces, the
-/// candidates are the shortest separating translation and normals of faces or triangles. Only the
-/// 16 shortest candidates are tested for snags. If the hulls overlap but the pieces do not, the
-/// contact has the distance of the triangles. If several pairs of points are equally near, as
-/// between parallel faces, the contact has one of them. If the pieces do not overlap, the normal is
-/// the direction of the shortest line between them. If this line snags at a feature, the normal is
-/// turned until it no longer tilts across the feature's edges. If either feature is a face, the
-/// normal is turned only if it tilts across a flat edge.
+/// A piece is contained if its hull lies within the solid. Two pieces overlap if their hulls
+/// overlap and either their triangles touch or both pieces are contained.
+///
+/// If two pieces do not overlap, their contact names the nearest features of their hulls. If no
+/// triangle has these features, or the hulls overlap, the nearest triangles give the features and
+/// the distance. The distance interval is no wider than that of convex_distance(). If several pairs
+/// of points are equally near, as between parallel faces, the contact has one of them. The normal
+/// is the direction of the shortest line between the pieces. If this line snags at a feature, the
+/// normal is turned until it no longer tilts across the feature's edges. If either feature is a
+/// face, the normal is turned only if it tilts across a flat edge.
+///
+/// If two pieces overlap, `normal` is the direction of the shortest separating translation, unless
+/// this translation snags (see below). The candidate directions are the face normals of both hulls
+/// and the directions perpendicular to an edge of each. If a hull has many faces, the candidates
+/// are the shortest separating translation and normals of faces or triangles. Only the 16 shortest
+/// candidates are tested for snags.
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
 /// vertex, the tilt counts only if a triangle there reaches farther along the translation than the
 /// vertex. A translation also snags if it leads through a part of the hull that no triangle covers.
-/// The shortest translation that does not snag is used. Exception: another one may tilt across a
-/// reflex edge, but neither across a flat edge nor deeper into a solid. That one is used if it is
-/// less than half as long, or if all translations snag. If there is neither, the shortest
-/// translation that leads out of the solid is turned until it no longer snags. If none leads out,
-/// the shortest translation is used as it is. contact_internal_edge is set unless the shortest
+/// The shortest translation that does not snag is used. Exception: some translations tilt across
+/// reflex edges only, and do not lead deeper into a solid. The shortest of these is used if it is
+/// less than half as long, or if all translations snag. Without such a translation, the shortest
+/// one that leads out of the solid is turned until it no longer snags. If none leads out, the
+/// shortest translation is used as it is. contact_internal_edge is set unless the shortest
 /// translation itself is used. `upper` is still minus the length of the shortest separating
 /// translation. If the shortest translation does not snag, `lower` and `upper` are equal up to
 /// rounding. Bodies may overlap by more than the size of a piece. Then a contact separates its two
@@ -178,20 +180,20 @@ struct ContactsVerdict {
 /// contact names one piece of the component. It also names the piece of the other model that is
 /// nearest to a vertex of the component. The translation moves the component out of hulls that
 /// enclose the other model. These hulls are the parts of that model (`bake --structures hull
-/// --parts`). Without parts, it is the hull of the whole model or, without hulls, its bounding box.
-/// A translation by -lower along `normal` frees the component. No translation shorter than -upper
-/// frees it: -upper is the distance of one of its vertices from the other surface. A deep contact
-/// counts in `found`. With options.most, other contacts get only the places that deep contacts
-/// leave free. A model that is not closed encloses nothing.
+/// --parts`). Without parts, the only hull is that of the whole model or, without hulls, its
+/// bounding box. A translation by -lower along `normal` frees the component. No translation shorter
+/// than -upper frees it: -upper is the distance of one of its vertices from the other surface. A
+/// deep contact counts in `found`. With options.most, other contacts get only the places that deep
+/// contacts leave free. A model that is not balanced encloses nothing.
 ///
 /// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
 /// are the corners of one face, clipped by the other. ManifoldPoint::distance is the distance of
 /// the two faces there, along the normal. The normal of the clipping face may deviate from that of
-/// the contact by up to 0.03 radians. This happens where edges of nearly parallel faces cross. The
-/// deepest point is first, then those that span the largest area.
+/// the contact by up to 0.03 radians. This happens if nearly parallel faces are nearest where two
+/// of their edges cross. The deepest point is first, then those that span the largest area.
 ///
-/// The answer is the same on every processor. With Body::surface, a piece inside another's hull
-/// makes a contact only within the tolerance of the other's triangles.
+/// The answer is the same on every processor. With Body::surface, a piece inside the hull of
+/// another makes a contact only if their triangles are within the tolerance.
 ///
 /// Reads body, degenerate and through of pair.options. The only structure beside the BVH is
 /// Structure::pieces, which takes up to 1.15 times as long. Needs Ask::contacts of both models,

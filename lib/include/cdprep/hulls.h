@@ -33,8 +33,8 @@ struct EnclosingParts {
 /// Returns the parts that represent the solid of a model. Any model may be given. The result has no
 /// parts if the model is a LiveModel, is not balanced, or was baked without parts. It also has none
 /// if the sections of hulls or `components` were not opened. A model of several components has none
-/// either. Where components overlap, parts and winding numbers may disagree about what is inside.
-/// Takes O(parts) time.
+/// either: where they overlap, parts and winding numbers may disagree about the inside. Takes
+/// O(parts) time.
 [[nodiscard]] CDPREP_API EnclosingParts enclosing_parts(const Model& model) noexcept;
 
 /// Returns the corners of a hull, as input for queries. They refer to the file's memory and are

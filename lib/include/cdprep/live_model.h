@@ -40,15 +40,15 @@ struct LiveTriangle {
 ///
 /// Each refit() updates positions, boxes, leaves and marks of degenerate triangles. The model has
 /// no oriented boxes, because a refit with them would take three times as long. It has no swept
-/// spheres, hulls, pieces, octrees, tetra-trees, bounds or mass. It serves the queries that need
-/// none of these: collide, overlap, distance, within, continuous, self, haptic, ray, closest,
-/// inside and touch.
+/// spheres, hulls, pieces, octrees, tetra-trees, mass properties or section `bounds`. It serves the
+/// queries that need none of these: collide, overlap, distance, within, continuous, self, haptic,
+/// ray, closest, inside and touch.
 ///
 /// A model made with LiveLimits can tear: append() and remove() change its triangles. Once a
-/// triangle was added or removed, model().is_torn() is true. The model then counts as open, without
-/// winding numbers and components. So only boxes and surfaces decide about solids. Some places of
-/// its tree order have no triangle. model().triangle_count() counts places, but is 0 without
-/// triangles. The mesh() and source() views have an element for each place.
+/// triangle was added or removed, model().is_torn() is true. The model then counts as unbalanced,
+/// without winding numbers and components. So only boxes and surfaces decide about solids. Some
+/// places of its tree order have no triangle. model().triangle_count() counts places, but is 0
+/// without triangles. The mesh() and source() views have an element for each place.
 ///
 /// A scene finds changes of an object's model itself if a LayerPair of the object's layer has
 /// Ask::deform or Ask::tear. Otherwise, after a change, call set_pose() for each object that uses
@@ -68,11 +68,10 @@ struct LiveTriangle {
 ///     }
 class LiveModel {
 public:
-    /// Returns the number of bytes that in() takes. Without limits, these are the bytes of the
-    /// copied sections of the base, and about 30 per triangle. With limits, there are 125 to 150
-    /// per triangle of the limit, with one vertex per two triangles. In both cases, up to 140 KB
-    /// are added. Takes as much time and temporary memory as in(). Fails if in() rejects `base` or
-    /// `limits`.
+    /// Returns the number of bytes that in() takes. Without limits, it is the size of the copied
+    /// sections of the base, plus about 30 per triangle. With limits, it is 125 to 150 per triangle
+    /// of the limit, for one vertex per two triangles. In both cases, up to 140 KB are added. Takes
+    /// as much time and temporary memory as in(). Fails if in() rejects `base` or `limits`.
     [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const build::ModelArrays& base,
                                                               const LiveLimits& limits = {});
     [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const Model& base,
@@ -108,8 +107,8 @@ public:
     /// into it stay valid.
     [[nodiscard]] CDPREP_API const Model& model() const noexcept;
 
-    /// Returns one more than the largest number of a vertex with a position. At first, it counts
-    /// the vertices of the mesh from which the base was made, without unused ones at its end.
+    /// Returns one more than the largest number of a vertex with a position. At first, it is the
+    /// vertex count of the mesh from which the base was made, without unused vertices at its end.
     [[nodiscard]] CDPREP_API std::size_t position_count() const noexcept;
 
     /// Moves all vertices. `positions` are numbered as in the mesh from which the base was made,
@@ -147,8 +146,8 @@ public:
     ///
     /// Takes O(m log n) time for m triangles at these vertices, of n in all. Also reads one bit per
     /// leaf. Takes O(n) in three cases:
-    /// - A vertex of a triangle leaves the frame of the boxes, a cube that was two to four times
-    ///   the model's size when chosen.
+    /// - A vertex of a triangle leaves the cube of the frame. When chosen, this cube was two to
+    ///   four times the model's size.
     /// - The model has become much smaller than this cube.
     /// - The first coordinate that is not a float appears, or the last one disappears.
     CDPREP_API Result<Done> refit(std::span<const std::uint32_t> vertices,
@@ -166,15 +165,14 @@ public:
     /// more triangles than LiveLimits::triangles. Also fails if a vertex does not exist or has no
     /// position. Fails if triangle numbers would reach 2^31 - 1, or `triangles` lie in the memory
     /// of model(). Takes O(m log n) time for m triangles, and reads one bit per leaf. In addition,
-    /// triangles of full subtrees are distributed anew: each subtree at most once, and at most 4096
-    /// triangles at a time. Takes O(n) more if a vertex lies outside the frame of the boxes.
-    /// Allocates only on failure.
+    /// full subtrees are redistributed: each at most once, and at most 4,096 triangles at a time.
+    /// Takes O(n) more if a vertex lies outside the frame of the boxes. Allocates only on failure.
     CDPREP_API Result<std::uint32_t> append(std::span<const format::Triangle> triangles);
 
     /// Removes triangles by their numbers. A number that is listed twice counts once. Fails with
-    /// `bad_argument`, and then changes nothing, if the model cannot tear, lacks a triangle, or has
-    /// `numbers` in its own memory. Takes O(m log n) time for m numbers, and reads one bit per
-    /// leaf. Allocates only on failure.
+    /// `bad_argument`, and then changes nothing, if the model cannot tear or lacks one of the
+    /// triangles. Also fails if `numbers` lie in the memory of model(). Takes O(m log n) time for m
+    /// numbers, and reads one bit per leaf. Allocates only on failure.
     CDPREP_API Result<Done> remove(std::span<const std::uint32_t> numbers);
 
     /// Returns the number of triangles.
@@ -194,14 +192,14 @@ public:
     /// Rebuilds subtrees whose boxes have grown, so that queries stay fast. A call rebuilds up to
     /// `most_triangles` triangles and returns how many it rebuilt. It rebuilds whole subtrees of up
     /// to 4,096 triangles, so a smaller budget may do nothing for a larger model. The subtree whose
-    /// surface cost has grown most since it was built comes first. Rebuilding begins when one cost
-    /// has grown by more than 40 %. It continues in later calls until none has grown by more than
-    /// 20 %.
+    /// surface cost has grown most since it was built comes first. Rebuilding begins when the cost
+    /// of a subtree has grown by more than 40 %. It continues in later calls until no cost has
+    /// grown by more than 20 %.
     ///
     /// Answers stay the same, but caches start anew. Within a step of a Sweep, rebuild() must come
-    /// before Sweep::end(). It does not help if triangles that were far apart have come near each
-    /// other: then surface_cost() stays high. Build a new model in this case. Takes O(nodes) time,
-    /// and about 100 ns for each triangle rebuilt. Never allocates.
+    /// before Sweep::end(). A rebuild does not help if triangles that were far apart have come near
+    /// each other: then surface_cost() stays high. Build a new model in this case. Takes O(nodes)
+    /// time, and about 100 ns for each triangle rebuilt. Never allocates.
     CDPREP_API std::uint32_t rebuild(std::uint32_t most_triangles) noexcept;
 
     /// Returns build::surface_cost() of the BVH. When it has grown by half in spite of rebuild(),

@@ -38,9 +38,9 @@ enum class OpenMode : std::uint8_t {
 /// The options for opening a model. The sections that are not opened are not checked, and only
 /// OpenMode::copy reads them.
 struct OpenOptions {
-    /// The queries to open the model for. Opening fails if the file was baked without something
-    /// that they need. With Ask::nothing, no query is required: the model serves whatever the
-    /// opened sections allow.
+    /// The queries to open the model for. Opening fails if the file lacks something that they need.
+    /// With Ask::nothing, no query is required: the model serves whatever the opened sections
+    /// allow.
     Ask asks = Ask::nothing;
     /// The sections to open, if the file has them, in addition to those of `asks`. Unset: those of
     /// `asks` only, or every section if `asks` is Ask::nothing.
@@ -56,7 +56,7 @@ struct Refusal {
     enum class Reason : std::uint8_t {
         /// The file lacks sections: bake it again. For a LiveModel or a Window, no bake helps.
         not_baked,
-        not_opened,  ///< the file has them, but they were not opened
+        not_opened,  ///< the file has the sections, but they were not opened
     };
     Reason reason;
     std::string message;  ///< a sentence: file, query, missing sections, remedy
@@ -131,8 +131,8 @@ public:
     CDPREP_API Model& operator=(Model&&) noexcept;
     CDPREP_API ~Model();
 
-    /// Returns the number of triangles in the header. For a Window, or a LiveModel that can tear,
-    /// this counts places for triangles, some of which may be empty.
+    /// Returns the number of triangles, from the header. For a Window, or a LiveModel that can
+    /// tear, this counts places for triangles, some of which may be empty.
     [[nodiscard]] CDPREP_API std::uint32_t triangle_count() const noexcept;
     [[nodiscard]] CDPREP_API std::uint32_t vertex_count() const noexcept;  ///< from the header
     /// Returns a number that is greater than all triangle numbers in answers. It is
@@ -148,11 +148,11 @@ public:
     /// Returns the sections that were requested and are present.
     [[nodiscard]] CDPREP_API SectionSet sections() const noexcept;
 
-    /// Reads one byte of each page of the open sections in `wanted`. Returns the number of bytes
-    /// that these sections have. After this call, the first query does not wait for the disk. Pages
-    /// may be evicted later; the caller may lock them (mlock() on bytes()). Pages are assumed to
-    /// have at least format::kPageAlignment bytes. Takes as long as the disk needs for pages that
-    /// are not in memory, otherwise a few nanoseconds per page. Needs no Ask. Never allocates.
+    /// Reads one byte of each page of the open sections in `wanted`. Returns the size of these
+    /// sections in bytes. After this call, the first query does not wait for the disk. Pages may be
+    /// evicted later; the caller may lock them (mlock() on bytes()). Pages are assumed to have at
+    /// least format::kPageAlignment bytes. Takes as long as the disk needs for pages that are not
+    /// in memory, otherwise a few nanoseconds per page. Needs no Ask. Never allocates.
     CDPREP_API std::size_t touch(SectionSet wanted = SectionSet::all()) const noexcept;
     /// As above, for the sections that the queries of `asks` need or use.
     CDPREP_API std::size_t touch(Ask asks) const noexcept;
@@ -188,9 +188,9 @@ public:
     [[nodiscard]] CDPREP_API std::string_view name(SectionId names,
                                                    std::uint32_t index) const noexcept;
 
-    /// Returns true for the model of a Window, and for that of a LiveModel that has ever gained or
-    /// lost triangles. Queries about solids then give Answer::unknown, unless bounding boxes or a
-    /// touch of the surface decide.
+    /// Returns true for the model of a Window, or of a LiveModel that has ever gained or lost
+    /// triangles. Queries about solids then give Answer::unknown, unless bounding boxes or a touch
+    /// of the surface decide.
     [[nodiscard]] CDPREP_API bool is_torn() const noexcept;
 
     /// Returns whether bvh().leaves is not empty and holds model coordinates without loss.
@@ -209,12 +209,12 @@ private:
     void set_lanes(std::span<const std::uint8_t> lanes,
                    std::uint32_t triangle_number_bound) noexcept;
     void set_torn(std::uint32_t triangle_number_bound) noexcept;
-    /// Makes this a part of a surface, which serves `asks` alone.
+    /// Makes this the model of a Window, which serves `asks` alone.
     void set_part(Ask asks) noexcept;
-    /// Makes this a live model: a bake cannot add what it lacks.
+    /// Makes this a live model: refusal() then suggests no bake.
     void set_live() noexcept;
-    /// Sets the number of leaves of a part. Also sets its positions, triangles and oriented boxes;
-    /// each may be empty.
+    /// Sets the number of leaves of a Window's model. Also sets its positions, triangles and
+    /// oriented boxes; each may be empty.
     void set_leaves(std::uint32_t count, std::span<const format::Double3> positions,
                     std::span<const format::Triangle> triangles,
                     std::span<const format::OrientedNode> oriented) noexcept;

@@ -23,7 +23,7 @@ public:
 
     /// Makes the motion between two poses of the model. `centre` is a point of the model, in its
     /// own coordinates. The model turns the shorter way, by pi at most. If the turn is exactly pi,
-    /// both directions are equally short. Then it always takes the same one.
+    /// both directions are equally short. Then the model always turns the same way.
     ///
     /// Fails with bad_argument if a number of `centre` is not finite. Also fails if the centre
     /// moves farther than format::kMaxCoordinate along an axis, or if a pose might exceed this
@@ -59,7 +59,7 @@ public:
         Double3 shift;            ///< world
         Double3 axis;             ///< world, a unit vector
         double angle;             ///< radians, not negative
-        /// That of `start`, made orthonormal by between() and by_velocity().
+        /// The rotation of `start`, made orthonormal by between() and by_velocity().
         std::array<double, 9> start_rotation;
         /// The largest deviation of an entry of the rotations at 0 and 1 from this formula.
         double end_error;

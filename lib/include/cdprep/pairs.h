@@ -21,7 +21,7 @@ namespace cdprep {
 
 struct PairFront;
 
-/// An answer that may be unknown: an open mesh, for example, has no defined inside.
+/// An answer that may be unknown: an unbalanced mesh, for example, has no defined inside.
 enum class Answer : std::uint8_t { no, yes, unknown };
 
 /// The point set that represents a model.
@@ -93,34 +93,35 @@ struct Collision {
 ///
 /// With Body::surface, nested surfaces that do not touch do not collide. With Body::solid, models
 /// also collide if a nonzero winding number proves that a component of one is inside the other. See
-/// containment() for open models. The answer is as exact as that of overlaps().
+/// containment() for unbalanced models. The answer is as exact as that of overlaps().
 ///
 /// With Overlap::proper, triangles may touch without an overlap. If a vertex that containment()
 /// would test then lies on the other surface, all vertices are tested. `unknown` means: the other
-/// model is open, or every vertex of a component may lie on its surface.
+/// model is unbalanced, or every vertex of a component may lie on that model's surface. It is also
+/// the answer if the model that may be inside is torn (Model::is_torn()).
 ///
 /// Reads all options. Needs Ask::collide of both models, Ask::solid with Body::solid, and
-/// ask_of(options.through). Takes O(log n) time for most poses. With a cache, the test of the
-/// surfaces takes O(1) time if the last hit recurs. It also does if the models moved less than a
-/// proven gap. Queries through octrees and tetra-trees use no cache. If no triangles overlap,
-/// Body::solid adds the time of containment(), or of testing all vertices. Never allocates.
+/// ask_of(options.through). Takes O(log n) time for most poses. With a cache, the surfaces are
+/// tested in O(1) time if the last hit recurs or a proven gap remains. Queries through octrees and
+/// tetra-trees use no cache. If no triangles overlap, Body::solid adds the time of containment(),
+/// or of testing all vertices. Never allocates.
 [[nodiscard]] CDPREP_API Collision collide(const Pair& pair, Workspace& workspace) noexcept;
 
 /// Returns whether some component of one model lies inside the other. The surfaces of the two
 /// models must not touch.
 ///
 /// Inside means a winding number other than 0. Nested shells of opposite orientation cancel, and an
-/// inverted component counts as solid. If the other model is open and its box does not exclude a
-/// component, the component gives `unknown`. The generalised winding number is then stored, but
-/// does not decide. A torn model (Model::is_torn()) gives `unknown` if its box meets that of the
-/// other model. If anything gives `unknown`, the result is `unknown`, unless a component gives
-/// `yes`.
+/// inverted component counts as solid. If the other model is unbalanced and its box does not
+/// exclude a component, the component gives `unknown`. The generalised winding number is then
+/// stored, but does not decide. A torn model (Model::is_torn()) gives `unknown` if its box meets
+/// that of the other model. The result is `yes` if a component gives `yes`. Otherwise, it is
+/// `unknown` if anything gives `unknown`.
 ///
 /// One vertex of each component is tested, except of torn models. If this vertex is outside the
-/// other model's box, the component is outside, even if that model is open. This test decides most
-/// cases. Exact for balanced models, by a ray with symbolic perturbation (Feito and Torres 1997).
-/// Reads no options. Needs Ask::solid of both models. Takes O(log n + hits of the ray) time per
-/// component, or O(n) against an open model. Never allocates.
+/// other model's box, the component is outside, even if that model is unbalanced. This test decides
+/// most cases. Exact for balanced models, by a ray with symbolic perturbation (Feito and Torres
+/// 1997). Reads no options. Needs Ask::solid of both models. Takes O(log n + hits of the ray) time
+/// per component, or O(n) against an unbalanced model. Never allocates.
 [[nodiscard]] CDPREP_API Containment containment(const Pair& pair, Workspace& workspace) noexcept;
 
 /// One triangle of each model, in source numbers.
@@ -223,7 +224,7 @@ struct Distance {
 };
 
 /// Returns the distance between two surfaces. Returns nothing if the distance exceeds
-/// options.max_distance, if that is NaN, or if a model is empty.
+/// options.max_distance, if max_distance is NaN, or if a model is empty.
 ///
 /// The distance is 0 exactly if the surfaces touch or, with Body::solid, a component of one is
 /// proven inside the other. If the surfaces touch, both witnesses are one common point. For

@@ -65,9 +65,9 @@ struct LayerPair {
     bool lists_stays = false;
 };
 
-/// The way to compute distances for which LayerPair::max_error permits an error. The plan chooses
-/// the cheapest way that is certified for every model of both layers. It reads ModelUse::parts and
-/// never a clock, so the same files give the same plan.
+/// The method to compute distances for which LayerPair::max_error permits an error. The plan
+/// chooses the cheapest method that is certified for every model of both layers. The plan reads
+/// ModelUse::parts and never a clock, so the same files give the same plan.
 ///
 /// For `distance`, [lower, upper] contains the exact distance. Its width is at most
 /// PairRung::error, plus rounding. Rounding is at most 3e-12 of `upper`, plus 1e-13 of the largest
@@ -86,7 +86,7 @@ enum class Rung : std::uint8_t {
     walk,
     /// Of solids: through their enclosing parts (EnclosingParts). Layers whose models may change
     /// (kSceneChanges) do not use them. Witnesses lie on parts, at most the parts' errors away from
-    /// the solids. They have no triangles: kNoTriangleNumber. If parts touch, solids count as
+    /// the solids. Their triangles are kNoTriangleNumber. If parts touch, solids count as
     /// colliding, and `collide` reports no containment. With Overlap::proper, `collide` is exact
     /// and reports containment. If the parts of two objects do not certify PairRung::error, these
     /// objects use Rung::walk.
@@ -175,15 +175,15 @@ public:
     [[nodiscard]] std::span<const PairRung> rungs() const noexcept {
         return rungs_;
     }
-    /// Returns the number of the pair of two layers among pairs(), or nothing if they are not
-    /// paired.
+    /// Returns the index in pairs() of the pair of two layers, or nothing if they are not paired.
     [[nodiscard]] CDPREP_API std::optional<std::uint32_t> find_pair(std::uint32_t a,
                                                                     std::uint32_t b) const noexcept;
-    /// Returns what the models of a layer must serve: open them for this. It includes Ask::solid
-    /// for Body::solid, and Ask::hulls for Rung::parts.
+    /// Returns the features that the models of a layer must serve: open them for these. They
+    /// include Ask::solid for Body::solid, and Ask::hulls for Rung::parts.
     [[nodiscard]] CDPREP_API Ask asks_of(std::uint32_t layer) const noexcept;
     /// Returns a filter with this layer and the layers that are paired with it. A pair of layers
-    /// counts only if it has an effect of two objects. `self`, Ask::deform and Ask::tear are none.
+    /// counts only if it has an effect between two objects: not only `self`, Ask::deform or
+    /// Ask::tear.
     [[nodiscard]] CDPREP_API BoxFilter filter_of(std::uint32_t layer) const noexcept;
     /// Returns the margin by which the boxes of a layer's objects are enlarged, in units of the
     /// models.
@@ -193,11 +193,11 @@ public:
     /// Returns all effects of all pairs.
     [[nodiscard]] CDPREP_API Ask effects() const noexcept;
 
-    /// Returns a report of about a page. It begins with a line for each pair of pairs(): the
-    /// effects, and the queries from which some of them follow. With a max_error, the line also has
-    /// the rung and its error. Then the report lists the effects that are not computed. It lists
-    /// layers that are never tested together, and layers in no pair, if the options mention them.
-    /// It ends with the sections that are read of the models, and the size of a Scene.
+    /// Returns a report of about a page. It begins with a line for each of pairs(): the effects,
+    /// and the queries from which some of them follow. With a max_error, the line also has the rung
+    /// and its error. Then the report lists the effects that are not computed. It lists layers that
+    /// are never tested together. It lists layers in no pair only if the options mention them. It
+    /// ends with the sections of the models that are read, and the size of a Scene.
     [[nodiscard]] CDPREP_API std::string describe() const;
 
 private:

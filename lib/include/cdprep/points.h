@@ -31,14 +31,15 @@ struct ClosestPoint {
 /// Returns the point of `model`'s surface nearest to `query`, or nothing if no point of the surface
 /// is within `max_distance`.
 ///
-/// The distance is to the surface, not to the solid: a point deep inside a closed model is far
+/// The distance is to the surface, not to the solid: a point deep inside a balanced model is far
 /// away. If several triangles are equally near in double, the result is on the one with the lowest
 /// number.
 ///
 /// `query` must be finite. `max_distance` is inclusive. It may be infinite, but not NaN. A negative
-/// one finds nothing. A point within `max_distance` is never missed. The `lower` of a result is at
-/// most `max_distance`. The interval always contains the exact distance (closest_point_laws_test).
-/// Its width is a few ulp of the distance to the triangle's farthest corner, more for slivers.
+/// limit finds nothing. A point within `max_distance` is never missed. The `lower` of a result is
+/// at most `max_distance`. The interval always contains the exact distance
+/// (closest_point_laws_test). Its width is a few ulp of the distance to the triangle's farthest
+/// corner, more for slivers.
 ///
 /// Needs Ask::closest. Never allocates. Visits every node in the worst case, such as a point at the
 /// centre of a sphere.
@@ -52,7 +53,7 @@ struct ClosestPoint {
 
 /// The position of a point with respect to a solid.
 struct Inclusion {
-    Answer answer = Answer::no;  ///< unknown for an open model if p is in its box, off its surface
+    Answer answer = Answer::no;  ///< unknown in the box of an unbalanced model, off its surface
     bool on_surface = false;     ///< p lies on a triangle; then `answer` is yes
     double winding = 0;          ///< as in Containment; 0 on the surface
 };
@@ -62,14 +63,14 @@ struct Inclusion {
 ///
 /// `through` chooses the structure. The result is the same through each, bit for bit. The
 /// tetra-tree reads the triangles of one cone; octrees read those of the cells along a ray.
-/// Structure::pieces is treated as Structure::bvh. For an open model, `through` has no effect.
+/// Structure::pieces is treated as Structure::bvh. `through` has no effect on unbalanced models.
 ///
 /// Exact if the model is balanced: each edge is used equally often in both directions. Needs
 /// Ask::inside and ask_of(through). For octrees and tetra-trees, the workspace must be made with
 /// cells(). The BVH takes O(log n + hits of a ray) time, a tetra-tree O(level + triangles in one
 /// cone). An octree takes O(cells along the ray + their triangles). QueryCounts::ray_triangles
-/// counts the triangles that these searches read. For a point in the box of an open model, the
-/// query takes O(n) time and counts nothing. Never allocates.
+/// counts the triangles that these searches read. For a point in the box of an unbalanced model,
+/// the query takes O(n) time and counts nothing. Never allocates.
 [[nodiscard]] CDPREP_API Inclusion points_inside(const Model& model, const Double3& p,
                                                  Workspace& workspace,
                                                  Structure through = Structure::bvh) noexcept;
@@ -166,7 +167,8 @@ struct TriangleShape {
     std::array<Double3, 3> corner;
 };
 
-/// A shape in the world, closed and solid: touching counts, and a triangle inside it touches it.
+/// A shape in the world, closed and solid: touching counts, and a triangle inside the shape touches
+/// it.
 using Shape = std::variant<Box, Sphere, Capsule, TriangleShape>;
 
 struct ShapeOptions {
@@ -182,7 +184,7 @@ struct ShapeOptions {
 };
 
 /// Returns whether `shape` has a point in common with a triangle of `model`. Stops at the first
-/// such triangle found. The model is its surface: a shape deep inside a closed model touches
+/// such triangle found. The model is its surface: a shape deep inside a balanced model touches
 /// nothing.
 ///
 /// Exact, also for tangent spheres and capsules: signs of determinants and comparisons in integers
@@ -199,8 +201,8 @@ struct ShapeOptions {
 
 /// Finds every triangle of `model` that has a point in common with `shape`.
 ///
-/// Returns the number of triangles. Stores their source numbers in `room`, sorted; only the
-/// smallest ones if `room` is too short. With an empty span, the function only counts. The answer
+/// Returns the number of triangles. Stores their source numbers in `room`, sorted. If `room` is too
+/// short, it receives the smallest ones. With an empty span, the function only counts. The answer
 /// is as exact as that of touches(). Needs Ask::touch. Takes O(log n) time for most shapes, and
 /// time in proportion to the triangles near the shape. Never allocates.
 [[nodiscard]] CDPREP_API std::size_t touching_triangles(const Model& model, const Shape& shape,
@@ -245,7 +247,7 @@ struct ShapeDistance {
 /// are equally near in exact arithmetic, any may be the result, but always the same one.
 ///
 /// Needs Ask::touch. Visits every triangle in the worst case. A box that does not touch the model
-/// takes twelve searches: for two triangles on each of its six sides. Each search is limited to the
+/// takes twelve searches: two triangles cover each of its six sides. Each search is limited to the
 /// smallest distance found before. Never allocates.
 [[nodiscard]] CDPREP_API std::optional<ShapeDistance> shape_distance(
     const Model& model, const Shape& shape, Workspace& workspace,

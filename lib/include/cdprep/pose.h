@@ -64,8 +64,8 @@ private:
 /// double, each sum from left to right. The relative rounding error is about 1e-16, which may
 /// separate parts that touch. If the parts of one assembly must still touch, use
 /// Placement::world(). If an entry of |R^T R - I| exceeds Pose::kRotationTolerance, R is replaced
-/// by the nearest rotation. The translation is not checked: its coordinates may exceed
-/// format::kMaxCoordinate up to four times.
+/// by the nearest rotation. The translation is not checked: its coordinates may be up to four times
+/// format::kMaxCoordinate.
 [[nodiscard]] CDPREP_API Pose relative_pose(const Pose& world_from_a,
                                             const Pose& world_from_b) noexcept;
 

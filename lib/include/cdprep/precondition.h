@@ -5,11 +5,11 @@
 
 namespace cdprep {
 
-/// Receives a message when a C++ function is called and a precondition that it checks does not
-/// hold. For example, the model or the workspace cannot serve a query. This is an error of the
-/// caller that the function's result cannot report. The message is one or more whole sentences, and
-/// is valid only during the call. The handler may log it, write a dump or end the program. If the
-/// handler returns, the program is aborted.
+/// Receives a message if a C++ function finds that one of its preconditions does not hold. For
+/// example, the model or the workspace cannot serve a query. This is an error of the caller that
+/// the function's result cannot report. The message is one or more whole sentences, and is valid
+/// only during the call. The handler may log it, write a dump or end the program. If the handler
+/// returns, the program is aborted.
 using PreconditionHandler = void (*)(const char* sentence);
 
 /// Sets the process-wide handler and returns the previous one. Null sets the default, which prints

@@ -22,8 +22,8 @@
 
 namespace cdprep {
 
-/// An object of a scene. A slot that is used again gets a new generation; generation 0 means no
-/// object.
+/// The id of an object of a scene. A slot that is used again gets a new generation; generation 0
+/// means no object.
 struct ObjectId {
     std::uint32_t slot = 0;
     std::uint32_t generation = 0;
@@ -211,8 +211,8 @@ public:
     CDPREP_API ~Scene();
 
     /// Adds an object to the lowest free slot. Returns nothing if the scene is full. Stops the
-    /// program if the model is null, the layer is unknown, or the model does not serve what the
-    /// layer asks for.
+    /// program if the model is null, the layer is unknown, or the model does not serve
+    /// Plan::asks_of(layer).
     CDPREP_API std::optional<ObjectId> add(const SceneObject& object) noexcept;
     /// Removes an object. The next step lists the end of each effect that held for it. Returns
     /// false if there is none with this id.
@@ -243,16 +243,16 @@ public:
     CDPREP_API SceneStep step(std::span<Workspace> workspaces,
                               ParallelFor parallel_for = serial_for) noexcept;
     /// Does the same as step(), with pairs of slots that the caller's own broad phase found. The
-    /// pairs may have any order, and so may the two slots of a pair. They must contain all pairs of
-    /// paired layers whose boxes meet: the scene does not find missing pairs. Pairs of free slots,
-    /// of layers that are not paired and of boxes that do not meet are ignored. If pairs are listed
-    /// twice, needed_pairs may be larger than necessary.
+    /// pairs may have any order, and so may the two slots of a pair. They must contain every pair
+    /// whose layers are paired and whose boxes meet: the scene does not find missing pairs. Pairs
+    /// of free slots, of layers that are not paired and of boxes that do not meet are ignored. If
+    /// pairs are listed twice, needed_pairs may be larger than necessary.
     CDPREP_API SceneStep step_with(std::span<const BoxPair> candidates,
                                    std::span<Workspace> workspaces,
                                    ParallelFor parallel_for = serial_for) noexcept;
     /// Returns the box of each slot in the next step, for the broad phase of step_with(). Boxes are
     /// relative to the plan's origin. With `continuous`, a box contains the whole way. Free slots
-    /// have absent boxes, and so do objects of a layer without effects of two objects.
+    /// have absent boxes, and so do objects of a layer without effects between two objects.
     [[nodiscard]] CDPREP_API std::span<const WorldBox> boxes() noexcept;
 
     [[nodiscard]] CDPREP_API std::span<const SceneHit> hits() const noexcept;
@@ -276,14 +276,14 @@ public:
     [[nodiscard]] CDPREP_API std::optional<SceneObject> find(ObjectId object) const noexcept;
     /// Returns the object in a slot, or an id with generation 0 if there is none.
     [[nodiscard]] CDPREP_API ObjectId object_at(std::uint32_t slot) const noexcept;
-    /// Returns a hash of the results, to compare runs. Of distances, it leaves out the witnesses
-    /// and, for distances of 0, the triangles. Of bounded distances, it includes the objects,
-    /// `is_complete` and the bounds only. Of impacts, it includes the objects and the kind only. Of
-    /// contacts, it leaves out features, `members` and the coordinates of manifold points. Of
-    /// ContactsVerdict, it includes `found` only. The hash is equal for any number of threads and
-    /// any instruction set, with three exceptions: answers of `haptic`, those with a max_error, and
-    /// impacts that are `near`. These may differ between instruction sets. Impacts, and winding
-    /// numbers of unknown containment, also depend on the C library.
+    /// Returns a hash of the results, to compare runs. The hash leaves out the witnesses of
+    /// distances, and the triangles of distances of 0. Of bounded distances, it includes only the
+    /// objects, `is_complete` and the bounds. Of impacts, it includes only the objects and the
+    /// kind. Of contacts, it leaves out features, `members` and the coordinates of manifold points.
+    /// Of ContactsVerdict, it includes only `found`. The hash is equal for any number of threads.
+    /// It is also equal for any instruction set, with three exceptions: answers of `haptic`,
+    /// answers with a max_error, and impacts that are `near`. Impacts, and winding numbers of
+    /// unknown containment, also depend on the C library.
     [[nodiscard]] CDPREP_API std::uint64_t state_hash() const noexcept;
 
 private:

@@ -42,9 +42,9 @@ public:
     CDPREP_API void begin() noexcept;
 
     /// Ends the step: the positions of the model are those at time 1. A triangle that was appended
-    /// within the step starts at its vertices' positions at time 0. Vertices that had no position
-    /// start where the first vertex of the base was. If the base was empty, they start at the
-    /// origin. A triangle that was removed within the step is left out. Takes O(n) time.
+    /// within the step starts at its vertices' positions at time 0. Vertices without a position at
+    /// time 0 start where the first vertex of the base was. If the base was empty, they start at
+    /// the origin. A triangle that was removed within the step is left out. Takes O(n) time.
     CDPREP_API void end() noexcept;
 
     /// Returns whether queries may use the sweep. The step must have ended, and the model must be
@@ -73,7 +73,7 @@ private:
 ///
 /// `false` is certain: no triangle of one model touches a triangle of the other at any time of the
 /// step. `true` means that the convex hull of a triangle's path, relative to B, comes near a
-/// triangle of B. It does not say whether they touch, nor when. may_touch() does not test
+/// triangle of B. Whether and when the triangles touch is not known. may_touch() does not test
 /// containment: collide() with Body::solid does. It does not test a model against itself, or two
 /// models that both deform. Triangles that were removed during the step are left out. The hull
 /// contains all places through which the triangle passes. So a step with less motion gives fewer

@@ -26,11 +26,11 @@ struct ImpactOptions {
     /// to the other model. It also ends after narrowing [lower, upper] 32 times. Otherwise it ends
     /// when the surfaces are this near, and no time of contact is found. Model units.
     ///
-    /// NaN and negative numbers count as 0. A tolerance close to rounding errors is raised to 2^-37
-    /// or so of the largest coordinate. It is raised further for many turns, and for poses whose
+    /// NaN and negative numbers count as 0. A tolerance close to rounding errors is raised to about
+    /// 2^-37 of the largest coordinate. It is raised further for many turns, and for poses whose
     /// matrix is not quite a rotation.
     double tolerance = 0;
-    /// The search ends after this many distance queries, without that for Impact::nearest.
+    /// The search ends after this many distance queries, not counting the one for Impact::nearest.
     std::uint32_t most_steps = 256;
 };
 
@@ -49,9 +49,9 @@ struct Impact {
     double lower = 1;
     /// The surfaces touch at this time. Infinity if no such time was found.
     double upper = std::numeric_limits<double>::infinity();
-    std::uint32_t steps = 0;  ///< distance queries of the search, without that for `nearest`
-    /// The nearest points at `lower`, in world coordinates: the direction of the contact. Nothing
-    /// if the kind is `none`, or the models touch at time 0.
+    std::uint32_t steps = 0;  ///< distance queries of the search, not counting that for `nearest`
+    /// The nearest points at `lower`, in world coordinates. They give the direction of the contact.
+    /// Nothing if the kind is `none`, or the models touch at time 0.
     std::optional<Distance> nearest;
 };
 
@@ -74,7 +74,7 @@ struct Impact {
 /// Needs Ask::distance of both models, and Ask::solid with Body::solid. Each step of the search
 /// takes one distance query, with a PairCache of its own. One more query finds the nearest points.
 /// Near a contact, the search also takes some collide() queries. A pair that passes without coming
-/// near takes 2 or 3 steps, an impact 10 or so. Never allocates.
+/// near takes 2 or 3 steps; an impact takes about 10. Never allocates.
 [[nodiscard]] CDPREP_API Impact time_of_impact(const MovingPair& pair, Workspace& workspace,
                                                const ImpactOptions& options = {}) noexcept;
 

@@ -39,11 +39,11 @@ struct WindowFill {
 /// outside is still farther than margin() from the probe. An answer about anything within margin()
 /// is also the answer about A.
 ///
-/// The window counts as open and torn, because its surface has a rim. It serves collide, overlap,
-/// distance, within, ray, closest and touch, for surfaces. A query is complete if nothing farther
-/// than margin() from the probe can change its answer. So overlaps() and collide() are complete if
-/// margin() >= 0. within() and pairs_within() are complete if margin() is at least the tolerance.
-/// Window::distance() reports whether its answer is complete.
+/// The window counts as unbalanced and torn, because its surface has a rim. It serves collide,
+/// overlap, distance, within, ray, closest and touch, for surfaces. A query is complete if nothing
+/// farther than margin() from the probe can change its answer. So overlaps() and collide() are
+/// complete if margin() >= 0. within() and pairs_within() are complete if margin() is at least the
+/// tolerance. Window::distance() reports whether its answer is complete.
 ///
 /// Each fill() copies O(leaves) bytes: 430 for a leaf, or 1,000 if a coordinate of A is not a
 /// float. The caller keeps two windows: the slow loop fills one while the fast loop reads the
@@ -62,7 +62,7 @@ struct WindowFill {
 class Window {
 public:
     /// Returns the number of bytes that in() takes: about 1,100 for each leaf. Fails if in()
-    /// rejects `limits`. Allocates as much while it runs.
+    /// rejects `limits`. Allocates as many bytes while it runs.
     [[nodiscard]] CDPREP_API static Result<std::size_t> bytes(const WindowLimits& limits);
 
     /// Makes an empty window. `memory` must start at a multiple of format::kSectionAlignment and
@@ -111,10 +111,10 @@ public:
     /// Complete if bounded_distance() of the window is complete, and the distance or max_distance
     /// is less than margin(). Also complete if triangles touch, but then the answer may name
     /// another touching pair than an answer about A. Apart from that, a complete answer is the
-    /// answer about A, bit for bit if no errors are permitted. The bounds of an incomplete answer
-    /// are those of the window, with `lower` at most margin(), or 0 if margin() is negative. Reads
-    /// the same options as bounded_distance(), and needs the same Ask. Takes as long as
-    /// bounded_distance() of the window. Never allocates.
+    /// answer about A, bit for bit if no errors are permitted. An incomplete answer has the bounds
+    /// of the window, with `lower` at most margin(), or 0 if margin() is negative. Reads the same
+    /// options as bounded_distance(), and needs the same Ask. Takes as long as bounded_distance()
+    /// of the window. Never allocates.
     [[nodiscard]] CDPREP_API BoundedDistance
     distance(const Pair& pair, Workspace& workspace, const DistanceOptions& options = {},
              const DistanceBudget& budget = {}) const noexcept;

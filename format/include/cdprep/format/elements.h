@@ -38,7 +38,7 @@ struct Element {
     const char* name;       ///< "BvhNode", or "u32"
     std::uint32_t size;     ///< bytes
     Scalar scalar;          ///< type of its numbers, if it has no fields
-    std::uint32_t columns;  ///< its numbers, if it has no fields; 1: one-dimensional dataset
+    std::uint32_t columns;  ///< count of numbers, if it has no fields; 1: one-dimensional dataset
     std::span<const Field> fields;
 };
 

@@ -19,7 +19,7 @@ inline constexpr std::array<char, 8> kMagic = {'\x93', 'C', 'D', 'P', '\r', '\n'
 inline constexpr std::uint32_t kVersion = 1;
 
 inline constexpr std::uint32_t kEndianMark = 0x01020304;    ///< in the writer's byte order
-inline constexpr double kIeeeCheck = 0x1.5bf0a8b145769p+1;  ///< e: proves IEEE 754 doubles
+inline constexpr double kIeeeCheck = 0x1.5bf0a8b145769p+1;  ///< Euler's e: proves IEEE 754 doubles
 
 inline constexpr std::uint64_t kUserBlockSize = 4096;   ///< bytes; the HDF5 part follows
 inline constexpr std::uint64_t kSectionAlignment = 64;  ///< one cache line
@@ -87,9 +87,9 @@ struct FileHeader {
     /// The result of content_hash() over the sections' ids, sizes, counts and checksums, and the
     /// header's facts about the model. The same input, options and tool version give the same hash.
     std::uint64_t content_hash;
-    /// Bytes 8 to 47 of the HDF5 superblock. Another HDF5 tool that rewrites the file moves the
-    /// sections but copies the user block. Then this field no longer matches the superblock. Images
-    /// that build_image() makes have no HDF5 part: this field is zero, and so are the bytes there.
+    /// Bytes 8 to 47 of the HDF5 superblock. Other HDF5 tools that rewrite the file copy the user
+    /// block, but may move the sections. This field then no longer matches the superblock. Images
+    /// that build_image() makes have no HDF5 part: this field and those bytes are zero.
     std::array<std::uint8_t, 40> superblock;
     std::uint32_t section_count;
     std::uint32_t required_features;  ///< a reader refuses unknown bits; 0 in this version

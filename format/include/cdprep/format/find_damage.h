@@ -24,9 +24,9 @@ enum class DamageKind : std::uint32_t {
     bad_header = 6,        ///< the header's checksum does not match, or a field is out of range
     rewritten = 7,         ///< the HDF5 superblock does not match the header
     unknown_feature = 8,   ///< found: feature bits; limit: those that this version knows
-    bad_section = 9,       ///< a section must be absent, has a wrong element size, is misaligned
-                           ///< or out of order, or ends past the file's end. Or it overlaps another
-                           ///< one or the user block, or is empty but has an offset.
+    bad_section = 9,       ///< a section is present but must not be, is misaligned or out of
+                           ///< order, or has a wrong element size. Or it ends past the file's end,
+                           ///< overlaps another one or the user block, or is empty with an offset.
     missing_section = 10,  ///< a section that another one requires is missing
     bad_checksum = 11,     ///< found: checksum of the bytes; limit: the one in the table
     bad_count = 12,        ///< found: elements; limit: the number that the other facts require
@@ -41,7 +41,7 @@ enum class DamageKind : std::uint32_t {
     bad_fact = 17,         ///< deep check: a recorded fact is false (corner, bounds, hash, number)
 };
 
-/// One piece of damage: its place, the number found and the number allowed.
+/// One case of damage: its place, the number found and the number allowed.
 struct Damage {
     DamageKind kind;
     SectionId section;    ///< 0 if the damage concerns no section
@@ -76,9 +76,8 @@ struct Damage {
 /// are found only if the tetra-tree is wanted. Returns nothing if no damage is found.
 ///
 /// Sections outside `wanted` are not read. Sections that depend on each other are checked together,
-/// such as an octree's tables, nodes, grid and references. If `wanted` lacks a section on which
-/// another one depends, the dependent section is not proven safe. Usually, only its checksum is
-/// then checked.
+/// such as an octree's tables, nodes, grid and references. A section is not proven safe if `wanted`
+/// lacks one on which it depends. Usually, only its checksum is then checked.
 ///
 /// Safe means that no query reads outside the file or runs forever. To check that the content is
 /// also *right*, call find_deep_damage(). find_damage() takes O(bytes) time and never allocates.
@@ -89,9 +88,10 @@ struct Damage {
 ///
 /// The bounds in the BVHs contain what lies below them. Aligned boxes are checked in exact
 /// arithmetic, oriented boxes and swept spheres in double precision. The tree order is a
-/// permutation of the source triangles. Each triangle belongs to one piece, and to one leaf of the
-/// BVH over pieces. Every triangle with a repeated corner is marked in degenerate_bits. The model's
-/// aligned bounds contain every vertex. The content of bvh_leaves and the content hash are right.
+/// permutation of the source triangles. If there are pieces, each triangle belongs to one piece,
+/// and to one leaf of their BVH. Every triangle with a repeated corner is marked in
+/// degenerate_bits. The model's aligned bounds contain every vertex. The content of bvh_leaves and
+/// the content hash are right.
 ///
 /// Other facts, such as octrees and hulls, are checked by `cdprep info --deep`. Copies the sections
 /// that it compares. Takes O(bytes * levels of the BVH) time.

@@ -14,7 +14,7 @@
 namespace cdprep::format {
 
 /// Returns the control register of the floating-point unit: MXCSR on x86-64, FPCR on ARM64. Returns
-/// 0 on other processors; WebAssembly has no modes.
+/// 0 on other processors; WebAssembly has no such register.
 [[nodiscard]] inline std::uint64_t float_control() noexcept {
 #if defined(__x86_64__) || defined(_M_X64)
     return _mm_getcsr();
@@ -42,7 +42,8 @@ namespace cdprep::format {
 }
 
 /// Sets the register to a value that float_control() returned. Never inlined, so the compiler moves
-/// no access to shared memory across the call. It may move arithmetic on values in registers.
+/// no access to shared memory across the call. The compiler may still move arithmetic on values in
+/// registers.
 CDPREP_API void set_float_control(std::uint64_t control) noexcept;
 
 /// Sets the default value of the register; see is_default_float_control().
@@ -52,10 +53,10 @@ CDPREP_API void set_default_float_control() noexcept;
 /// restores the caller's. Usually the caller's environment is already the default. The guard then
 /// costs a read and two comparisons: eight instructions on x86-64.
 ///
-/// Engines flush subnormal numbers to zero on their threads, and -ffast-math does so for a whole
-/// program. Some programs set another rounding mode or trap floating-point exceptions. Exactness is
-/// proven for the default environment only, so each entry point of the library begins with a guard.
-/// A guard must stay on the thread that made it.
+/// Game engines flush subnormal numbers to zero on their threads, and -ffast-math does so for a
+/// whole program. Some programs set another rounding mode or trap floating-point exceptions.
+/// Exactness is proven for the default environment only, so each entry point of the library begins
+/// with a guard. A guard must stay on the thread that made it.
 class FloatEnvironment {
 public:
     FloatEnvironment() noexcept : callers_(float_control()) {
@@ -76,9 +77,9 @@ public:
     template <class Call>
     decltype(auto) outside(Call&& call) {
 #if defined(__GNUC__)
-        // This barrier makes the compiler compute the values that the call reads before the
-        // environment changes. With Visual C++, only set_float_control() keeps the order, because
-        // it is never inlined.
+        // The values that the call reads must be computed before the environment changes. This
+        // barrier makes the compiler do so. With Visual C++, only set_float_control() keeps the
+        // order, because it is never inlined.
         asm volatile("" : : "r"(&call) : "memory");
 #endif
         const Outside left(*this);

@@ -30,7 +30,7 @@ struct Triangle {
 
 /// Eight boxes side by side, ready for eight SIMD lanes: row = axis, column = box.
 ///
-/// Box j of node i of level 0 contains leaf 8i + j: up to eight triangles from 8 (8i + j) on, in
+/// Box j of node i of level 0 contains leaf 8i + j. Leaf k has up to eight triangles from 8k on, in
 /// tree order. Box j of node i of level l > 0 contains node 8i + j of level l - 1. So there are no
 /// child links. The triangle count alone fixes the shape (bvh_shape.h), and no file can contain a
 /// cycle. Nodes are stored level by level, root first. Box j is unused if there is no leaf or node

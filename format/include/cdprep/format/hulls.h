@@ -43,7 +43,8 @@ struct Hull {
     std::uint32_t facet_count;  ///< 2 * point_count - 4 in dimensions 2 and 3, else 0
     std::uint32_t first_group;
     std::uint32_t group_count;
-    std::uint32_t first_neighbour;  ///< of point_count + 1 list starts, then neighbour_count points
+    std::uint32_t first_neighbour;  ///< in hull_neighbours: point_count + 1 list starts, then
+                                    ///< neighbour_count points
     std::uint32_t neighbour_count;  ///< 0: no lists are stored; searches scan the hull
     std::uint32_t first_start;
     std::uint32_t start_count;  ///< kHullStarts with neighbours, otherwise 0
@@ -64,8 +65,8 @@ struct HullGroup {
     std::uint32_t facet_count;
 };
 
-/// The number of directions with a stored start point for hill climbing. They point to the middles
-/// of 8 x 8 cells on each face of a cube.
+/// The number of directions with a stored start point for hill climbing. These directions point to
+/// the middles of 8 x 8 cells on each face of a cube.
 inline constexpr std::uint32_t kHullStarts = 6 * 8 * 8;
 /// The value in hull_vertices for a point that is not a vertex of the imported file, and for lanes
 /// past the last point.

@@ -88,10 +88,10 @@ constexpr std::uint64_t mixed_slot(std::uint64_t key, std::uint32_t slot_bits) n
 
 /// The rule by which an adaptive octree chooses split points.
 enum class SplitRule : std::uint32_t {
-    median = 0,        ///< along each axis, the median of the midpoints of the triangles' boxes,
-                       ///< clipped to the cell; the cell's middle if the median is on its boundary
+    median = 0,        ///< along each axis, the median midpoint of the triangles' boxes, clipped
+                       ///< to the cell; the cell's middle if the median is on its boundary
     surface_area = 1,  ///< along each axis, one of 15 planes: that with the least sum, over both
-                       ///< sides, of surface area times triangles
+                       ///< sides, of surface area times triangle count
 };
 
 /// The box that an adaptive octree divides, and its settings. Each inner node of this octree has

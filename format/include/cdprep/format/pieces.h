@@ -105,8 +105,8 @@ struct PieceAdjacency {
 /// are seen from outside, where a triangle's corners are in counter-clockwise order.
 enum class EdgeConvexity : std::uint8_t {
     /// The bend is not defined. The edge may be a border or have more than two triangles. Its two
-    /// triangles may have opposite windings or fold onto each other in a plane. One of them may
-    /// have no area.
+    /// triangles may have opposite windings or fold onto each other in a plane. One of the
+    /// triangles may have no area.
     unknown = 0,
     flat = 1,
     convex = 2,

@@ -71,8 +71,8 @@ enum TetraNodeFlags : std::uint32_t {
     tetra_inner = 0x10,    ///< has children; a leaf lacks this bit
 };
 
-/// A cone that is touched by a triangle that does not contain the centre. Nodes are sorted by `key`
-/// and so stored level by level. The octants, keys 8 to 15, come first.
+/// A cone that some triangle touches; triangles that contain the centre do not count. Nodes are
+/// sorted by `key` and so stored level by level. The octants, keys 8 to 15, come first.
 struct TetraNode {
     /// 8 + octant, then two bits per split. Bits 0, 1 and 2 of the octant stand for x, y and z. A
     /// bit is set if that coordinate is negative. The parent is key >> 2.
@@ -92,9 +92,9 @@ struct TetraNode {
 ///
 /// With TetraBounding::boxes, both sections hold boxes of nodes: tetra_boxes in a BvhNode,
 /// tetra_oriented in an OrientedNode. Lane k of element i belongs to node kTetraBoxStride * i + k.
-/// Both boxes contain the part of the triangles below that lies in the closed cone. They contain it
-/// as exactly as the boxes in geometry.h contain vertices. An inner node's aligned box is the box
-/// around its children's aligned boxes.
+/// Both boxes contain the part of the triangles below that lies in the closed cone. Both are as
+/// exact as the boxes in geometry.h. An inner node's aligned box is the box around its children's
+/// aligned boxes.
 ///
 /// The boxes of nodes 0 to 3 are stored once, all others twice. So the boxes of up to four children
 /// lie side by side in one element, wherever the children begin. The index of that element is the

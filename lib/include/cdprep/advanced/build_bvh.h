@@ -79,7 +79,7 @@ enum class Quality : std::uint8_t {
 struct BvhOptions {
     ParallelFor parallel_for = serial_for;
     /// Without oriented boxes, overlap queries take 1.1 to 1.3 times as long. In a BVH of
-    /// Quality::fast, omitting oriented boxes makes them take 1.3 to 1.5 times as long.
+    /// Quality::fast, they take 1.3 to 1.5 times as long.
     BvhBounds bounds = BvhBounds::oriented;
     Quality quality = Quality::best;
 };

@@ -50,7 +50,7 @@ struct ImageOptions {
 };
 
 /// Returns the number of bytes that build_image() fills, a multiple of format::kSectionAlignment.
-/// Fails if build_image() fails on these sections or options. Does not read the bytes of the
+/// Fails if build_image() would fail on these sections or options. Does not read the bytes of the
 /// sections. Allocates only on failure.
 [[nodiscard]] CDPREP_API Result<std::size_t> image_size(std::span<const Section> sections,
                                                         const ImageOptions& options = {});

@@ -51,8 +51,8 @@ struct PlannedModel {
 };
 
 /// Returns an upper bound of image_size() for the arrays that build_model() builds from any mesh
-/// with these counts. The bound is the size for a mesh with degenerate triangles. This mesh uses as
-/// many vertices, and has as many components, as possible. Takes O(1) time. Never allocates.
+/// with these counts. The bound is the size for a mesh with degenerate triangles, and with as many
+/// used vertices and components as possible. Takes O(1) time. Never allocates.
 ///
 ///     std::span<std::byte> room = arena.allocate(build::image_size_bound(planned), 64);
 ///     const auto arrays = build::build_model(positions, triangles, {.bounds = planned.bounds});
@@ -65,7 +65,7 @@ struct PlannedModel {
 /// `triangles`. ModelArrays::source_vertex holds indices in `positions`.
 ///
 /// Vertices are shared as in `triangles`. Equal positions with different numbers are not welded,
-/// and a surface with such a seam is not closed. Positions that no triangle uses are left out.
+/// and a surface with such a seam is not balanced. Positions that no triangle uses are left out.
 /// Triangles may be degenerate or equal.
 ///
 /// Fails with `bad_argument`, and names the first bad vertex or triangle, if a position is NaN,

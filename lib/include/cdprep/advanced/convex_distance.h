@@ -27,10 +27,10 @@ namespace cdprep {
 // microseconds.
 
 /// The simplex with which the last GJK query about two hulls ended, as point numbers. The caller
-/// owns it. The next query about the same two hulls begins there. The less the hulls have moved,
-/// the less time it takes. Any content is allowed: it never changes whether hulls collide or are
-/// within a tolerance. It may change the last digits of bounds, or change bounds by the errors that
-/// options permit. Use one cache for each pair of hulls and thread. A new cache is all zero.
+/// owns it. The next query about the same two hulls begins there. This saves more time the less the
+/// hulls have moved. Any content is allowed: it never changes whether hulls collide or are within a
+/// tolerance. It may change the last digits of bounds, or change bounds by the errors that options
+/// permit. Use one cache for each pair of hulls and thread. A new cache is all zero.
 struct ConvexCache {
     std::uint32_t count = 0;           ///< used elements of `a` and `b`, at most 4
     std::array<std::uint32_t, 4> a{};  ///< points of A

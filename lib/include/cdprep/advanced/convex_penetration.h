@@ -34,7 +34,7 @@ struct Penetration {
 /// A - B. Its corners are differences of a point of A and a point of B. The polytope grows where
 /// its boundary is nearest to the origin. The distance from the origin to this boundary proves
 /// `lower`. The reach of A - B along the normal proves `upper`. The farthest points of A along the
-/// normal and of B against it give this reach.
+/// normal and of B in the opposite direction give this reach.
 ///
 /// Takes ten to a hundred times as long as convex_distance(). Never allocates; uses 30 kB of stack.
 [[nodiscard]] CDPREP_API std::optional<Penetration> convex_penetration(

@@ -15,7 +15,7 @@ struct RootBox {
     std::array<double, 3> middle{};
     std::array<double, 9> axes{};  ///< column k is axis k of the model in the world
     std::array<double, 3> half{};  ///< negative if there are no triangles
-    double size = 0;               ///< for rounding errors: at least the sum of all terms' sizes
+    double size = 0;               ///< scale of rounding errors: >= sum of all inputs' magnitudes
 };
 
 /// Returns a box that contains all points of a moved model, as transform_point() rounds them. The

@@ -9,12 +9,12 @@
 namespace cdprep {
 
 /// Results of earlier queries on one pair of models, owned by the caller. The next query about the
-/// pair starts there. A cache changes speed, never answers. Only a distance with permitted errors
-/// may become another one within these errors.
+/// pair starts from them. A cache changes speed, never answers. Only a distance with permitted
+/// errors may become another one within these errors.
 ///
-/// It holds the last nearest or touching pair of triangles. It also holds a placement and the gap
-/// there: a proven lower bound of the distance of the surfaces. Until the models have moved by the
-/// gap relative to each other, they do not touch.
+/// A cache holds the last nearest or touching pair of triangles. It also holds a placement and the
+/// gap there: a proven lower bound of the distance of the surfaces. Until the models have moved by
+/// the gap relative to each other, they do not touch.
 ///
 /// Use one cache for each pair of models and thread, for any queries. A cache from another pair, or
 /// from before a LiveModel changed, is safe but may save no time. Make a new cache if anything but

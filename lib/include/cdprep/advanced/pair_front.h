@@ -12,11 +12,11 @@ namespace cdprep {
 inline constexpr std::uint32_t kFrontRoom = 512;
 
 /// Separating planes between node pairs of the BVHs over two models' pieces, owned by the caller.
-/// They come from earlier queries, and the node pairs together cover both models. If the models
-/// move little from query to query, few planes have to be updated. If there is no room for more
-/// pairs, the search descends from the pairs that are kept. If the room is too small when a front
-/// is started, or if the models jump, the front is emptied. It then stays unused for `wait`
-/// queries: none after the first failure, then more after each, up to 63.
+/// The planes come from earlier queries, and the node pairs together cover both models. If the
+/// models move little from query to query, few planes have to be updated. If there is no room for
+/// more pairs, the search descends from the pairs that are kept. The front is emptied if the room
+/// is too small when it is started, or if the models jump. It then stays unused for `wait` queries:
+/// none after the first failure, then more after each, up to 63.
 ///
 /// The members belong to the library; a new front is all zero.
 struct PairFront {

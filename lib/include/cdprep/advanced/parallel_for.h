@@ -8,7 +8,7 @@
 
 namespace cdprep {
 
-/// A piece of work in numbered parts. Calling it with a number runs that part. A Task refers to the
+/// Work in numbered shares. Calling it with a number does that share. A Task refers to the
 /// callable, which may be a lambda written in the call, and copies nothing. Copying a Task costs as
 /// much as copying two pointers.
 class Task {
@@ -34,11 +34,11 @@ private:
 /// of a task. Query tasks never throw; build_bvh() tasks may throw std::bad_alloc.
 ///
 /// In queries, a task that begins late finds little work left, or none. The best `run` executes
-/// tasks on its own thread too, until all have begun. It then waits for tasks that other threads
-/// have begun. A ParallelFor refers to the callable, a named object such as a lambda, and copies
-/// nothing. The callable must outlive the call, and any options that hold the ParallelFor. `run`
-/// runs in the floating-point environment of the caller; tasks compute in the default one on every
-/// thread.
+/// tasks on its own thread too, until all tasks have begun. It then waits for tasks that other
+/// threads have begun. A ParallelFor refers to the callable, a named object such as a lambda, and
+/// copies nothing. The callable must outlive the call, and any options that hold the ParallelFor.
+/// `run` runs in the floating-point environment of the caller; tasks compute in the default one on
+/// every thread.
 ///
 ///     const auto run = [&](std::size_t count, cdprep::Task task) {
 ///         std::vector<std::jthread> threads;

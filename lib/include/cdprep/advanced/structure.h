@@ -9,8 +9,8 @@
 namespace cdprep {
 
 /// A structure of a file through which queries are computed. All structures give the same answer,
-/// with two exceptions: distance() through pieces may name another pair of touching triangles. With
-/// permitted errors, it may return another distance within them.
+/// with two exceptions. distance() through pieces may name another pair of touching triangles. With
+/// permitted errors, it may return another distance within these errors.
 enum class Structure : std::uint8_t {
     bvh,              ///< the hierarchy of boxes; the fastest for two models
     octree,           ///< both models' octrees, side by side

@@ -43,12 +43,12 @@ extern "C" {
  *   not an error: as many as fit are stored. A list without room only counts. Exception:
  *   cdprep_contact_list counts at most cdprep_contact_options.most.
  * - No query allocates, except for the message of an error. Opening or building a model, compiling
- *   a plan, and the _make() functions do.
+ *   a plan, and the _make() functions allocate.
  * - Models are read-only and serve any number of threads. Exception: the model of a live model or a
  *   window must not be used while it changes. A workspace serves one call at a time, and so does a
  *   broad phase. At any time, a scene serves one call that changes it, or any number of calls that
- *   only read it. Calls share nothing else, unless the caller passes one object to both, such as a
- *   cache. There is no global state.
+ *   only read it. Two calls share nothing else, unless the caller passes the same object to both,
+ *   such as a cache. There is no global state.
  * - Callbacks must return: they must not throw or call longjmp(). A visitor may run queries with
  *   another workspace. A visitor runs in the caller's floating-point environment. Answers do not
  *   depend on that environment.

@@ -18,10 +18,10 @@ enum {
 
 /* A mesh, and what to build from it. The arrays are read only during the call.
  *
- * Triangles share a vertex only if they name the same number. Vertices with equal positions are not
- * merged, and a surface with such a seam is not closed. Vertices that no triangle uses are left
- * out. Triangles may be degenerate or equal. Answers number triangles and vertices as in these
- * arrays. */
+ * Triangles share a vertex only if they name the same vertex number. Vertices with equal positions
+ * are not merged, and a surface with such a seam is not balanced. Vertices that no triangle uses
+ * are left out. Triangles may be degenerate or equal. Answers number triangles and vertices as in
+ * these arrays. */
 typedef struct cdprep_build_options {
     cdprep_head head;
     uint32_t ask;       /* 0: all that a build can serve; otherwise these CDPREP_ASK_ bits */

@@ -33,7 +33,7 @@ enum {
     /* the hulls have a common point, and either both lie within their solids or the pieces'
      * triangles touch. Also set with CDPREP_CONTACT_DEEP. */
     CDPREP_CONTACT_OVERLAP = 1,
-    /* the shortest direction snags at an edge inside a surface; the normal is another one */
+    /* the shortest direction snags at an edge inside a surface; the normal has another direction */
     CDPREP_CONTACT_INTERNAL_EDGE = 2,
     /* the contact is on the inner side of a surface; ignore it for contact response */
     CDPREP_CONTACT_FROM_BEHIND = 4,
@@ -175,8 +175,8 @@ CDPREP_API int cdprep_hulls_collide(const cdprep_hull_pair* pair, uint32_t* hit,
 
 /* Stores the distance of two hulls; it is 0 if they have a common point. Without permitted errors,
  * the interval's width is at most 1e-12 upper + 1e-14 s. Here s is the size of the Minkowski
- * difference A - B. It is the largest difference between a point of A and a point of B along an
- * axis. relative_error is a share of `upper` here. `options` may be null.
+ * difference A - B: the largest difference along an axis between points of A and B. relative_error
+ * is a share of `upper` here. `options` may be null.
  * Needs: as cdprep_hull_find() */
 CDPREP_API int cdprep_hulls_distance(const cdprep_hull_pair* pair,
                                      const cdprep_distance_options* options,

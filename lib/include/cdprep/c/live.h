@@ -70,9 +70,10 @@ CDPREP_API void cdprep_live_end(cdprep_live* live);
  * _DISTANCE, _WITHIN, _CONTINUOUS, _SELF, _DEFORM, _TEAR, _HAPTIC, _INSIDE, _RAY, _CLOSEST, _TOUCH
  * and _CORNERS. It also serves CDPREP_ASK_SOLID if the base does.
  *
- * Once a triangle was added or removed, the model counts as open and has no components. Queries
- * about solids then store CDPREP_UNKNOWN, unless boxes or surfaces decide. All numbers of triangles
- * are less than cdprep_live_info.number_bound. cdprep_marks needs that many bits for this model. */
+ * Once a triangle was added or removed, the model counts as unbalanced and has no components.
+ * Queries about solids then store CDPREP_UNKNOWN, unless boxes or surfaces decide. All numbers of
+ * triangles are less than cdprep_live_info.number_bound. cdprep_marks needs that many bits for this
+ * model. */
 CDPREP_API const cdprep_model* cdprep_live_model(const cdprep_live* live);
 
 /* New positions of vertices. */
@@ -95,8 +96,8 @@ CDPREP_API void cdprep_live_move_init(cdprep_live_move* moved, size_t size);
  * With max_triangles, a vertex that no triangle uses may get its first position. Takes O(n) time
  * without moved.vertices. With it, takes O(m log n) time for m triangles at these vertices, and
  * reads one bit per leaf. In three cases, it takes O(n) time:
- * - A vertex of a triangle leaves the frame, a cube of two to four times the model's size when
- *   chosen.
+ * - A vertex of a triangle leaves the cube of the frame. When chosen, this cube was two to four
+ *   times the model's size.
  * - The model has become much smaller than this cube.
  * - The first coordinate that is not a float appears, or the last one disappears.
  *
@@ -115,9 +116,8 @@ CDPREP_API int cdprep_live_refit(cdprep_live* live, const cdprep_live_move* move
 /* Adds `count` triangles: 3 vertices each, numbered as in cdprep_live_refit(). *first is the number
  * of the first triangle; the others get the next numbers. Answers name a triangle by its number,
  * which no other triangle gets later. Takes O(m log n) time for m triangles, and reads one bit per
- * leaf. In addition, triangles of full subtrees are distributed anew: each subtree at most once,
- * and at most 4096 triangles at a time. Takes O(n) more if a vertex lies outside the frame of
- * cdprep_live_refit().
+ * leaf. In addition, full subtrees are redistributed: each at most once, and at most 4,096
+ * triangles at a time. Takes O(n) more if a vertex lies outside the frame of cdprep_live_refit().
  *
  * On failure, nothing changes and *first is CDPREP_NONE. Errors:
  * - CDPREP_WHY_NO_MEANING: the live model was made without max_triangles.
@@ -140,8 +140,8 @@ CDPREP_API int cdprep_live_remove(cdprep_live* live, const uint32_t* numbers, si
                                   cdprep_error* error);
 
 /* Rebuilds subtrees of the BVH whose boxes have grown, so that queries stay fast. Rebuilds at most
- * `most_triangles` triangles, in whole subtrees of up to 4,096. *taken is the number rebuilt.
- * Answers stay the same, but caches start anew. A sweep can be queried only after a later
+ * `most_triangles` triangles, in whole subtrees of up to 4,096. *taken is the number of triangles
+ * rebuilt. Answers stay the same, but caches start anew. A sweep can be queried only after a later
  * cdprep_sweep_finish_step(). See LiveModel::rebuild() in cdprep/live_model.h. Takes O(nodes) time,
  * and about 100 ns for each triangle rebuilt.
  * Errors: CDPREP_WHY_BUSY: another call changes the live model. */

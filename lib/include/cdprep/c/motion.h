@@ -67,7 +67,7 @@ enum {
 
 typedef struct cdprep_impact {
     uint32_t kind;  /* CDPREP_IMPACT_ */
-    uint32_t steps; /* distance queries of the search, without that for `nearest` */
+    uint32_t steps; /* distance queries of the search, not counting that for `nearest` */
     double lower;   /* at all times before this, the surfaces are apart; 1 for _NONE */
     double upper;   /* at this time they touch; infinity if no such time was found */
     /* At `lower`, in world coordinates. `found` is CDPREP_NO for _NONE, and for a contact at time
@@ -125,9 +125,9 @@ CDPREP_API void cdprep_sweep_end(cdprep_sweep* sweep);
 CDPREP_API int cdprep_sweep_start_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Completes the step: the positions of the model are those at time 1. A triangle that was appended
- * within the step starts at its vertices' positions at time 0. Vertices that had none start where
- * the first vertex of the base was. If the base was empty, they start at the origin. A triangle
- * that was removed within the step is left out. Takes O(n) time. */
+ * within the step starts at its vertices' positions at time 0. Vertices without a position at time
+ * 0 start where the first vertex of the base was. If the base was empty, they start at the origin.
+ * A triangle that was removed within the step is left out. Takes O(n) time. */
 CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error);
 
 /* Both functions find the pairs of triangles that may touch during the step. Triangle `a` is of the
@@ -138,15 +138,15 @@ CDPREP_API int cdprep_sweep_finish_step(cdprep_sweep* sweep, cdprep_error* error
  *
  * CDPREP_NO is certain: no triangles touch at any time of the step. CDPREP_YES means that the
  * convex hull of a triangle's path comes near a triangle of the other model. The path is relative
- * to that model. It is not known whether they touch, or when. Containment is not tested. A model is
- * not tested against itself, nor against another model that deforms. Triangles that were removed
- * during the step are left out. A step with less motion gives fewer false alarms. If the other
- * model turns by more than a quarter of a radian, the step is tested in up to 64 parts.
+ * to that model. Whether and when the triangles touch is not known. Containment is not tested. A
+ * model is not tested against itself, nor against another model that deforms. Triangles that were
+ * removed during the step are left out. A step with less motion gives fewer false alarms. If the
+ * other model turns by more than 0.25 radians, the step is tested in up to 64 parts.
  *
  * Takes as long as cdprep_within() with a tolerance of half of the other model's motion. Each pair
  * of triangles near each other takes about 1 us more for each part. Never allocates.
- * Errors: CDPREP_WHY_STALE: the step is not finished, or the model has changed since: it was moved,
- * torn or rebuilt, or passed to cdprep_live_image().
+ * Errors: CDPREP_WHY_STALE: the step is not finished, or the model was moved, torn, rebuilt or
+ * passed to cdprep_live_image() since.
  * Needs of the other model: CDPREP_ASK_WITHIN */
 CDPREP_API int cdprep_sweep_may_touch(const cdprep_sweep* sweep, const cdprep_model* other,
                                       const cdprep_motion* motion, cdprep_workspace* workspace,

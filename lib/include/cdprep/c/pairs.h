@@ -86,7 +86,7 @@ typedef struct cdprep_pair {
     uint32_t reserved;          /* 0 */
     cdprep_pose pose_a, pose_b; /* identity; from model to world coordinates */
     /* Null; used only by cdprep_distance() and cdprep_within() through CDPREP_THROUGH_PIECES, if
-     * there is a cache too. It changes no more of the answer than a cache does. */
+     * there is a cache too. Like a cache, it changes an answer only within permitted errors. */
     cdprep_front* front;
 } cdprep_pair;
 
@@ -106,14 +106,15 @@ typedef struct cdprep_collision {
 
 /* Stores whether two models collide. Stops at the first pair of triangles that overlap. Surfaces
  * collide if triangles of both overlap. Nested surfaces that do not touch do not collide. Solids
- * also collide if a component of one is inside the other. An open surface has no defined inside. If
- * a component may be inside one, and no other component is proven inside, `hit` and `containment`
- * are CDPREP_UNKNOWN. Then `winding` is the generalised winding number, and its last digits depend
- * on the C library. It is 0 if the model that may be inside has gained or lost triangles
- * (cdprep/c/live.h).
+ * also collide if a component of one is inside the other. An unbalanced surface has no defined
+ * inside. If a component may be inside one, and no other component is proven inside, `hit` and
+ * `containment` are CDPREP_UNKNOWN. Then `winding` is the generalised winding number, and its last
+ * digits depend on the C library. `winding` is 0 if the model that may be inside has gained or lost
+ * triangles (cdprep/c/live.h).
  * With CDPREP_PROPER, triangles may touch without an overlap. If a vertex that would decide then
  * lies on the other surface, all vertices are tested. CDPREP_UNKNOWN means: the other model is
- * open, or every vertex of a component may lie on its surface.
+ * unbalanced, or every vertex of a component may lie on that model's surface. It is also stored if
+ * the model that may be inside has gained or lost triangles.
  * Reads `body`, `overlap`, `degenerate` and `through`: any structure, for surfaces and solids.
  * Takes O(log n) time for most poses, O(1) with a cache if little has moved. If no triangles
  * overlap, CDPREP_SOLID adds the time of cdprep_containment(), or of testing all vertices.
@@ -124,17 +125,17 @@ CDPREP_API int cdprep_collide(const cdprep_pair* pair, cdprep_workspace* workspa
 /* Stores whether a component of one model is inside the other, for models whose surfaces do not
  * touch. `hit` and `containment` are equal. For touching surfaces the answer has no meaning. If the
  * surfaces may touch, use cdprep_collide() with CDPREP_SOLID.
- * Inside means a winding number other than 0. Exact for closed models (cdprep_model_info.closed).
- * An open model can make the answer unknown, as in cdprep_collide(). Reads none of the options;
- * `body` stays CDPREP_SURFACE.
- * Takes O(components (log n + ray hits)) time, or O(n) per component against an open model.
+ * Inside means a winding number other than 0. Exact for balanced models
+ * (cdprep_model_info.balanced). An unbalanced model can make the answer unknown, as in
+ * cdprep_collide(). Reads none of the options; `body` stays CDPREP_SURFACE.
+ * Takes O(components (log n + ray hits)) time, or O(n) per component against an unbalanced model.
  * Needs: CDPREP_ASK_COLLIDE, CDPREP_ASK_SOLID */
 CDPREP_API int cdprep_containment(const cdprep_pair* pair, cdprep_workspace* workspace,
                                   cdprep_collision* collision, cdprep_error* error);
 
 /* Stores whether two solids collide, if `level` of both tetra-trees can prove it. CDPREP_NO and
  * CDPREP_YES are proven. CDPREP_UNKNOWN means that this level does not decide
- * (cdprep_model_level_error()). CDPREP_YES requires that both models are closed and contain the
+ * (cdprep_model_level_error()). CDPREP_YES requires that both models are balanced and contain the
  * centre of their tetra-tree. A level beyond the deepest counts as the deepest. The workspace must
  * have `cells` (cdprep_workspace_options). Reads none of the options; `body` stays CDPREP_SURFACE.
  * Takes O(pairs of cones that meet) time.
@@ -201,7 +202,7 @@ typedef struct cdprep_crossing {
     cdprep_overlap pair;
     uint32_t is_flat;  /* CDPREP_YES: both in one plane, or one has no area; the ends are 0 */
     uint32_t reserved; /* 0 */
-    double ends[2][3]; /* in no particular order; equal if they touch in a point */
+    double ends[2][3]; /* in no particular order; equal if the triangles touch in a point */
 } cdprep_crossing;
 
 typedef struct cdprep_crossing_list {
@@ -277,10 +278,10 @@ typedef struct cdprep_bounded {
 
 /* Stores the distance of two surfaces, or bounds of it if the work does not suffice. `work` is the
  * maximum, and 0 is no limit. A pair of nodes of the BVHs counts 1, a pair of leaves 2. A pair of
- * triangles counts 4 in double and 16 in exact arithmetic. The work of up to 64 pairs of triangles
- * may exceed the maximum. With a cache, late bounds are close if little has moved. A late answer
- * depends on the instruction set, because the counted work does. `options` may be null. No clock is
- * read: measure how much work the time allows.
+ * triangles counts 4 in double and 16 in exact arithmetic. The work may exceed the maximum by that
+ * of up to 64 pairs of triangles. With a cache, late bounds are tight if little has moved. A late
+ * answer depends on the instruction set, because the counted work does. `options` may be null. No
+ * clock is read: measure how much work the time allows.
  * Through: CDPREP_THROUGH_BVH. Takes as long as cdprep_distance(), or in proportion to `work`.
  * Needs: CDPREP_ASK_DISTANCE */
 CDPREP_API int cdprep_distance_bounded(const cdprep_pair* pair,
@@ -328,8 +329,8 @@ CDPREP_API void cdprep_self_query_init(cdprep_self_query* query, size_t size);
  * smallest pairs. Exact, for the model's own positions.
  * Triangles share a vertex if they use the same vertex number. A bake merges vertices with equal
  * positions. Two vertices of a live model may move to one position later. They remain two vertices,
- * so their triangles then touch. A model built or baked for CDPREP_ASK_OVERLAP alone may lack these
- * numbers.
+ * so their triangles then touch. A model built or baked for CDPREP_ASK_OVERLAP alone may lack
+ * vertex numbers.
  * Takes O(n + pairs) time for typical meshes, O(n^2) in the worst case.
  * Needs: CDPREP_ASK_OVERLAP, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_self_overlaps(const cdprep_self_query* query, cdprep_workspace* workspace,

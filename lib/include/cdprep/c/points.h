@@ -40,16 +40,16 @@ CDPREP_API int cdprep_points_closest(const cdprep_point_query* query, cdprep_wor
                                      cdprep_closest_point* answers, cdprep_error* error);
 
 typedef struct cdprep_point_state {
-    uint32_t inside;     /* CDPREP_NO, _YES; _UNKNOWN within the box of an open model */
+    uint32_t inside;     /* CDPREP_NO, _YES; _UNKNOWN within the box of an unbalanced model */
     uint32_t on_surface; /* CDPREP_YES: on a triangle; then inside is CDPREP_YES */
     double winding;      /* the winding number; 0 on the surface */
 } cdprep_point_state;
 
 /* Stores whether `count` points are inside a model, that is, whether their winding numbers are not
- * 0. Exact for closed models (cdprep_model_info.closed). `through` may be any structure except
+ * 0. Exact for balanced models (cdprep_model_info.balanced). `through` may be any structure except
  * CDPREP_THROUGH_PIECES. For octrees and tetra-trees, the workspace must have `cells`, and the
  * model must serve the structure's CDPREP_ASK_ bit. Through the BVH, takes O(log n + ray hits) time
- * per point. Takes O(n) time for a point in the box of an open model.
+ * per point. Takes O(n) time for a point in the box of an unbalanced model.
  * Needs: CDPREP_ASK_INSIDE */
 CDPREP_API int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* workspace,
                                     cdprep_point_state* answers, cdprep_error* error);

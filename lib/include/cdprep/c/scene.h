@@ -33,14 +33,14 @@ enum { CDPREP_LAYERS = 32 }; /* the number of layers of a scene; an object is in
  * With `max_error`, the plan chooses the cheapest method that is certified for every model of both
  * layers. The choice depends on numbers in the files and in cdprep_model_use, never on a measured
  * time. One method is the search through the BVH, which ends at max_error. The other is for
- * CDPREP_SOLID: the distance between enclosing parts (bake --structures hull --parts N). The
- * numbers of parts of both models must have a product of at most 6. The errors of both models must
- * have a sum of at most max_error. Neither layer may be in a pair with CDPREP_ASK_DEFORM or _TEAR.
- * Then the nearest points lie on parts, and the triangles are CDPREP_NONE. Two objects still use
- * the BVH if one of their models has no parts. They also do so if the sum of the errors of their
- * parts is larger than the plan knows. With either method, the bounds contain the exact distance.
- * They are at most max_error apart, plus rounding. Rounding is at most 3e-12 of `upper`, plus 1e-13
- * of the largest coordinate of a model or a translation.
+ * CDPREP_SOLID: the distance between enclosing parts (bake --structures hull --parts N). This
+ * method has three conditions. The product of the models' part counts is at most 6. The sum of the
+ * models' errors is at most max_error. Neither layer is in a pair with CDPREP_ASK_DEFORM or _TEAR.
+ * With this method, the nearest points lie on parts, and the triangles are CDPREP_NONE. Two objects
+ * still use the BVH if one of their models has no parts. They also do so if the sum of their parts'
+ * errors exceeds the error that the plan certified. With either method, the bounds contain the
+ * exact distance. They are at most max_error apart, plus rounding. Rounding is at most 3e-12 of
+ * `upper`, plus 1e-13 of the largest coordinate of a model or a translation.
  *
  * With `max_error`, an effect that is reported not to hold does not hold. An effect may be reported
  * to hold although the exact distance exceeds its limit by up to max_error, plus rounding. The
@@ -86,7 +86,7 @@ typedef struct cdprep_model_use {
     /* 0: if `model` is null, the CDPREP_ASK_ bits that it will serve. */
     uint32_t serves;
     uint32_t layers; /* 0: the layers of its objects; bit i is layer i */
-    /* 0: if `model` is null, the number of enclosing parts of a closed model with one component.
+    /* 0: if `model` is null, the number of enclosing parts of a balanced model with one component.
      * They count only if `serves` has CDPREP_ASK_HULLS. If `model` is not null, the plan reads its
      * parts from the model. For this, the model must be opened with CDPREP_ASK_HULLS and _SOLID. */
     uint32_t part_count;
@@ -110,11 +110,11 @@ typedef struct cdprep_plan_options {
     uint32_t layer_name_count; /* 0: at most CDPREP_LAYERS */
     uint32_t max_objects;      /* 0: objects of a scene, at most 2^29 */
     /* 0: the maximum number of pairs of objects whose boxes meet at a time. An object that is
-     * tested against itself counts as a pair. Room for twice as many is faster. */
+     * tested against itself counts as a pair. Room for twice as many makes steps faster. */
     uint32_t max_pairs;
     /* 1: at most 256. A step uses at most this many lanes of its workspace. */
     uint32_t lanes;
-    uint32_t max_triangle_pairs; /* 0: for overlap and self: in all lists of a step */
+    uint32_t max_triangle_pairs; /* 0: for overlap and self: the total of all lists of a step */
     uint32_t max_contacts;       /* 0: for contacts, likewise */
     /* Null: the heap; copied. Scenes with this plan use it too. */
     const cdprep_allocator* allocator;
@@ -156,10 +156,10 @@ CDPREP_API int cdprep_plan_compile(const cdprep_plan_options* options, cdprep_te
                                    void* context, cdprep_plan** plan, cdprep_error* error);
 
 /* Stores a text of several lines that describes a plan. It lists the queries of each layer pair,
- * and the effects that are not computed. It lists layers that are never tested together, and layers
- * in no pair that have a name or a model. Then it lists the sections that are read, and the size of
- * a scene. *length is the length of the whole text, without the zero at its end. Stores at most
- * `room` - 1 characters, and a zero. `text` may be null if `room` is 0. */
+ * and the effects that are not computed. It lists layers that are never tested together. It lists
+ * layers in no pair only if they have a name or a model. Then it lists the sections that are read,
+ * and the size of a scene. *length is the length of the whole text, without the zero at its end.
+ * Stores at most `room` - 1 characters, and a zero. `text` may be null if `room` is 0. */
 CDPREP_API int cdprep_plan_text(const cdprep_plan* plan, char* text, size_t room, size_t* length,
                                 cdprep_error* error);
 
@@ -224,10 +224,11 @@ CDPREP_API void cdprep_object_options_init(cdprep_object_options* options, size_
 
 /* Adds `count` objects, each to the lowest free slot, and stores their ids. If one is invalid, none
  * is added, and all ids are 0. The size in the head of the first object is the stride of the array.
- * Errors, which name the argument, such as `objects[3].world_from_model`: CDPREP_WHY_NOT_BAKED or
- * CDPREP_WHY_NOT_OPENED for a model that does not serve its layer; CDPREP_WHY_NOT_RIGID;
- * CDPREP_WHY_NOT_FINITE for a pose; CDPREP_WHY_OUT_OF_RANGE for a layer or a pose, or for `count`
- * if the scene has too few free slots; CDPREP_WHY_BUSY. */
+ * Errors, which name the argument, such as `objects[3].world_from_model`:
+ * - CDPREP_WHY_NOT_BAKED, CDPREP_WHY_NOT_OPENED: a model does not serve its layer.
+ * - CDPREP_WHY_NOT_RIGID, CDPREP_WHY_NOT_FINITE: a pose.
+ * - CDPREP_WHY_OUT_OF_RANGE: a layer or a pose. Or `count` exceeds the free slots of the scene.
+ * - CDPREP_WHY_BUSY. */
 CDPREP_API int cdprep_scene_add(cdprep_scene* scene, const cdprep_object_options* objects,
                                 size_t count, cdprep_object* ids, cdprep_error* error);
 
@@ -245,8 +246,9 @@ CDPREP_API int cdprep_scene_set_layer(cdprep_scene* scene, cdprep_object id, uin
 /* Sets the poses of objects, from model to world coordinates: poses[i] is that of ids[i]. If an id
  * repeats, its last pose counts. An object counts as moved even if its pose is the same. For
  * CDPREP_ASK_CONTINUOUS, the object moves from its pose in the last complete step to the new pose.
- * If it was added or put since then, the motion begins at that pose. The middle of its model's box
- * moves along a straight line. The object turns the shorter way, by pi at most.
+ * If cdprep_scene_add() or cdprep_scene_put() set its pose since then, the motion begins at that
+ * pose. The middle of its model's box moves along a straight line. The object turns the shorter
+ * way, by pi at most.
  * Errors: CDPREP_WHY_STALE, CDPREP_WHY_NOT_FINITE, CDPREP_WHY_OUT_OF_RANGE, CDPREP_WHY_NOT_RIGID;
  * then no pose is set. */
 CDPREP_API int cdprep_scene_set_poses(cdprep_scene* scene, const cdprep_object* ids,
@@ -338,9 +340,9 @@ typedef struct cdprep_scene_self_overlap {
     size_t count;
 } cdprep_scene_self_overlap;
 
-/* The time at which two objects first touch on the way from their poses in the last step to the
- * present ones: a.slot < b.slot. If a motion is too long to compute, the kind is
- * CDPREP_IMPACT_UNFINISHED and `lower` is 0. */
+/* The time at which two objects first touch, between the last step's poses and the present ones:
+ * a.slot < b.slot. If a motion is too long to compute, the kind is CDPREP_IMPACT_UNFINISHED and
+ * `lower` is 0. */
 typedef struct cdprep_scene_impact {
     cdprep_object a, b;
     uint32_t layer_pair;
@@ -409,9 +411,9 @@ typedef struct cdprep_event {
 } cdprep_event;
 
 /* Each function stores the address of an array, and the number of its elements. The array belongs
- * to the scene. It holds the results of the last complete step, and is valid until the next
- * complete step or the end of the scene. Before the first step it is empty. Later versions add
- * kinds of results as new functions, and never change a result struct. */
+ * to the scene. It holds the results of the last complete step, and is valid until the next one or
+ * the end of the scene. Before the first step it is empty. Later versions add kinds of results as
+ * new functions, and never change a result struct. */
 CDPREP_API int cdprep_scene_hits(const cdprep_scene* scene, const cdprep_scene_hit** hits,
                                  size_t* count, cdprep_error* error);
 CDPREP_API int cdprep_scene_overlaps(const cdprep_scene* scene,
@@ -436,15 +438,15 @@ CDPREP_API int cdprep_scene_bounded_distances(const cdprep_scene* scene,
 CDPREP_API int cdprep_scene_events(const cdprep_scene* scene, const cdprep_event** events,
                                    size_t* count, cdprep_error* error);
 
-/* Stores a hash of these arrays, to compare runs. Of distances, it leaves out the nearest points
- * and, for distances of 0, the triangles. Of bounded distances, it includes the objects, `complete`
- * and the bounds only. Of impacts, it includes the objects and the kind only. Of contact lists, it
- * includes the objects, `layer_pair`, `found`, `count` and the items. Of these items, it leaves out
- * features, `members`, and on_a and on_b of the points of manifolds. The hash is equal for any
- * number of lanes and any instruction set, with three exceptions. These are bounded distances,
- * answers with a max_error, and impacts that are CDPREP_IMPACT_NEAR. They may differ between
- * instruction sets. All impacts also depend on the C library. So do winding numbers where the
- * containment is CDPREP_UNKNOWN. Takes O(elements) time. */
+/* Stores a hash of these arrays, to compare runs. The hash leaves out the nearest points of
+ * distances, and the triangles of distances of 0. Of bounded distances, it includes only the
+ * objects, `complete` and the bounds. Of impacts, it includes only the objects and the kind. Of
+ * contact lists, it includes the objects, `layer_pair`, `found`, `count` and the items. Of the
+ * items, it leaves out features, `members`, and on_a and on_b of the points of manifolds. The hash
+ * is equal for any number of lanes. It is also equal for any instruction set, with three
+ * exceptions: bounded distances, answers with a max_error, and impacts that are CDPREP_IMPACT_NEAR.
+ * All impacts also depend on the C library. So do winding numbers where the containment is
+ * CDPREP_UNKNOWN. Takes O(elements) time. */
 CDPREP_API int cdprep_scene_hash(const cdprep_scene* scene, uint64_t* hash, cdprep_error* error);
 
 /* Indices into cdprep_counts.n for cdprep_scene_counts(). All but the first describe the last
@@ -592,8 +594,8 @@ CDPREP_API int cdprep_broad_phase_update(cdprep_broad_phase* broad_phase,
 typedef struct cdprep_layer_info {
     uint32_t ask; /* as cdprep_plan_ask() stores it */
     /* The filter for boxes of its objects: this layer, and the layers with which it is paired. A
-     * pair counts only if it has an effect of two objects: not only CDPREP_ASK_SELF, _DEFORM or
-     * _TEAR. */
+     * pair counts only if it has an effect between two objects: not only CDPREP_ASK_SELF, _DEFORM
+     * or _TEAR. */
     cdprep_box_filter filter;
     uint32_t reserved; /* 0 */
     double reach;      /* the margin around boxes of its objects, model units */
@@ -624,7 +626,7 @@ CDPREP_API int cdprep_model_box(const cdprep_model* model, const cdprep_pose* wo
  * i is the box of slot i in the next step, relative to the plan's origin. It contains the object as
  * it is now, enlarged by the `reach` of its layer (cdprep_plan_layer()). With
  * CDPREP_ASK_CONTINUOUS, it contains the whole motion since the last step. Free slots have absent
- * boxes, and so do objects of a layer without effects of two objects. The array belongs to the
+ * boxes, and so do objects of a layer without effects between two objects. The array belongs to the
  * scene, and is valid until the scene changes. Takes O(changed objects) time, or O(max_objects) if
  * the plan has CDPREP_ASK_DEFORM or _TEAR.
  * Errors: CDPREP_WHY_BUSY. */
@@ -633,10 +635,10 @@ CDPREP_API int cdprep_scene_boxes(cdprep_scene* scene, const cdprep_world_box** 
 
 /* Does the same as cdprep_scene_step(), but with the pairs that the caller's own broad phase found.
  * The candidates are pairs of slots, sorted by a, then b, as cdprep_broad_phase_update() stores
- * them. In each pair, a < b, and no pair occurs twice. They must contain all pairs of paired layers
- * whose boxes meet: the scene does not find missing pairs. Pairs whose boxes do not meet, or whose
- * layers are not paired, are ignored. Takes O(max_objects + candidates + pairs log pairs) time,
- * plus the time of the queries.
+ * them. In each pair, a < b, and no pair occurs twice. They must contain every pair whose layers
+ * are paired and whose boxes meet: the scene does not find missing pairs. Pairs whose boxes do not
+ * meet, or whose layers are not paired, are ignored. Takes O(max_objects + candidates + pairs log
+ * pairs) time, plus the time of the queries.
  * Errors, which name the argument, such as `candidates[3]`. After an error nothing has changed, and
  * `complete` is CDPREP_NO:
  * - CDPREP_WHY_OUT_OF_RANGE: a slot is not below max_objects, or a >= b, or the pair does not come

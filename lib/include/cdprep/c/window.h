@@ -13,8 +13,8 @@ extern "C" {
  * swap the two windows. */
 
 /* A window. It is queried through cdprep_window_model(). While one call fills it, other calls of
- * this header that use it fail with CDPREP_WHY_BUSY. During a fill, no other query about its model
- * may run: this is not checked. */
+ * this header that use it fail with CDPREP_WHY_BUSY. During a fill, no query about its model may
+ * run: this is not checked. */
 typedef struct cdprep_window cdprep_window;
 
 typedef struct cdprep_window_options {

@@ -31,7 +31,7 @@ struct AdaptiveOctreeOptions {
     std::optional<Frame> boxes_in{};
 };
 
-/// The most memory that a build uses beside its result, in bytes.
+/// Upper bounds of the scratch memory of a build, in bytes.
 inline constexpr std::uint64_t kAdaptiveScratchPerTriangle = 56;  ///< of the input
 inline constexpr std::uint64_t kAdaptiveScratchPerReference = 16;
 inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
@@ -53,10 +53,11 @@ inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
 /// divided. A level and those below it are not divided if the tree would get more references than
 /// build_octree() allows.
 ///
-/// Takes O(levels * references) time. On one thread, the memory beside the result is at most the
-/// sum of three products, plus a few KiB. These are kAdaptiveScratchPerTriangle times the number of
-/// triangles, and the same for references and nodes of the result. On several threads, medians that
-/// are computed at once take up to 24 bytes per reference more. Throws only std::bad_alloc.
+/// Takes O(levels * references) time. On one thread, scratch memory is at most
+/// kAdaptiveScratchPerTriangle * triangles + kAdaptiveScratchPerReference * references +
+/// kAdaptiveScratchPerNode * nodes bytes, plus a few KiB. References and nodes are those of the
+/// result. On several threads, medians that are computed at the same time take up to 24 bytes per
+/// reference more. Throws only std::bad_alloc.
 [[nodiscard]] CDPREP_API AdaptiveOctree build_adaptive_octree(
     std::span<const format::Double3> positions, std::span<const format::Triangle> triangles,
     const AdaptiveOctreeOptions& options = {});

@@ -44,8 +44,8 @@ struct OctreeOptions {
 inline constexpr std::uint64_t kMostFreeReferences = std::uint64_t{1} << 22;
 inline constexpr std::uint64_t kMostReferencesPerTriangle = 64;
 
-/// The scratch memory of a build, in bytes: for each vertex of the input, and for each reference
-/// and node of the result.
+/// The scratch memory of a build, in bytes. Vertices are those of the input, references and nodes
+/// those of the result.
 inline constexpr std::size_t kScratchPerVertex = 16;
 inline constexpr std::size_t kScratchPerReference = 10;
 inline constexpr std::size_t kScratchPerNode = 96;

@@ -38,11 +38,11 @@ struct TetraTreeOptions {
 /// and processor.
 ///
 /// The centre is the mean of the vertices that triangles use. It is rounded to float if all their
-/// coordinates are floats, so nearly all differences between vertices and centre are exact. The
-/// radii of a cone are rounded outwards, so they contain the exact part of its triangles in the
-/// cone. Choose a frame exponent that scales the model to about 1. With a much larger exponent,
-/// radii may be infinite and exclude nothing. Boxes contain the same parts and require a frame that
-/// contains the model. The flag tetra_centre_inside is computed along one ray from the centre.
+/// coordinates are floats. Then nearly all differences between vertices and centre are exact. The
+/// radii of a cone are rounded outwards, so they bound the exact part of its triangles in the cone.
+/// Choose a frame exponent that scales the model to about 1. With a much larger exponent, radii may
+/// be infinite and exclude nothing. Boxes contain the same parts and require a frame that contains
+/// the model. The flag tetra_centre_inside is computed along one ray from the centre.
 ///
 /// The number of references is limited as in build_octree(). A level whose split would exceed the
 /// limit is not split, nor is any below. Takes O(levels * references) time. Uses at most 21 bytes

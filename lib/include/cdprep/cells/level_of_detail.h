@@ -29,18 +29,18 @@ struct CoarseCollision {
 /// Level 0 has one outer and one inner facet per octant. Each further level splits every cone of
 /// the tree into four; a leaf stays as it is. The outer facet cuts a cone at its greatest radius,
 /// the inner one at its least (format::TetraNode). All parts of triangles in the cone lie between
-/// them, except triangles that contain the centre. Beyond the deepest level, the facets are those
-/// of the deepest level.
+/// these facets, except triangles that contain the centre. Beyond the deepest level, the facets are
+/// those of the deepest level.
 [[nodiscard]] CDPREP_API double level_error(const Model& model, std::uint32_t level) noexcept;
 
 /// Returns whether two solids collide, if `level` of both tetra-trees can prove it. Ignores
 /// pair.options. Needs Ask::tetra_tree of both models. The workspace must be made with cells().
 ///
-/// `no`: no two cones meet within their outer facets. This also holds for surfaces and for open
-/// models. `yes`: a point lies below inner facets of both models. Both models must be balanced and
-/// contain the centre of their tetra-tree. The search tests only the centres and a few points below
-/// each inner facet, so it may miss a `yes`. Never allocates. Takes O(pairs of cones that meet)
-/// time.
+/// `no`: no two cones meet within their outer facets. A `no` also holds for surfaces and for
+/// unbalanced models. `yes`: a point lies below an inner facet of each model, towards the centre.
+/// Both models must be balanced and contain the centre of their tetra-tree. The search tests only
+/// the centres and a few points below each inner facet, so it may miss a `yes`. Never allocates.
+/// Takes O(pairs of cones that meet) time.
 [[nodiscard]] CDPREP_API CoarseCollision collide_at_level(const Pair& pair, std::uint32_t level,
                                                           Workspace& workspace) noexcept;
 

@@ -16,7 +16,7 @@ struct OctreeFigures {
     std::uint64_t triangles = 0;       ///< of the model
     std::uint64_t nodes = 0;           ///< stored cells: those that some triangle touches
     std::uint64_t leaves = 0;          ///< nodes that are not divided
-    std::uint64_t empty_children = 0;  ///< children, of eight per divided node, not stored
+    std::uint64_t empty_children = 0;  ///< eight per divided node, less the stored ones
     std::uint64_t references = 0;      ///< in the lists of all leaves
     std::uint64_t shared = 0;          ///< triangles that more than one leaf lists
     std::uint64_t largest_leaf = 0;    ///< references
@@ -40,12 +40,12 @@ struct OctreeFigures {
 [[nodiscard]] CDPREP_API OctreeFigures
 adaptive_octree_figures(const build::AdaptiveOctree& octree, std::uint64_t triangle_count) noexcept;
 
-/// The children that have a record in a node: all, or only those that triangles touch.
+/// The treatment of empty children in seed_formula_bytes(). No triangle touches an empty child.
 enum class EmptyChildren : std::uint8_t { counted, left_out };
 
 /// Returns the size in bytes that the published implementation would need (docs/STUDIES.md). The
-/// root takes 72, any other node 80, and a reference 4. It is not known which children that
-/// implementation stored. Returns 0 without nodes. The formula is that of "A comparative study of
+/// root takes 72, any other node 80, and a reference 4. It is not known whether that implementation
+/// stored empty children. Returns 0 without nodes. The formula is that of "A comparative study of
 /// implemented collision detection strategies".
 [[nodiscard]] CDPREP_API std::uint64_t seed_formula_bytes(const OctreeFigures& figures,
                                                           EmptyChildren empty) noexcept;

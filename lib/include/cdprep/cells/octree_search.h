@@ -21,8 +21,8 @@ inline constexpr std::uint32_t kNoNode = 0xffffffffU;
 /// The parts of a hashed octree that a search reads. They belong to a model or a builder, which
 /// must outlive the index. A search is safe if format::find_damage() finds nothing. Then the
 /// elements of `top` never decrease and end at the number of leaves. All numbers name nodes, and
-/// every chain ends. If there are nodes, a search also reads the table that belongs to its
-/// CellSearch. An octree may be baked without this table; that CellSearch must then not be used.
+/// every chain ends. If there are nodes, a search also reads the table of its CellSearch. Do not
+/// use a CellSearch whose table is missing.
 struct OctreeIndex {
     std::uint32_t top_level = 0;  ///< as in format::OctreeGrid
     std::uint32_t slot_bits = 0;
@@ -88,8 +88,8 @@ inline std::uint32_t find_sorted_leaf(const OctreeIndex& index, std::uint64_t co
     const std::uint64_t cell = code >> (3 * (format::kOctreeBits - index.top_level));
     assert(cell + 1 < index.top.size());
     const std::uint64_t* const codes = index.leaf_codes.data();
-    // Branches are used here. Mispredicted ones cost less than waiting, step by step, for codes
-    // that are not in the caches (octree_top_bench).
+    // This search uses branches. Mispredictions cost less than waiting, in each step, for a code
+    // that is not in the caches (octree_top_bench).
     const std::uint64_t* const after =
         std::upper_bound(codes + index.top[cell], codes + index.top[cell + 1], code);
     if (after == codes) return kNoNode;

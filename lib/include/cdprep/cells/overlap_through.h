@@ -16,7 +16,7 @@ namespace cdprep {
 /// The exact test of two triangles. Both tests always give the same result.
 enum class LeafTest : std::uint8_t {
     guigue_devillers,  ///< signs of planes, then of at most two edges (Guigue, Devillers 2003)
-    feito_torres,      ///< six segments against triangles
+    feito_torres,      ///< each of the six edges against the other triangle
 };
 
 /// The pairs of nodes that replace a pair that may overlap.

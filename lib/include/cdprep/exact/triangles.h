@@ -53,7 +53,7 @@ namespace cdprep::exact {
 [[nodiscard]] CDPREP_API TriangleContact classify_contact(const Corners& a,
                                                           const Corners& b) noexcept;
 
-/// Returns the result of classify_contact(), but does not use its filter. Serves studies of the
+/// Returns the result of classify_contact(), computed without the filter. Serves studies of the
 /// filter's benefit. Exact.
 [[nodiscard]] CDPREP_API TriangleContact contact_without_filter(const Corners& a,
                                                                 const Corners& b) noexcept;
