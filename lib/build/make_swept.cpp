@@ -9,6 +9,7 @@
 #include "build/chunks.h"
 #include "cdprep/advanced/parallel_for.h"
 #include "core/numbers.h"
+#include "exact/vectors.h"
 
 // Swept spheres in the manner of Larsen, Gottschalk, Lin and Manocha 1999, along the axes of the
 // oriented box. The surface is projected on the axes that are not swept; a ball around the
@@ -28,14 +29,6 @@ using format::SweptKind;
 using format::SweptNode;
 
 using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b) {
-    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-
-Vector minus(const Vector& a, const Vector& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
 
 /// The corners below one box, in frame coordinates.
 class Corners {

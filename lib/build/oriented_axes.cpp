@@ -17,10 +17,6 @@ using format::kBvhWidth;
 
 using Floats = Lanes<float, kBvhWidth>;
 
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// Eight symmetric matrices and, after `turn`, their eigenvectors.
 struct Eigen {
     std::array<std::array<Floats, 3>, 3> m;  ///< [row][column]

@@ -8,6 +8,7 @@
 #include "build/lanes.h"
 #include "cdprep/format/api.h"
 #include "cdprep/format/geometry.h"
+#include "exact/vectors.h"
 
 namespace cdprep::build {
 
@@ -17,10 +18,6 @@ using Doubles = Lanes<double, format::kBvhWidth>;
 /// Rows and columns of a symmetric matrix stored as xx, yy, zz, xy, yz, zx.
 inline constexpr std::array<std::size_t, 6> kRow = {0, 1, 2, 0, 1, 2};
 inline constexpr std::array<std::size_t, 6> kColumn = {0, 1, 2, 1, 2, 0};
-
-inline double dot(const Vector& a, const Vector& b) {
-    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
 
 /// Adds in pairs, so that half of a vector is added to the other.
 template <class T>

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "exact/vectors.h"
+
 // The part of a cone's triangles between its two radii lies in a truncated cone of six corners.
 // Both of a cone's bounds hold these corners, which are computed in double. Components are sums of
 // at most seven units, so they are off by 2^-47 at most (float_below(), float_over()). The kernels'
@@ -14,13 +16,6 @@ namespace cdprep {
 namespace {
 
 using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b) noexcept {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vector cross(const Vector& a, const Vector& b) noexcept {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// Returns a vector of unit length, up to the rounding of its components to float.
 Vector unit(const Vector& v) noexcept {

@@ -46,10 +46,6 @@ constexpr double kLeastSquarable = 0x1p-400;
 
 using Vector = Double3;
 
-double length(const Vector& a) {
-    return std::sqrt(dot(a, a));
-}
-
 struct Nearest {
     Vector point;
     double distance;

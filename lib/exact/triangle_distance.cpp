@@ -32,6 +32,7 @@ namespace {
 constexpr double kDoubleError = 24 * 0x1p-53;
 constexpr double kDoubleDoubleError = 24 * 0x1p-100;
 
+// vectors.h has these for double only; here T is double or DoubleDouble.
 template <class T>
 struct Vector {
     T x, y, z;

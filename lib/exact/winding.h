@@ -8,7 +8,7 @@ namespace cdprep {
 
 /// Counts the crossing of the triangle with the ray that starts at q and runs away from o. The sign
 /// is that for an outward-wound surface. Exact. The origin is perturbed symbolically to
-/// o + (e, e^2, e^3), e infinitely small, so no ray meets an edge or a vertex. Over a closed
+/// o + (e, e^2, e^3), e infinitely small, so no ray meets an edge or a vertex. Over a balanced
 /// surface the terms add up to the winding number for any o. Degenerate triangles add nothing. `o`
 /// must differ from q. (Feito and Torres 1997, with another rule for vertices.)
 [[nodiscard]] CDPREP_API WindingTerm winding_term(const Double3& o, const Double3& q,

@@ -25,6 +25,7 @@
 namespace cdprep {
 namespace {
 
+/// Steps of a march: limits its time. GJK answers if the march has not ended by then.
 constexpr int kMostStations = 64;
 /// The threshold, as the sine of the angle, below which directions count as parallel or
 /// perpendicular.
@@ -355,7 +356,7 @@ double proven_gap(const TwoHulls& hulls, const March& march, std::uint32_t near_
     const auto of_b = hulls.b.proven(-d, march.witness[1], near_b);
     const Double3 between = march.witness[1] - march.witness[0];
     const double size = dot_size(d, between) + std::fabs(of_a.bound) + std::fabs(of_b.bound);
-    constexpr double kUnderflow = 0x1p-1050;
+    constexpr double kUnderflow = 0x1p-1050;  // more than products below the range of double lose
     const double gap = dot(d, between) - of_a.bound - of_b.bound - 8 * kUnit * size - kUnderflow;
     return std::max(0.0, gap / std::sqrt(dot(d, d)) * (1 - 8 * kUnit));
 }

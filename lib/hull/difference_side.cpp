@@ -57,7 +57,7 @@ int side_of(const Difference& p, const Difference& q, const Difference& r,
     const double mz = std::max({a.size.z, b.size.z, c.size.z});
     const double most = std::max({mx, my, mz}), least = std::min({mx, my, mz});
     if (least >= kLeastForFilter3d && most < kLargestForFilter3d) {
-        constexpr double kFilter = 100 * 0x1p-53;
+        constexpr double kFilter = 100 * 0x1p-53;  // derived above
         const double bound = kFilter * mx * my * mz;
         if (determinant > bound) return 1;
         if (determinant < -bound) return -1;

@@ -57,7 +57,7 @@ struct Approximate {
 };
 
 Approximate approximate(const WideView& wide) {
-    constexpr std::size_t kLeading = 3;
+    constexpr std::size_t kLeading = 3;  // limbs: 65 bits or more, and double has 53
     const std::size_t used = std::min(wide.size, kLeading);
     double value = 0;
     for (std::size_t i = 0; i < used; ++i) value = value * 0x1p32 + wide.limb[wide.size - 1 - i];

@@ -67,6 +67,7 @@ bool normal_of(const Difference& p, const Difference& q, const Difference& r, Do
     const double to_first = scale_of(first);
     const double to_second = scale_of(second);
     normal = cross(to_first * first, to_second * second);
+    // About the sine of the angle. Above it, at most some 10 of 53 bits cancel.
     constexpr double kSliver = 0x1p-10;
     if (largest_of(normal) < kSliver) {
         const Accurate3 e = accurate_edge(p, q, to_first);
@@ -76,10 +77,6 @@ bool normal_of(const Difference& p, const Difference& q, const Difference& r, Do
                   static_cast<double>(e[0] * f[1] - e[1] * f[0])};
     }
     return normalise(normal);
-}
-
-double length(const Double3& d) {
-    return std::sqrt(dot(d, d));
 }
 
 /// Returns two directions at right angles to d.
@@ -124,7 +121,7 @@ void ExpandingPolytope::bound_along(const Double3& direction, const Difference& 
     const double reach = dot(direction, top.at) + of_a + of_b + 8 * kUnit * size;
     const double unit = length(direction);
     if (!(unit > 0)) return;
-    constexpr double kUnderflow = 0x1p-1050;
+    constexpr double kUnderflow = 0x1p-1050;  // more than products below the range of double lose
     const double upper = std::max(0.0, reach / unit * (1 + 8 * kUnit)) + kUnderflow;
     // All triangles with one normal prove the same bound, including those found deeper inside. The
     // last one has the witnesses.
@@ -147,7 +144,8 @@ Penetration ExpandingPolytope::answer() noexcept {
     for (std::size_t i = 0; i < nearest_.count; ++i) {
         size = std::max(size, largest_of(nearest_.corner[i].at));
     }
-    // The weights of nearly collinear corners are rounding errors.
+    // The weights of nearly collinear corners are rounding errors. Others leave a few
+    // roundings of the size.
     constexpr double kWellPlaced = 0x1p-48;
     if (!(largest_of(off) <= kWellPlaced * size)) {
         nearest_ = exactly_weighted(all_.corner.data(), all_.count);

@@ -29,8 +29,9 @@ public:
     }
 
 private:
+    /// Limits memory and time. Without room for another corner, the bounds so far are the answer.
     static constexpr std::size_t kMostCorners = 128;
-    static constexpr std::size_t kMostFaces = 2 * kMostCorners;
+    static constexpr std::size_t kMostFaces = 2 * kMostCorners;  ///< at most 2 n - 4, by Euler
 
     struct Face {
         std::array<std::uint8_t, 3> corner;  ///< counter-clockwise from outside

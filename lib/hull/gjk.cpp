@@ -17,6 +17,7 @@
 namespace cdprep {
 namespace {
 
+/// Of a search in double: limits its time. What it leaves open is decided exactly.
 constexpr int kMostSteps = 64;
 
 /// A direction whose largest coordinate is 1 in size.
@@ -143,7 +144,7 @@ void Search::prove(const Direction& d) noexcept {
     const double whole = dot(d.at, from.at);
     // 4 u for the difference and the dot product, 2 u for what follows.
     const double size = dot_size(d.at, from.at) + std::fabs(of_a) + std::fabs(of_b);
-    constexpr double kUnderflow = 0x1p-1050;
+    constexpr double kUnderflow = 0x1p-1050;  // more than products below the range of double lose
     const double gap = whole - of_a - of_b - 8 * kUnit * size - kUnderflow;
     lower_ = std::max(lower_, gap / d.length * (1 - 8 * kUnit));
 }

@@ -32,8 +32,8 @@ struct HullNearest {
 /// Returns whether the bounds are as close to each other as promised where no error is permitted.
 /// `size` is the largest coordinate of a point of A - B.
 [[nodiscard]] inline bool is_near_enough(double lower, double upper, double size) noexcept {
-    constexpr double kRelative = 1e-12;
-    constexpr double kOfCoordinates = 1e-14;
+    constexpr double kRelative = 1e-12;       // as convex_distance.h promises
+    constexpr double kOfCoordinates = 1e-14;  // the same
     return upper - lower <= kRelative * upper + kOfCoordinates * size;
 }
 

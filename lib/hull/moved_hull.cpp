@@ -26,10 +26,10 @@
 namespace cdprep {
 namespace {
 
-constexpr double kSlack = 24 * 0x1p-53;
+constexpr double kSlack = 24 * 0x1p-53;      ///< s / S: derived above
 constexpr double kValueError = 6 * 0x1p-53;  ///< as in the kernel
 constexpr double kUnderflow = 0x1p-1060;     ///< what products of numbers near 0 may lose
-constexpr std::size_t kMostAlike = 24;       ///< limit of corners of about the same height
+constexpr std::size_t kMostAlike = 24;       ///< of about one height; more: all are scanned
 
 double at(const Double3& p, std::size_t axis) {
     return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);

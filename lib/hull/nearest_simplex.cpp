@@ -119,7 +119,7 @@ Double3 across_segment(const Double3& p, const Double3& q) {
     const double whole = dot(e, e);
     if (!(whole > 0)) return {};
     const Double3 v = p - (dot(p, e) / whole) * e;
-    constexpr double kCancelled = 0x1p-20;
+    constexpr double kCancelled = 0x1p-20;  // of squares: 10 bits of v are lost
     if (dot(v, v) > kCancelled * dot(p, p)) return v;
     const DoubleDouble ex = e.x, ey = e.y, ez = e.z;
     const DoubleDouble along = ex * p.x + ey * p.y + ez * p.z;

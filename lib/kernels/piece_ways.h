@@ -11,7 +11,7 @@
 namespace cdprep::kernels {
 namespace {
 
-/// Three components, eight lanes each.
+/// Three components, eight lanes each. exact/vectors.h has one lane, and no kernel includes it.
 template <class D8>
 struct Vector8 {
     D8 x, y, z;

@@ -42,6 +42,8 @@ inline void choose_four(std::span<const ManifoldPoint> points, Contact& contact)
     const auto take = [&](std::size_t i) { contact.points[contact.point_count++] = points[i]; };
     // Points that lie in a plane are equally deep up to rounding: then the outermost is first.
     constexpr double kLevel = 1e-6;  // of their extent
+    // Of the squared line: twice the area of a triangle of rounding, with a thousandfold margin.
+    constexpr double kNoArea = 1e-12;
     Double3 middle{};
     for (const ManifoldPoint& p : points) middle = middle + p.on_a;
     middle = (1 / static_cast<double>(points.size())) * middle;
@@ -68,7 +70,7 @@ inline void choose_four(std::span<const ManifoldPoint> points, Contact& contact)
         };
         const std::size_t third = best(area);
         // A smaller area is rounding: no point is beside the line.
-        if (area(points[third]) > 1e-12 * dot(line, line)) take(third);
+        if (area(points[third]) > kNoArea * dot(line, line)) take(third);
     }
 }
 

@@ -10,7 +10,7 @@
 namespace cdprep {
 namespace {
 
-constexpr std::size_t kMostOutline = 64;  ///< corners kept of a face
+constexpr std::size_t kMostOutline = 64;  ///< corners kept of a face: limits time and stack
 /// The cosine above which a face counts as perpendicular to the contact normal. Rounding turns
 /// neither that far.
 constexpr double kAcross = 1 - 1e-10;
@@ -18,6 +18,13 @@ constexpr double kAcross = 1 - 1e-10;
 /// its own. Two faces that are nearly parallel may be nearest where their edges cross. The normal
 /// is then across the edges. Bodies that rest on one point there would tip.
 constexpr double kNearlyAcross = 0.99955;
+
+/// A difference of two cosines: some thousand times what rounding may add. A face of the hull is
+/// preferred to the triangle that is a part of it.
+constexpr double kWholeFace = 1e-12;
+/// As a share of a distance: two ways to compute it may differ by so much. If they differ by more,
+/// the contact only gets one more candidate.
+constexpr double kSameDistance = 1e-9;
 
 /// A corner of a polygon.
 struct Corner {
@@ -93,7 +100,7 @@ void add_facing(const ContactSide& side, const PieceFeature& feature, const Doub
     Double3 own_normal = unit_normal(own);
     if (dot(own_normal, direction) < 0) own_normal = -own_normal;
     std::optional<std::uint32_t> best;
-    double most = dot(own_normal, direction) - 1e-12;  // prefers the whole face to its part
+    double most = dot(own_normal, direction) - kWholeFace;
     Double3 normal{};
     const auto facets = side.facets();
     std::array<float, PlacedHull::kMostFacets> room;
@@ -162,10 +169,9 @@ public:
     }
     /// Returns whether one is at a distance, or nearer, up to rounding.
     [[nodiscard]] bool reach(double distance) const noexcept {
-        constexpr double kRounding = 1e-9;
         return std::any_of(point_.begin(), point_.begin() + static_cast<std::ptrdiff_t>(count_),
                            [&](const ManifoldPoint& p) {
-                               return p.distance <= distance + kRounding * std::fabs(distance);
+                               return p.distance <= distance + kSameDistance * std::fabs(distance);
                            });
     }
     [[nodiscard]] std::span<const ManifoldPoint> all() const noexcept {

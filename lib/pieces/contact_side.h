@@ -41,7 +41,7 @@ inline bool is_surely_turned(const Corners& t, const Double3& direction, double 
     const Double3 n = cross(t[1] - t[0], t[2] - t[0]);
     const double along = dot(n, direction), squared = dot(n, n);
     constexpr double kLeast = 0x1p-800, kMost = 0x1p800;  // no term has left the range of double
-    constexpr double kRounding = 0.99;
+    constexpr double kRounding = 0.99;  // below 1 by far more than the roundings of both sides
     return squared > kLeast && squared < kMost &&
            along * along < kRounding * cosine * cosine * squared;
 }
@@ -231,7 +231,8 @@ private:
     [[nodiscard]] bool is_large() const noexcept {
         return triangles_.size() > kMostPlacedTriangles;
     }
-    using Fan = std::array<std::uint32_t, 64>;
+    static constexpr std::size_t kMostInFan = 64;  ///< with more, all triangles are looked at
+    using Fan = std::array<std::uint32_t, kMostInFan>;
     /// Returns some triangles of the piece, among them all that have the vertex. Those of a small
     /// piece are all its triangles. Those of a large one have it and are put into `room`, if they
     /// fit.
@@ -269,6 +270,7 @@ private:
     [[nodiscard]] bool goes_on_beyond(const PieceFeature& feature,
                                       const Double3& direction) const noexcept;
 
+    /// The most triangles that this object moves itself: 3 KiB. A piece with more is large.
     static constexpr std::size_t kMostPlacedTriangles = 32;
     enum class HasShape : std::uint8_t { unknown, no, yes };
 

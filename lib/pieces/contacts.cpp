@@ -90,7 +90,7 @@ private:
         limit_ = room_[count_ - 1].key;
     }
 
-    static constexpr unsigned kRecentBits = 9;
+    static constexpr unsigned kRecentBits = 9;  ///< log2 of the places: 1 KiB, filled for each page
     static constexpr std::uint64_t kMixer = 0x9e3779b97f4a7c15U;  ///< 2^64 / the golden ratio
     static constexpr std::uint16_t kNone = 0xffff;
     static_assert(kMaxNearPieces < kNone);

@@ -24,6 +24,8 @@ namespace {
 
 using format::HullScope;
 
+/// The most hulls whose shortest ways out are tried. It limits the time: each way is tested against
+/// all parts, as often as it leads into another one.
 constexpr std::size_t kMostDirections = 32;
 
 /// The corners of a box as a hull.
@@ -213,7 +215,8 @@ private:
     }
     /// Takes a normal if the way out along it is the shortest so far.
     void try_normal(const Double3& normal, DeepWay& best) const noexcept {
-        double length = 0, farther = 0x1p-40;
+        constexpr double kFirstStep = 0x1p-40;  // of the length: far above its rounding
+        double length = 0, farther = kFirstStep;
         for (auto hit = first_overlap(placement_); hit;) {
             const double needed = length_along(normal, *hit);
             // Where rounding keeps them in touch: a little farther, and twice as much each time.

@@ -48,7 +48,7 @@ bool is_true(const PieceNodeHull& hull, const std::vector<Double3>& corners) {
     }
     const std::vector<HullBlock> blocks = hull_blocks(corners);
     const ConvexPoints below = points_in(blocks, corners.size());
-    constexpr double kRounded = 1 + 0x1p-40;
+    constexpr double kRounded = 1 + 0x1p-40;  // more than the roundings of both distances
     for (std::uint32_t i = 0; i < hull.count; ++i) {
         const Double3 corner = around.point(i);
         const auto block = hull_blocks({&corner, 1});

@@ -211,7 +211,7 @@ Front::Plane Front::part(std::uint32_t number, const PendingPair& pair,
 /// Searches for the nearest points by the algorithm of Gilbert, Johnson and Keerthi. Ends with the
 /// first plane that is strong enough, or when there is none.
 Front::Plane Front::search(const PendingPair& pair, const Plane& from, float limit) const noexcept {
-    constexpr int kMostSteps = 8;
+    constexpr int kMostSteps = 8;  // limits the time: the best plane so far proves less, but holds
     NearestSimplex simplex;
     Plane best = from;
     Plane plane = from;

@@ -16,14 +16,11 @@ namespace cdprep {
 
 class ContactSide;
 
-inline double length(const Double3& d) noexcept {
-    return std::sqrt(dot(d, d));
-}
-
 /// The corners, faces and edges of a piece's hull as moved, relative to a point. Set once for each
 /// piece; then tested against those of many others.
 class PieceShape {
 public:
+    /// Limits of memory and time. The depth of larger hulls is searched (expanding_polytope.h).
     static constexpr std::size_t kMostCorners = 64;
     static constexpr std::size_t kMostFaces = 64;
     static constexpr std::size_t kMostEdges = 128;  // places fit into 8 bits

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/numbers.h"
+#include "exact/vectors.h"
 #include "walk/shape_frame.h"
 
 namespace cdprep {
@@ -41,7 +42,7 @@ public:
             most_of(world_way_, {relative(shape_[0]), relative(shape_[1]), relative(shape_[2])});
         const FrameVector from = frame_.at(on_shape);
         const FrameVector to = frame_.at(on_model);
-        way_ = shortened({to[0] - from[0], to[1] - from[1], to[2] - from[2]});
+        way_ = shortened(minus(to, from));
         most_ = most_of(way_, corner_);
     }
 
@@ -78,7 +79,7 @@ public:
         double size = size_;
         for (const Double3& p : t) {
             const FrameVector at = relative(p);
-            least = std::min(least, inner(world_way_, at));
+            least = std::min(least, dot(world_way_, at));
             size = std::max({size, std::fabs(at[0]), std::fabs(at[1]), std::fabs(at[2])});
         }
         double along = least - world_most_;
@@ -94,21 +95,18 @@ private:
     static double square(double x) noexcept {
         return x * x;
     }
-    static double inner(const FrameVector& a, const FrameVector& b) noexcept {
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
     static double reach_of(const Corners& shape) noexcept {
         return std::max({ShapeFrame::largest(shape[0]), ShapeFrame::largest(shape[1]),
                          ShapeFrame::largest(shape[2])});
     }
     static double most_of(const FrameVector& way,
                           const std::array<FrameVector, 3>& corner) noexcept {
-        return std::max({inner(way, corner[0]), inner(way, corner[1]), inner(way, corner[2])});
+        return std::max({dot(way, corner[0]), dot(way, corner[1]), dot(way, corner[2])});
     }
     /// Returns the direction with a length slightly below 1, so that no rounding makes it longer;
     /// 0 if it has no direction.
     static FrameVector shortened(const FrameVector& way) noexcept {
-        const double scale = (1 - 0x1p-30) / std::sqrt(inner(way, way));
+        const double scale = (1 - 0x1p-30) / std::sqrt(dot(way, way));
         if (!(scale < 0x1p400 && scale > 0x1p-400)) return {};
         return {scale * way[0], scale * way[1], scale * way[2]};
     }
@@ -134,8 +132,7 @@ private:
     [[nodiscard]] double gap_towards(const FrameVector& middle, const format::BvhNode& node,
                                      std::uint32_t box) const noexcept {
         const FrameVector from = nearest_on(corner_, middle);
-        const FrameVector way =
-            shortened({middle[0] - from[0], middle[1] - from[1], middle[2] - from[2]});
+        const FrameVector way = shortened(minus(middle, from));
         double least = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             least += way[i] * (way[i] > 0 ? node.lower[i][box] : node.upper[i][box]);
@@ -152,10 +149,8 @@ private:
             middle[i] = (at[0][i] + at[1][i] + at[2][i]) * (1.0 / 3);
         }
         const FrameVector from = nearest_on(shape, middle);
-        const FrameVector way =
-            shortened({middle[0] - from[0], middle[1] - from[1], middle[2] - from[2]});
-        return std::min({inner(way, at[0]), inner(way, at[1]), inner(way, at[2])}) -
-               most_of(way, shape);
+        const FrameVector way = shortened(minus(middle, from));
+        return std::min({dot(way, at[0]), dot(way, at[1]), dot(way, at[2])}) - most_of(way, shape);
     }
 
     ShapeFrame frame_;
@@ -174,22 +169,19 @@ private:
 inline FrameVector ShapeGap::nearest_on(const std::array<FrameVector, 3>& corner,
                                         const FrameVector& p) noexcept {
     const auto& [a, b, c] = corner;
-    const auto minus = [](const FrameVector& x, const FrameVector& y) {
-        return FrameVector{x[0] - y[0], x[1] - y[1], x[2] - y[2]};
-    };
     const auto between = [](const FrameVector& x, const FrameVector& y, double s) {
         return FrameVector{x[0] + s * (y[0] - x[0]), x[1] + s * (y[1] - x[1]),
                            x[2] + s * (y[2] - x[2])};
     };
     const FrameVector ab = minus(b, a), ac = minus(c, a);
     const FrameVector ap = minus(p, a), bp = minus(p, b), cp = minus(p, c);
-    const double d1 = inner(ab, ap), d2 = inner(ac, ap);
+    const double d1 = dot(ab, ap), d2 = dot(ac, ap);
     if (d1 <= 0 && d2 <= 0) return a;
-    const double d3 = inner(ab, bp), d4 = inner(ac, bp);
+    const double d3 = dot(ab, bp), d4 = dot(ac, bp);
     if (d3 >= 0 && d4 <= d3) return b;
     const double vc = d1 * d4 - d3 * d2;
     if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return between(a, b, d1 / (d1 - d3));
-    const double d5 = inner(ab, cp), d6 = inner(ac, cp);
+    const double d5 = dot(ab, cp), d6 = dot(ac, cp);
     if (d6 >= 0 && d5 <= d6) return c;
     const double vb = d5 * d2 - d1 * d6;
     if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) return between(a, c, d2 / (d2 - d6));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bake/section_list.h"
+#include "cdprep/cells/section_list.h"
 
 namespace cdprep::cli {
 namespace {

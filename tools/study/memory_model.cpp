@@ -8,6 +8,7 @@
 #include "bake/section_list.h"
 #include "cdprep/advanced/build_image.h"
 #include "cdprep/advanced/build_model.h"
+#include "cdprep/cells/section_list.h"
 #include "cdprep/format/sections.h"
 #include "decompose/enclose/hull_sections.h"
 #include "decompose/surface/contact_arrays.h"

@@ -168,16 +168,14 @@ int check_together(Call& call, const Name& name, const cdprep_layer_pair& pair) 
     const Name effects = name.of("effects");
     if (has(CDPREP_ASK_DEFORM | CDPREP_ASK_TEAR) &&
         has(CDPREP_ASK_CONTACTS | CDPREP_ASK_CONTINUOUS)) {
-        return refuse_together(
-            call, effects,
-            "has CDPREP_ASK_CONTACTS or _CONTINUOUS with _DEFORM or _TEAR, which "
-            "is not built. Ask for _OVERLAP, _WITHIN or _DISTANCE.");
+        return refuse_together(call, effects,
+                               "has CDPREP_ASK_CONTACTS or _CONTINUOUS with _DEFORM or _TEAR, "
+                               "which is not supported. Use _OVERLAP, _WITHIN or _DISTANCE.");
     }
     if (has(CDPREP_ASK_SELF) && pair.a != pair.b) {
         return refuse_together(
             call, effects,
-            "has CDPREP_ASK_SELF, which is about single objects: a and b must be "
-            "one layer.");
+            "has CDPREP_ASK_SELF, which tests single objects: a and b must be the same layer.");
     }
     if (has(CDPREP_ASK_CONTINUOUS) && pair.impact_steps == 0) {
         return refuse_together(call, name.of("impact_steps"), "is 0; it must be at least 1.");
@@ -185,8 +183,8 @@ int check_together(Call& call, const Name& name, const cdprep_layer_pair& pair) 
     if (!has(CDPREP_ASK_HAPTIC)) return CDPREP_OK;
     if (has(CDPREP_ASK_DISTANCE) || pair.body == CDPREP_SOLID) {
         return refuse_together(call, effects,
-                               "has CDPREP_ASK_HAPTIC, which is about surfaces and not built with "
-                               "_DISTANCE.");
+                               "has CDPREP_ASK_HAPTIC, which supports surfaces only, and not "
+                               "together with _DISTANCE.");
     }
     if (pair.work == 0) {
         return refuse_together(call, name.of("work"), "is 0; CDPREP_ASK_HAPTIC needs at least 1.");
@@ -272,7 +270,7 @@ int read_layer_pair(Call& call, const Name& name, const cdprep_layer_pair* from,
     std::uint16_t& given = asked.given_for(pair.a, pair.b);
     if (given != 0) {
         return call.refuse(CDPREP_WHY_NO_MEANING, name,
-                           "is of layers %s, and so is options.layer_pairs[%u].",
+                           "has the layers %s, like options.layer_pairs[%u].",
                            layers_text(asked.layer_names, pair.a, pair.b).c_str(), given - 1U);
     }
     given = static_cast<std::uint16_t>(name.index + 1);
@@ -318,7 +316,7 @@ int check_model_use(Call& call, const Name& name, const cdprep_model_use* from, 
     for (const Needs& row : needs()) {
         if (!contains(lacking, row.ask)) continue;
         return call.refuse(CDPREP_WHY_NOT_BAKED, name.of("serves"),
-                           "is 0x%x, but its layers ask for %s. Bake %s with %s.", use.serves,
+                           "is 0x%x, but its layers request %s. Bake %s with %s.", use.serves,
                            row.name, use.name != nullptr ? use.name : "the model", row.bake_option);
     }
     return CDPREP_OK;
@@ -471,28 +469,6 @@ int cdprep_plan_compile(const cdprep_plan_options* options, cdprep_text_visitor 
         if (const int code = call.need(plan, {"plan"})) return code;
         cdprep::c::Refusals all(call, refusals, context);
         return cdprep::c::compile(call, all, options, plan);
-    });
-}
-
-int cdprep_plan_text(const cdprep_plan* plan, char* text, size_t room, size_t* length,
-                     cdprep_error* error) {
-    if (length != nullptr) *length = 0;
-    return guarded(error, [&](Call& call) -> int {
-        if (const int code = call.need(plan, {"plan"})) return code;
-        if (room > 0) {
-            if (const int code = call.need(text, {"text"})) return code;
-        }
-        if (const int code = call.need(length, {"length"})) return code;
-        const cdprep::format::FloatEnvironment environment;
-        std::size_t bytes = 0;
-        if (const int code = cdprep_scene_size(plan, &bytes, error)) return code;
-        const std::string all = plan->plan.describe() +
-                                "with the results of C: " + std::to_string(bytes) +
-                                " bytes, cdprep_scene_size()\n";
-        *length = all.size();
-        if (room == 0) return CDPREP_OK;
-        text[all.copy(text, room - 1)] = 0;
-        return CDPREP_OK;
     });
 }
 

@@ -7,9 +7,6 @@
 
 #include "cdprep/advanced/build_bvh.h"
 #include "cdprep/advanced/build_image.h"
-#include "cdprep/cells/build_adaptive_octree.h"
-#include "cdprep/cells/build_octree.h"
-#include "cdprep/cells/build_tetra_tree.h"
 #include "cdprep/format/api.h"
 #include "cdprep/format/section_set.h"
 
@@ -57,11 +54,5 @@ private:
 /// Adds the arrays of a BVH. The sections of oriented boxes and of swept spheres are absent if they
 /// are empty.
 CDPREP_API void add_sections(SectionList& list, const Bvh& bvh);
-
-/// Adds the arrays of an octree. The wanted set of the list decides which tables and boxes the
-/// model has. Empty arrays do not show this, because a mesh without triangles has only empty ones.
-CDPREP_API void add_sections(SectionList& list, const Octree& octree);
-CDPREP_API void add_sections(SectionList& list, const AdaptiveOctree& octree);  ///< likewise
-CDPREP_API void add_sections(SectionList& list, const TetraTree& tetra);        ///< likewise
 
 }  // namespace cdprep::build
