@@ -56,7 +56,8 @@ int main(void) {
     if (!(code = cdprep_workspace_make(NULL, NULL, 0, &workspace, &error)) &&
         !(code = build_cube(workspace, &cube, &error)) &&
         !(code = cdprep_model_describe(cube, &info, &error))) {
-        printf("%u triangles, %s\n", info.triangles, info.closed == CDPREP_YES ? "closed" : "open");
+        printf("%u triangles, %s\n", info.triangles,
+               info.balanced == CDPREP_YES ? "balanced" : "unbalanced");
         code = print_steps(cube, workspace, &error);
     }
     if (code) fprintf(stderr, "%s\n", error.message);

@@ -72,7 +72,6 @@ int main(int argc, char** argv) {
         }
     }
     const auto& counts = scene.counts();
-    std::cout << scene.object_count() << " objects: of " << counts.candidates
-              << " candidates in the last frame " << counts.calls_of(cdprep::Ask::collide)
-              << " were asked\n";
+    std::cout << scene.object_count() << " objects: " << counts.calls_of(cdprep::Ask::collide)
+              << " of " << counts.candidates << " candidates in the last frame were tested\n";
 }

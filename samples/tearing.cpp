@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A sheet that is cut along a plane: triangles across the plane are replaced by their parts, the
+// A sheet that is cut along a plane: triangles across the plane are replaced by fragments, the
 // halves move apart, and a probe then passes between them. At last the halves become two models,
 // and their distance is asked for.
 //
@@ -50,13 +50,13 @@ struct Plane {
     }
 };
 
-/// The parts of triangles that cross a plane, with vertices of their own on either side.
+/// The fragments of triangles that cross a plane, with vertices of their own on either side.
 class Cut {
 public:
     Cut(std::vector<Double3>& positions, const Plane& plane)
         : positions_(positions), plane_(plane) {}
 
-    /// Adds the parts of a triangle. Returns false if it lies on one side.
+    /// Adds the fragments of a triangle. Returns false if it lies on one side.
     bool add(const Triangle& t) {
         for (std::size_t i = 0; i < 3; ++i) {  // is corner i alone on its side?
             const std::uint32_t a = t.vertex[i], b = t.vertex[(i + 1) % 3],
@@ -64,9 +64,9 @@ public:
             if (is_right(a) == is_right(b) || is_right(a) == is_right(c)) continue;
             const std::array<std::uint32_t, 2> ab = on_plane(a, b), ac = on_plane(a, c);
             const std::size_t own = is_right(a) ? 1 : 0, other = 1 - own;
-            parts.push_back({{a, ab[own], ac[own]}});
-            parts.push_back({{ab[other], b, c}});
-            parts.push_back({{ab[other], c, ac[other]}});
+            fragments.push_back({{a, ab[own], ac[own]}});
+            fragments.push_back({{ab[other], b, c}});
+            fragments.push_back({{ab[other], c, ac[other]}});
             return true;
         }
         return false;
@@ -76,7 +76,7 @@ public:
         return side != new_on_right_.end() ? side->second : plane_.height(positions_[vertex]) >= 0;
     }
 
-    std::vector<Triangle> parts;
+    std::vector<Triangle> fragments;
 
 private:
     /// Returns two vertices where an edge meets the plane: one for each side.
@@ -150,9 +150,9 @@ int main() {
         positions.back().x += cut.is_right(v) ? 0.2 : 0;
     }
     const bool is_cut = live.remove(crossing).ok() && live.refit(vertices, positions).ok() &&
-                        live.append(cut.parts).ok();
+                        live.append(cut.fragments).ok();
     if (!is_cut) return 1;
-    std::cout << crossing.size() << " triangles were cut into " << cut.parts.size() << "\n";
+    std::cout << crossing.size() << " triangles were cut into " << cut.fragments.size() << "\n";
 
     cdprep::Workspace workspace;
     const cdprep::Sphere probe = {{0.61, 0.5, 0}, 0.05};
@@ -175,5 +175,5 @@ int main() {
     }
     const cdprep::Pair pair = {halves[0]->live.model(), halves[1]->live.model(),
                                cdprep::Placement::b_moves({})};
-    std::cout << "they are " << cdprep::distance(pair, workspace)->upper << " apart\n";
+    std::cout << "the halves are " << cdprep::distance(pair, workspace)->upper << " apart\n";
 }

@@ -24,13 +24,13 @@ std::string fault(const Damage& damage) {
         case Kind::too_short:
             return "has " + found + " bytes, but needs at least " + limit;
         case Kind::bad_magic:
-            return "is not a finished bake: its first bytes are not cdprep's";
+            return "is not a complete baked file: its first bytes are not those of cdprep";
         case Kind::bad_version:
-            return "written as format " + found + "; this program reads " + limit;
+            return "written in format " + found + "; this program reads " + limit;
         case Kind::bad_byte_order:
             return "written on a machine of another byte order or number format";
         case Kind::bad_file_size:
-            return "has " + found + " bytes, but its header says " + limit;
+            return "has " + found + " bytes, but its header states " + limit;
         case Kind::bad_header:
             return section + at + " is damaged: found " + found + ", expected " + limit;
         case Kind::rewritten:
@@ -38,17 +38,18 @@ std::string fault(const Damage& damage) {
         case Kind::unknown_feature:
             return "needs features " + found + "; this program knows " + limit;
         case Kind::bad_section:
-            return section + at + " does not fit: found " + found + ", allowed " + limit;
+            return "the table entry of " + section + at + " is invalid: found " + found +
+                   ", allowed " + limit;
         case Kind::missing_section:
             return section + " is missing";
         case Kind::bad_checksum:
             return section + at + " has checksum " + found + ", expected " + limit;
         case Kind::bad_count:
-            return section + " holds " + found + " elements, expected " + limit;
+            return section + " has " + found + " elements, expected " + limit;
         case Kind::bad_index:
-            return section + at + " holds the index " + found + ", allowed is at most " + limit;
+            return section + at + " has the index " + found + "; the maximum is " + limit;
         case Kind::bad_number:
-            return section + at + " holds a number that is not finite or too large";
+            return section + at + " has a number that is not finite or too large";
         case Kind::bad_order:
             return section + at + " is out of order: found " + found + ", expected " + limit;
         case Kind::bad_box:

@@ -404,6 +404,8 @@ Found find_bad_vertex_index(const Content& content) {
     return find_bad_index(content, vertices - 1);
 }
 
+/// Finds damage in one section. One switch has a case for every section, so that the compiler warns
+/// of one that is forgotten.
 Found find_bad_content(const Content& content) {
     const std::uint64_t triangles = content.header.triangle_count;
     const auto counted = [&](std::uint64_t expected, auto check) {

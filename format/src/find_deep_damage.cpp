@@ -169,6 +169,7 @@ Found find_wrong_leaf(Bytes file, const Tree& tree) {
 
 using Vector = std::array<double, 3>;
 
+// A copy of that of lib/exact, which format may not include.
 double dot(const Vector& a, const Vector& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }

@@ -30,11 +30,11 @@ std::string name_of(const Section& section) {
 std::optional<Error> find_fault(const Section& section) {
     const std::uint32_t element = format::element_size(section.id);
     if (element == 0) {
-        return bad_argument(name_of(section) + " is not one that this version knows.");
+        return bad_argument(name_of(section) + " is unknown to this version.");
     }
     if (section.bytes.size() % element == 0) return std::nullopt;
     return bad_argument(name_of(section) + " has " + std::to_string(section.bytes.size()) +
-                        " bytes, which is no whole number of elements of " +
+                        " bytes, which is not a multiple of the element size, " +
                         std::to_string(element) + " bytes.");
 }
 
@@ -73,12 +73,13 @@ std::optional<Error> find_fault(std::span<const std::byte> memory, std::uint64_t
         reinterpret_cast<std::uintptr_t>(memory.data()) % format::kSectionAlignment;
     if (misaligned != 0) {
         return bad_argument("The memory for the image starts " + std::to_string(misaligned) +
-                            " past a multiple of " + std::to_string(format::kSectionAlignment) +
-                            "; it must start at one.");
+                            " bytes past a multiple of " +
+                            std::to_string(format::kSectionAlignment) +
+                            "; it must start at such a multiple.");
     }
     if (memory.size() >= size) return std::nullopt;
-    return bad_argument("The image takes " + std::to_string(size) +
-                        " bytes, and the memory for it has " + std::to_string(memory.size()) + ".");
+    return bad_argument("The image needs " + std::to_string(size) +
+                        " bytes, but the memory for it has " + std::to_string(memory.size()) + ".");
 }
 
 /// Copies the sections in the order of their places. Writes zeroes in front of each and after the

@@ -58,11 +58,11 @@ void add_degenerate_bits(ModelArrays& arrays, ParallelFor parallel_for) {
     }
 }
 
-format::FileHeader facts_of(const ModelArrays& arrays, bool is_closed) {
+format::FileHeader facts_of(const ModelArrays& arrays, bool is_balanced) {
     format::FileHeader facts{};
     facts.vertex_count = static_cast<std::uint32_t>(arrays.source_vertex.size());
     facts.triangle_count = static_cast<std::uint32_t>(arrays.triangles.size());
-    if (is_closed) facts.flags |= format::model_balanced;
+    if (is_balanced) facts.flags |= format::model_balanced;
     if (arrays.bvh.exact_leaves) facts.flags |= format::model_exact_leaves;
     facts.flags |= format::swept_flags(arrays.bvh.swept_kind);
     facts.frame_origin = arrays.bvh.frame.origin;

@@ -114,9 +114,10 @@ int check_buildable(Call& call, std::uint32_t ask) noexcept {
     const Ask refused = without(static_cast<Ask>(ask), kBuildable);
     for (const Needs& row : needs()) {
         if (!contains(refused, row.ask)) continue;
-        return call.refuse(CDPREP_WHY_NOT_BAKED, kOptions.of("ask"),
-                           "is 0x%x, but no build serves %s. Bake the mesh with %s.", ask, row.name,
-                           row.bake_option);
+        return call.refuse(
+            CDPREP_WHY_NOT_BAKED, kOptions.of("ask"),
+            "is 0x%x, but models built in memory do not serve %s. Bake the mesh with %s.", ask,
+            row.name, row.bake_option);
     }
     return CDPREP_OK;
 }

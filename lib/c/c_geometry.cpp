@@ -296,7 +296,7 @@ int cdprep_model_describe(const cdprep_model* model, cdprep_model_info* info, cd
     info->hulls = static_cast<uint32_t>(m.hulls().hulls.size());
     info->verdicts = static_cast<uint32_t>(m.record().verdicts.size());
     info->serves = static_cast<uint32_t>(m.asks());
-    info->closed = m.is_balanced() ? CDPREP_YES : CDPREP_NO;
+    info->balanced = m.is_balanced() ? CDPREP_YES : CDPREP_NO;
     info->stores_f64 = cdprep::c::is_in_file(m, SectionId::positions_f64) ? CDPREP_YES : CDPREP_NO;
     cdprep::c::store_box(m, *info);
     info->metres_per_unit = m.header().metres_per_unit;
@@ -382,7 +382,7 @@ int cdprep_model_bytes(const cdprep_model* model, cdprep_array* bytes, cdprep_er
     if (const int code = call.need(bytes, {"bytes"})) return code;
     if (!model->own) {
         return call.refuse(CDPREP_WHY_NO_MEANING, {"model"},
-                           "is that of a %s, whose bytes are not those of a file.",
+                           "is the model of a %s, which has no bytes of a file.",
                            model->live != nullptr ? "live model" : "window");
     }
     const std::span<const std::byte> file = model->model.bytes();

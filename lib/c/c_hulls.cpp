@@ -60,10 +60,10 @@ bool exists(const cdprep_hull& hull) noexcept {
 
 int check_exists(Call& call, const Name& name, const cdprep_hull& hull) noexcept {
     if (exists(hull)) return CDPREP_OK;
-    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name,
-                       "is %u, but the model has no such hull: take what cdprep_hull_find() "
-                       "stores.",
-                       hull.number);
+    return call.refuse(
+        CDPREP_WHY_OUT_OF_RANGE, name,
+        "is %u, but the model has no such hull: use a number from cdprep_hull_find().",
+        hull.number);
 }
 
 /// Returns the corners of a hull that exists.

@@ -160,7 +160,7 @@ int open_copy(Call& call, const Asked& asked, const std::filesystem::path& path,
     const std::unique_ptr<std::FILE, CloseFile> file(open_to_read(path));
     if (file == nullptr) return fail_reading(call, name, "cannot be opened.");
     const std::uintmax_t size = std::filesystem::file_size(path, failed);
-    if (failed) return fail_reading(call, name, "has no size that can be read.");
+    if (failed) return fail_reading(call, name, "its size cannot be read.");
     OwnedMemory copy;
     if (const int code = copy.allocate(call, asked.allocator, size)) return code;
     if (!read_whole(file.get(), {static_cast<std::byte*>(copy.get().start), size})) {
@@ -284,7 +284,7 @@ int cdprep_model_open(const char* utf8_path, const cdprep_open_options* options,
         if (const int code = cdprep::c::read(call, options, asked)) return code;
         if (asked.options.name != nullptr) {
             return call.refuse(CDPREP_WHY_NO_MEANING, Name{"options"}.of("name"),
-                               "is set, but messages name a file by its path.");
+                               "is set, but messages name a file by its path; leave it at null.");
         }
         return cdprep::c::open_path(call, asked, utf8_path, model);
     });
@@ -306,7 +306,7 @@ int cdprep_model_open_memory(const void* bytes, size_t size, const cdprep_open_o
                 return cdprep::c::open_copy(call, asked, file, model);
             default:
                 return call.refuse(CDPREP_WHY_NO_MEANING, Name{"options"}.of("mode"),
-                                   "is CDPREP_MAP_TRUSTED, which is for files alone.");
+                                   "is CDPREP_MAP_TRUSTED, which is for files only.");
         }
     });
 }

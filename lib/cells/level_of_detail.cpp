@@ -16,7 +16,7 @@
 #include "walk/cell_searches.h"
 
 // A solid lies below the outer facets of its cones: a ray from the centre leaves it for good at its
-// last triangle. If it is closed and its centre is inside, it contains everything below the inner
+// last triangle. If it is balanced and its centre is inside, it contains everything below the inner
 // facets: no triangle lies between the centre and them. Points are placed and compared in double.
 // Radii are corrected for the rounding of points: kSlack times the sizes involved. Rotations are
 // orthogonal to 1e-12; all other errors are far smaller.

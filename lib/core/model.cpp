@@ -169,8 +169,8 @@ Result<Model> Model::from_bytes(std::span<const std::byte> bytes, const OpenOpti
     if (misaligned != 0) {
         return Error{ErrorCode::bad_argument,
                      name + ": the bytes start " + std::to_string(misaligned) +
-                         " past a multiple of " + std::to_string(format::kSectionAlignment) +
-                         "; they must start at one."};
+                         " bytes past a multiple of " + std::to_string(format::kSectionAlignment) +
+                         "; they must start at such a multiple."};
     }
     const SectionSet unless_said = options.asks == Ask::nothing ? SectionSet::all() : SectionSet{};
     SectionSet wanted = options.sections.value_or(unless_said);

@@ -30,8 +30,8 @@ std::string names_of(SectionSet sections) {
 
 std::string way_out(const Needs& row, const Contents& contents, Refusal::Reason reason) {
     if (reason == Refusal::Reason::not_opened) return "Open the model for this query.";
-    if (row.ask == Ask::response && !contents.is_closed) {
-        return "Only closed meshes have mass properties: bake it again with --repair closed "
+    if (row.ask == Ask::response && !contents.is_balanced) {
+        return "Only balanced meshes have mass properties: bake it again with --repair closed "
                "--effects response.";
     }
     return std::string("Bake the mesh again with ") + row.bake_option + ".";

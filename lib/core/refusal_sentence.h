@@ -12,7 +12,7 @@ namespace cdprep {
 struct Contents {
     SectionSet sections;
     bool has_exact_leaves;
-    bool is_closed;
+    bool is_balanced;
 };
 
 /// Returns the reason why `contents` do not serve the first unserved query of `asks`. The sentence

@@ -63,7 +63,7 @@ Result<LiveModel> LiveModel::State::make(std::span<std::byte> memory, const Live
     const Result<std::size_t> size = bytes_of(base, limits, start.sections());
     if (!size) return size.error();
     if (memory.size() < *size) {
-        return bad_argument("The live model takes " + std::to_string(*size) + " bytes, and " +
+        return bad_argument("The live model needs " + std::to_string(*size) + " bytes, but " +
                             std::to_string(memory.size()) + " were given.");
     }
     const Result<std::span<std::byte>> image =

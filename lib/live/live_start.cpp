@@ -104,7 +104,8 @@ std::optional<Error> find_base_fault(const Model& base) {
     }
     if (!base.bvh().lanes.empty()) {
         return bad_argument(
-            "A live model that can tear is no base of another: build one from its triangles().");
+            "A live model that can tear cannot be the base of another: build one from its "
+            "triangles().");
     }
     const auto source = base.source().vertex;
     const auto made = std::ranges::find(source, format::kMadeByRepair);
@@ -124,7 +125,7 @@ std::optional<Error> find_base_fault(const Model& base) {
 std::optional<Error> find_limit_fault(const LiveBase& base, const LiveLimits& limits) {
     if (base.triangles.size() > kMostPlaces) {
         return bad_argument("A live model has at most " + std::to_string(kMostPlaces) +
-                            " triangles, and the base has " +
+                            " triangles, but the base has " +
                             std::to_string(base.triangles.size()) + ".");
     }
     if (limits.triangles == 0 && limits.vertices == 0) return std::nullopt;

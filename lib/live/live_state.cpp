@@ -150,7 +150,7 @@ std::optional<Error> LiveModel::State::find_fault(std::span<const Position> posi
                                                   std::span<const std::uint32_t> vertices) const {
     if (std::is_same_v<Position, Double3> && !positions_f32.empty()) {
         return bad_argument(
-            "The live model keeps positions as floats, and doubles were given: give floats, or "
+            "The live model stores positions as floats, but doubles were given. Give floats, or "
             "build it from doubles.");
     }
     if (is_own(std::as_bytes(positions))) {

@@ -47,8 +47,8 @@ constexpr Ask kServed = Ask::collide | Ask::overlap | Ask::distance | Ask::withi
 std::optional<Error> find_fault(const WindowLimits& limits) {
     if (limits.leaves >= 1 && limits.leaves <= kMostWindowLeaves) return std::nullopt;
     return bad_argument("A window of " + std::to_string(limits.leaves) +
-                        " leaves cannot be made: it has 1 to " + std::to_string(kMostWindowLeaves) +
-                        ".");
+                        " leaves cannot be made: the number must be 1 to " +
+                        std::to_string(kMostWindowLeaves) + ".");
 }
 
 /// Sets the oriented boxes of a node to its boxes. An unused box, from 1 to -1, gets half extents
@@ -351,7 +351,7 @@ Result<Window> Window::in(std::span<std::byte> memory, const WindowLimits& limit
     const Result<std::size_t> size = bytes_of(limits, empty);
     if (!size) return size.error();
     if (memory.size() < *size) {
-        return bad_argument("The window takes " + std::to_string(*size) + " bytes, and " +
+        return bad_argument("The window needs " + std::to_string(*size) + " bytes, but " +
                             std::to_string(memory.size()) + " were given.");
     }
     const Result<std::span<std::byte>> image =
@@ -423,7 +423,7 @@ BoundedDistance Window::distance(const Pair& pair, Workspace& workspace,
                                  const DistanceBudget& budget) const noexcept {
     const format::FloatEnvironment environment;
     if (&pair.a.get() != &state_->model) {
-        stop_with("Window::distance() was asked about another model than that of the window.");
+        stop_with("Model A of Window::distance() must be the model of the window.");
     }
     BoundedDistance found = bounded_distance(pair, workspace, options, {.work = budget.work});
     // The share covers the width of a distance's interval, with room. Answers about A are then the

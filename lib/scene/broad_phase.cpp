@@ -531,7 +531,8 @@ BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 BroadPhase::~BroadPhase() = default;
 
 BroadPhase::BroadPhase(const BroadPhaseLimits& limits) : state_(nullptr, Release{true}) {
-    if (!is_possible(limits)) stop_with("A broad phase has at most 2^29 boxes, and a thread.");
+    if (!is_possible(limits))
+        stop_with("A broad phase has at most 2^29 boxes and at least one thread.");
     auto* const memory =
         static_cast<std::byte*>(::operator new (size(limits), std::align_val_t{kCarveAlignment}));
     state_.reset(make(memory, limits));
@@ -586,10 +587,12 @@ BroadPhaseUpdate BroadPhase::update_moved(std::span<const WorldBox> boxes,
                                           std::span<const std::uint32_t> moved,
                                           ParallelFor parallel_for) noexcept {
     require_sizes(boxes.size(), filters.size(), state_->limits.boxes);
-    if (boxes.size() != state_->count) stop_with("The number of boxes differs from the last one.");
+    if (boxes.size() != state_->count)
+        stop_with("The number of boxes differs from that of the last update.");
     std::uint32_t most = 0;
     for (const std::uint32_t number : moved) most = std::max(most, number);
-    if (!moved.empty() && most >= boxes.size()) stop_with("A box that has moved does not exist.");
+    if (!moved.empty() && most >= boxes.size())
+        stop_with("The number of a moved box is out of range.");
     format::FloatEnvironment environment;
     const GuardedFor run(environment, parallel_for);
     return state_->update_some(boxes, filters, moved, run);

@@ -163,10 +163,10 @@ bool boxes_may_meet(const RootBox& a, const RootBox& b) noexcept {
 
 RootBox root_box(const Model& model, const Pose& world_from_model, double reach) noexcept {
     if (!(reach >= 0 && reach <= std::numeric_limits<double>::max())) {
-        stop_with("The reach of a box is a finite number, at least 0.");
+        stop_with("The reach of a box must be finite and at least 0.");
     }
     if (model.triangle_count() > 0 && model.bvh().nodes.empty()) {
-        stop_with("The box of a model needs its BVH, whose sections were not opened.");
+        stop_with("The box of a model needs its BVH, but the sections of the BVH were not opened.");
     }
     const format::FloatEnvironment environment;
     return placed_box(model, world_from_model, reach);

@@ -61,7 +61,8 @@ std::string unbuilt_effect(Ask one) {
     built.reserve(std::size(kSceneEffects));
     for (const Ask effect : kSceneEffects) built.push_back(name_of(effect));
     for (const Ask change : {Ask::deform, Ask::tear}) built.push_back(name_of(change));
-    return name_of(one) + " is not built in a scene. Built are " + list_of(built) + ".";
+    return name_of(one) + " is not supported in a scene. Supported effects: " + list_of(built) +
+           ".";
 }
 
 /// Calls `visit` with each bit.
@@ -186,28 +187,27 @@ private:
         if (has_any(pair.effects, kSceneChanges)) {
             if (has(pair.effects, Ask::contacts)) {
                 add(place +
-                    "contacts of models that deform or tear are not built: pieces do not "
-                    "follow the surface. Ask for overlap, within or distance.");
+                    "contacts is not supported for models that deform or tear: pieces do not "
+                    "follow the surface. Use overlap, within or distance.");
             }
             if (has(pair.effects, Ask::continuous)) {
                 add(place +
-                    "continuous is not built for models that deform or tear. Ask for "
-                    "within, or use a Sweep.");
+                    "continuous is not supported for models that deform or tear. Use within or a "
+                    "Sweep.");
             }
         }
         if (has(pair.effects, Ask::self) && pair.a != pair.b) {
             add(place +
-                "self is about single objects. Ask for it in a pair of one layer with "
-                "itself.");
+                "self tests single objects. Request it for a pair of one layer with itself.");
         }
         if (!has(pair.effects, Ask::haptic)) return;
         if (!are_built_together(effects_between(pair))) {
             add(place +
-                "haptic is a distance within a limit of work. Ask for haptic or for "
-                "distance.");
+                "haptic is a distance within a limit of work. Request haptic or distance, not "
+                "both.");
         }
         if (pair.body == Body::solid) {
-            add(place + "haptic is about surfaces. Ask for distance of solids.");
+            add(place + "haptic supports surfaces only. Use distance for solids.");
         }
     }
 
@@ -264,14 +264,14 @@ private:
         // Effects that are not built are refused above.
         lacking = lacking & (built_effects() | Ask::solid);
         if (lacking == Ask::nothing) return;
-        add(std::string(model.name) + ": " + layers_that_ask(model, lacking) + " for " +
+        add(std::string(model.name) + ": " + layers_that_ask(model, lacking) + " " +
             asks_text(lacking) + ", which the model does not serve. Bake it with " +
             bake_option(lacking) + ".");
     }
 
-    /// "its layers ask", or by name: "its layer 'crates' asks".
+    /// "its layers request", or by name: "its layer 'crates' requests".
     [[nodiscard]] std::string layers_that_ask(const ModelUse& model, Ask some) const {
-        if (options_.layer_names.empty()) return "its layers ask";
+        if (options_.layer_names.empty()) return "its layers request";
         std::uint32_t asking = 0;
         for (const LayerPair& pair : options_.pairs) {
             if (std::max(pair.a, pair.b) >= kLayers) continue;
@@ -280,7 +280,7 @@ private:
         }
         const std::vector<std::string> names = names_in(options_.layer_names, asking);
         return (names.size() == 1 ? "its layer " : "its layers ") + list_of(names) +
-               (names.size() == 1 ? " asks" : " ask");
+               (names.size() == 1 ? " requests" : " request");
     }
 
     const PlanOptions& options_;
@@ -327,7 +327,7 @@ std::string rung_text(const LayerPair& pair, const PairRung& rung) {
         text += "enclosing parts, at most " + std::to_string(rung.parts_a) + " and " +
                 std::to_string(rung.parts_b);
     } else {
-        text += "the walk";
+        text += "BVH traversal";
     }
     return text + ", error at most " + number_text(rung.error);
 }
@@ -389,7 +389,7 @@ std::string effects_text(const LayerPair& pair, const PairRung& rung) {
         add("haptic up to " + number_text(pair.max_distance) + ", work " +
             std::to_string(pair.work));
     }
-    if (pair.lists_stays) add("events for what goes on");
+    if (pair.lists_stays) add("an event in each step while an effect goes on");
     return effects + rung_text(pair, rung);
 }
 
@@ -512,11 +512,11 @@ std::string Plan::describe() const {
     for (const Ask one : kSceneEffects) {
         if (!has(effects(), one)) rest += (rest.empty() ? "" : ", ") + name_of(one);
     }
-    if (!rest.empty()) text += "not computed, for no pair of layers asks: " + rest + "\n";
+    if (!rest.empty()) text += "not requested by any pair of layers: " + rest + "\n";
     return text + unpaired_text() + models_text() + size_text(*this);
 }
 
-/// Which layers are not looked at together, and which not at all.
+/// The layers that are not tested against each other, and those that are not tested at all.
 std::string Plan::unpaired_text() const {
     const std::uint32_t paired = layers_of(static_cast<Ask>(~0U));
     std::string apart;
@@ -528,10 +528,10 @@ std::string Plan::unpaired_text() const {
         }
     }
     std::string text;
-    if (!apart.empty()) text = "layers that are never looked at together: " + apart + "\n";
+    if (!apart.empty()) text = "layers never tested against each other: " + apart + "\n";
     const std::vector<std::string> alone = names_in(layer_names_, layers_ & ~paired);
     if (alone.empty()) return text;
-    return text + "layers in no pair, whose objects are never looked at: " + list_of(alone) + "\n";
+    return text + "layers in no pair, whose objects are never tested: " + list_of(alone) + "\n";
 }
 
 /// What the models of each layer must serve, and what is read of them. Layers with equal needs
@@ -550,10 +550,10 @@ std::string Plan::models_text() const {
         const std::vector<std::string> names = names_in(layer_names_, alike);
         text += (names.size() == 1 ? "models of layer " : "models of layers ") + list_of(names) +
                 " must serve " + asks_text(asks) +
-                "; no sections are read but: " + sections_text(sections_for(asks)) +
+                "; only these sections are read: " + sections_text(sections_for(asks)) +
                 ((layers_of(kSceneChanges) & alike) == 0
                      ? "\n"
-                     : "; models that deform or tear must serve that too\n");
+                     : "; models that deform or tear must also serve deform or tear\n");
     }
     return text;
 }

@@ -115,7 +115,8 @@ std::optional<Scene> Scene::in_memory(std::span<std::byte> memory, const Plan& p
 std::optional<ObjectId> Scene::add(const SceneObject& object) noexcept {
     State& state = *state_;
     if (object.model == nullptr) stop_with("An object of a scene needs a model.");
-    if (object.layer >= kLayers) stop_with("A scene has 32 layers; an object is in another.");
+    if (object.layer >= kLayers)
+        stop_with("A scene has 32 layers; the layer of an object must be 0 to 31.");
     require(*object.model, state.plan->asks_of(object.layer));
     const std::uint32_t most = state.plan->limits().objects;
     std::uint32_t& slot = state.first_free;
@@ -161,7 +162,8 @@ bool Scene::put(ObjectId object, const Pose& world_from_model) noexcept {
 bool Scene::set_layer(ObjectId object, std::uint32_t layer) noexcept {
     ObjectSlot* const found = state_->find(object);
     if (found == nullptr) return false;
-    if (layer >= kLayers) stop_with("A scene has 32 layers; an object is in another.");
+    if (layer >= kLayers)
+        stop_with("A scene has 32 layers; the layer of an object must be 0 to 31.");
     require(*found->model, state_->plan->asks_of(layer));
     if (found->layer == layer) return true;
     found->layer = layer;

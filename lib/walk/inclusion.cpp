@@ -76,7 +76,7 @@ bool ray_meets(const Double3& q, const Box3& box) noexcept {
            q.z <= box.upper.z;
 }
 
-/// Returns the exact winding number of a closed surface around q.
+/// Returns the exact winding number of a balanced surface around q.
 Inclusion exact_inclusion(const MovedModel& model, const Double3& q,
                           Workspace::Storage& scratch) noexcept {
     const MovedBoxes boxes(model);
@@ -103,7 +103,7 @@ Inclusion exact_inclusion(const MovedModel& model, const Double3& q,
 }
 
 /// Returns the generalised winding number, summed over all triangles.
-Inclusion open_inclusion(const MovedModel& model, const Double3& q) noexcept {
+Inclusion generalised_inclusion(const MovedModel& model, const Double3& q) noexcept {
     double angle = 0;
     const bool off_surface =
         each_triangle(*model.model, 0, model.model->triangle_count(), [&](std::uint32_t i) {
@@ -133,10 +133,10 @@ Box3 box_around(const MovedModel& model) noexcept {
 
 Inclusion inclusion(const MovedModel& model, const Double3& q,
                     Workspace::Storage& scratch) noexcept {
-    // Outside the box around it, q is outside the model, closed or open.
+    // Outside the box around it, q is outside the model, balanced or not.
     if (model.model->triangle_count() == 0 || !holds(box_around(model), q)) return {};
     return model.model->is_balanced() ? exact_inclusion(model, q, scratch)
-                                      : open_inclusion(model, q);
+                                      : generalised_inclusion(model, q);
 }
 
 }  // namespace cdprep

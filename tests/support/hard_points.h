@@ -13,10 +13,10 @@ namespace cdprep::test {
 struct HardPoint {
     Double3 at;
     bool is_on_surface = false;
-    /// For a closed mesh the exact integer. For an open mesh the generalised winding number, up to
-    /// 1e-12, or nothing if it is not known.
+    /// For a balanced mesh the exact integer. For an unbalanced mesh the generalised winding
+    /// number, up to 1e-12, or nothing if it is not known.
     std::optional<double> winding = 0;
-    bool is_unknown = false;  ///< the mesh is open, so the result must be "unknown"
+    bool is_unknown = false;  ///< the mesh is unbalanced, so the result must be "unknown"
 };
 
 /// A mesh and points that are hard to classify as inside or outside.

@@ -7,7 +7,7 @@ export type Matrix = ArrayLike<number>;
 
 /** A refused argument or an unreadable file. */
 export class CdprepError extends Error {
-  /** That of the C API: 2 for an argument, 3 for a file, 5 for memory, 6 for an own mistake. */
+  /** That of the C API: 2 for an argument, 3 for a file, 5 for memory, 6 for an internal error. */
   readonly code: number;
 }
 
@@ -30,7 +30,8 @@ export interface RayHit {
 export interface Model {
   readonly triangleCount: number;
   readonly vertexCount: number;
-  readonly isClosed: boolean;
+  /** true: solid queries have exact answers. */
+  readonly isBalanced: boolean;
   /** 0: not known. */
   readonly metresPerUnit: number;
   readonly box: { lower: Point; upper: Point };

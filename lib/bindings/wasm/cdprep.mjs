@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Exact questions about baked models in a browser or in node, by WebAssembly.
+// Exact queries on baked models in a browser or in node, by WebAssembly.
 //
 //   import { load } from "./cdprep.mjs";
 //   const cdprep = await load(await (await fetch("cdprep.wasm")).arrayBuffer());
@@ -29,7 +29,7 @@ function host(memoryOf) {
   return {
     env: { emscripten_notify_memory_growth: none },
     wasi_snapshot_preview1: {
-      proc_exit(code) { throw new Error(`cdprep.wasm ended with ${code}`); },
+      proc_exit(code) { throw new Error(`cdprep.wasm ended with exit code ${code}`); },
       fd_write: () => 8, fd_read: () => 8, fd_close: none, fd_seek: () => 8,
       environ_sizes_get(count, bytes) { set(count, 0); set(bytes, 0); return 0; },
       environ_get: none,
@@ -118,7 +118,7 @@ class Cdprep {
   #address(name, ...values) { return this.#exports[name](...values) >>> 0; }
   #room(size) {
     const place = this.#address("web_allocate", size);
-    if (place === 0) throw new CdprepError(5, `There is no memory for ${size} bytes.`);
+    if (place === 0) throw new CdprepError(5, `There is not enough memory for ${size} bytes.`);
     return place;
   }
   #put(bytes) {
@@ -151,7 +151,7 @@ class Model {
     this.#cdprep.ask("web_describe", this.#model);
     const facts = this.#cdprep.take(10);
     [this.triangleCount, this.vertexCount] = facts;
-    this.isClosed = facts[2] === 1;
+    this.isBalanced = facts[2] === 1;
     this.metresPerUnit = facts[3];
     this.box = { lower: facts.slice(4, 7), upper: facts.slice(7, 10) };
   }
@@ -202,7 +202,7 @@ class Model {
   }
   #with(other, matrix, exact, name, ...more) {
     if (!(other instanceof Model) || other.#cdprep !== this.#cdprep) {
-      throw new CdprepError(2, "The other model is none of this module.");
+      throw new CdprepError(2, "The other argument is not a model of this module.");
     }
     if (matrix.length !== 16) {
       throw new CdprepError(2, `The matrix has ${matrix.length} numbers; 16 are needed.`);

@@ -56,11 +56,11 @@ void web_close(cdprep_model* model) {
     cdprep_model_close(model);
 }
 
-/* Stores triangles, vertices, whether closed, metres_per_unit, and the box. */
+/* Stores triangles, vertices, whether balanced, metres_per_unit, and the box. */
 int web_describe(const cdprep_model* model) {
     cdprep_model_info info;
     if (cdprep_model_describe(model, &info, &error)) return -error.code;
-    numbers[0] = info.triangles, numbers[1] = info.vertices, numbers[2] = info.closed;
+    numbers[0] = info.triangles, numbers[1] = info.vertices, numbers[2] = info.balanced;
     numbers[3] = info.metres_per_unit;
     for (int i = 0; i < 3; ++i) numbers[4 + i] = info.lower[i], numbers[7 + i] = info.upper[i];
     return 0;

@@ -230,16 +230,16 @@ int check_candidates(Call& call, const cdprep_scene& scene, const cdprep_box_pai
         const auto [a, b] = candidates[i];
         if (a >= b || b >= slots) {
             return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name,
-                               "is slots %u and %u; the first must be less than the second, and "
-                               "that less than %u.",
+                               "has slots %u and %u; the first must be less than the second, and "
+                               "both less than %u.",
                                a, b, slots);
         }
         const cdprep_box_pair before = i > 0 ? candidates[i - 1] : cdprep_box_pair{};
         if (before.a > a || (before.a == a && before.b >= b)) {
-            return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name,
-                               "is slots %u and %u after %u and %u; candidates must be sorted, and "
-                               "each occur once.",
-                               a, b, before.a, before.b);
+            return call.refuse(
+                CDPREP_WHY_OUT_OF_RANGE, name,
+                "has slots %u and %u after %u and %u; candidates must be sorted and unique.", a, b,
+                before.a, before.b);
         }
         for (const std::uint32_t slot : {a, b}) {
             if (scene.scene.object_at(slot) != ObjectId{}) continue;

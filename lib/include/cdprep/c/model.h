@@ -111,7 +111,7 @@ typedef struct cdprep_model_info {
     uint32_t pieces, hulls;                /* convex pieces and convex hulls; 0 as above */
     uint32_t verdicts;         /* of the mesh and its components; see cdprep_model_verdict() */
     uint32_t serves;           /* CDPREP_ASK_ bits */
-    uint32_t closed;           /* CDPREP_YES: solid queries have exact answers; else CDPREP_NO */
+    uint32_t balanced;         /* CDPREP_YES: solid queries have exact answers; else CDPREP_NO */
     uint32_t stores_f64;       /* CDPREP_YES: coordinates are doubles; CDPREP_NO: floats */
     double lower[3], upper[3]; /* a box around all triangles, model units; 0 without triangles */
     double metres_per_unit;    /* 0: not known */
@@ -189,10 +189,10 @@ enum {
     CDPREP_MATERIAL_NAME = 4
 };
 
-/* Stores the address and the length of a UTF-8 text, valid as long as the model. It does not end
- * with a zero: use the length. If the model has no text of the first two kinds, *text is null and
- * *length is 0. `number` must be 0 for these kinds. Errors: CDPREP_WHY_OUT_OF_RANGE for a kind that
- * does not exist, and for a number without a name. */
+/* Stores the address and the length of a UTF-8 text, valid as long as the model. The text does not
+ * end with a zero: use the length. If the model has no text of the first two kinds, *text is null
+ * and *length is 0. `number` must be 0 for these kinds. Errors: CDPREP_WHY_OUT_OF_RANGE for a kind
+ * that does not exist, and for a number without a name. */
 CDPREP_API int cdprep_model_text(const cdprep_model* model, uint32_t kind, uint32_t number,
                                  const char** text, size_t* length, cdprep_error* error);
 
@@ -202,8 +202,8 @@ typedef struct cdprep_mass {
     double inertia[6]; /* tensor about the centre, density 1, model axes: xx, yy, zz, xy, yz, zx */
 } cdprep_mass;
 
-/* Stores the mass properties of a closed model. The file has none if the mesh is not closed or its
- * volume is 0. Of CDPREP_ASK_RESPONSE, the function needs only the mass properties, not the
+/* Stores the mass properties of a balanced model. The file has none if the mesh is not balanced or
+ * its volume is 0. Of CDPREP_ASK_RESPONSE, the function needs only the mass properties, not the
  * contacts.
  * Needs: CDPREP_ASK_RESPONSE */
 CDPREP_API int cdprep_model_mass(const cdprep_model* model, cdprep_mass* mass, cdprep_error* error);

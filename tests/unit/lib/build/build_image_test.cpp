@@ -227,7 +227,7 @@ TEST(BuildImage, PartsOfElementsAreRefused) {
     sections.views[0].bytes = sections.views[0].bytes.first(40);
     AlignedBytes memory(8192);
     EXPECT_EQ(refusal(sections.views, memory.span()),
-              "Section 3 (triangles) has 40 bytes, which is no whole number of elements of 12 "
+              "Section 3 (triangles) has 40 bytes, which is not a multiple of the element size, 12 "
               "bytes.");
 }
 
@@ -235,7 +235,7 @@ TEST(BuildImage, UnknownSectionsAreRefused) {
     AlignedBytes memory(8192);
     for (const std::uint32_t number : {0U, 62U, 64U, 0xffffffffU}) {
         const std::vector<Section> sections = {{SectionId{number}, {}}};
-        EXPECT_NE(refusal(sections, memory.span()).find("is not one that this version knows"),
+        EXPECT_NE(refusal(sections, memory.span()).find("is unknown to this version"),
                   std::string::npos)
             << number;
     }
@@ -252,7 +252,7 @@ TEST(BuildImage, MemoryThatDoesNotFitIsRefusedAndNotWritten) {
     const std::size_t size = image_size(sections.views).value();
     AlignedBytes memory = full_of(size + 64, std::byte{0xa5});
     EXPECT_EQ(refusal(sections.views, memory.span().first(size - 1)),
-              "The image takes " + std::to_string(size) + " bytes, and the memory for it has " +
+              "The image needs " + std::to_string(size) + " bytes, but the memory for it has " +
                   std::to_string(size - 1) + ".");
     EXPECT_NE(refusal(sections.views, {}), "");
     for (const std::size_t off : {1U, 8U, 32U, 63U}) {

@@ -50,18 +50,18 @@ TEST(BuildModel, EveryMeshBecomesAModelInWhichNothingIsWrong) {
     }
 }
 
-// A closed surface is one whose edges cancel: known of each of these meshes.
-TEST(BuildModel, ClosedAreMeshesWhoseEdgesCancel) {
-    const auto is_closed = [](const TestMesh& mesh) {
+// A balanced surface is one whose edges cancel: known of each of these meshes.
+TEST(BuildModel, BalancedAreMeshesWhoseEdgesCancel) {
+    const auto is_balanced = [](const TestMesh& mesh) {
         const auto arrays = build_model(mesh.positions, mesh.triangles);
         return (arrays.value().facts.flags & format::model_balanced) != 0;
     };
-    EXPECT_TRUE(is_closed(test::unit_cube()));
-    EXPECT_TRUE(is_closed(test::torus(1, 0.4, 24, 12)));
-    EXPECT_TRUE(is_closed(test::joined(test::unit_cube(), test::icosphere(1))));
-    EXPECT_FALSE(is_closed(test::upper_half(test::icosphere(2))));
-    EXPECT_FALSE(is_closed(test::grid_sheet(4, 4)));
-    EXPECT_FALSE(is_closed(test::joined(test::unit_cube(), test::fan(3))));
+    EXPECT_TRUE(is_balanced(test::unit_cube()));
+    EXPECT_TRUE(is_balanced(test::torus(1, 0.4, 24, 12)));
+    EXPECT_TRUE(is_balanced(test::joined(test::unit_cube(), test::icosphere(1))));
+    EXPECT_FALSE(is_balanced(test::upper_half(test::icosphere(2))));
+    EXPECT_FALSE(is_balanced(test::grid_sheet(4, 4)));
+    EXPECT_FALSE(is_balanced(test::joined(test::unit_cube(), test::fan(3))));
 }
 
 // A cube of side 1 and one of side 2, inside out: volumes 1 and -8.

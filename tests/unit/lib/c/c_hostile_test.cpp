@@ -1005,7 +1005,8 @@ TEST_F(CHostile, RefusedBuildsSayWhatIsAllowed) {
     cdprep_build_options options = build_options_of(cube);
     options.ask = CDPREP_ASK_OCTREE;
     EXPECT_EQ(said(options),
-              "options.ask is 0x100000, but no build serves octree. Bake the mesh with "
+              "options.ask is 0x100000, but models built in memory do not serve octree. Bake the "
+              "mesh with "
               "--structures octree.");
     options = build_options_of(cube);
     options.vertex_count = 5;

@@ -60,7 +60,7 @@ const char* read_geometry(const cdprep_model* cube) {
     cdprep_model_info info;
     cdprep_error error;
     MUST(cdprep_model_describe(cube, &info, NULL) == CDPREP_OK);
-    MUST(info.triangles == 12 && info.vertices == 8 && info.closed == CDPREP_YES);
+    MUST(info.triangles == 12 && info.vertices == 8 && info.balanced == CDPREP_YES);
     MUST(info.components == 1 && info.hulls == 0 && info.pieces == 0 && info.stores_f64 == 0);
     MUST((info.serves & CDPREP_ASK_COLLIDE) != 0 && (info.serves & CDPREP_ASK_CONTACTS) == 0);
     for (int i = 0; i < 3; ++i) MUST(info.lower[i] == 0 && info.upper[i] == 1);

@@ -68,7 +68,7 @@ TEST_F(CSamples, ACubeOverlapsItself) {
 // By hand: a cube of side 1 moves by 0.25 a step and touches another until step 4.
 TEST(CSample, BuildsACubeFromArraysAndAsksIt) {
     EXPECT_EQ(output_of(SAMPLE_BUILD),
-              "12 triangles, closed\n"
+              "12 triangles, balanced\n"
               "x = 0: hit\n"
               "x = 0.25: hit\n"
               "x = 0.5: hit\n"

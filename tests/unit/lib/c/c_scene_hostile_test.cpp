@@ -351,11 +351,11 @@ TEST_F(CSceneHostile, APlanTellsEveryReason) {
     EXPECT_STREQ(error.argument, "options.layer_pairs[1].a");
     EXPECT_EQ(told.sentences[0], "options.layer_pairs[1].a is 40; the greatest value is 31.");
     EXPECT_EQ(told.sentences[1],
-              "options.layer_pairs[2] is of layers 1 and 0, and so is options.layer_pairs[0].");
+              "options.layer_pairs[2] has the layers 1 and 0, like options.layer_pairs[0].");
     EXPECT_EQ(told.sentences[2],
               "options.layer_pairs[3].effects is 0x1000; a scene computes only the bits 0x7df.");
     EXPECT_EQ(told.sentences[4],
-              "options.models[2].serves is 0x0, but its layers ask for collide. Bake bolt.cdp.h5 "
+              "options.models[2].serves is 0x0, but its layers request collide. Bake bolt.cdp.h5 "
               "with --effects collide.");
     Told two;
     two.most = 2;
@@ -394,14 +394,16 @@ TEST_F(CSceneHostile, PartsOfModelsDecideTheRung) {
     EXPECT_EQ(told(0.75),
               "layers 0 and 1: distance of solids up to 2; max_error 0.75: by enclosing parts, at "
               "most 2 and 3, error at most 0.75 hulls");
-    EXPECT_EQ(told(0.5),
-              "layers 0 and 1: distance of solids up to 2; max_error 0.5: by the walk, error at "
-              "most 0.5");
+    EXPECT_EQ(
+        told(0.5),
+        "layers 0 and 1: distance of solids up to 2; max_error 0.5: by BVH traversal, error at "
+        "most 0.5");
     // A model that will not serve hulls has no parts to ask.
     models[1].serves &= ~std::uint32_t{CDPREP_ASK_HULLS};
-    EXPECT_EQ(told(0.75),
-              "layers 0 and 1: distance of solids up to 2; max_error 0.75: by the walk, error at "
-              "most 0.75");
+    EXPECT_EQ(
+        told(0.75),
+        "layers 0 and 1: distance of solids up to 2; max_error 0.75: by BVH traversal, error at "
+        "most 0.75");
 }
 
 // By hand: the third layer has an empty name, and the fourth is in no pair.
@@ -418,9 +420,9 @@ TEST_F(CSceneHostile, MessagesAndTextsNameTheLayers) {
     cdprep_plan* plan = nullptr;
     cdprep_error error;
     EXPECT_EQ(cdprep_plan_compile(&changed, nullptr, nullptr, &plan, &error), CDPREP_BAD_ARGUMENT);
-    EXPECT_STREQ(error.message,
-                 "options.layer_pairs[2] is of layers 'floor' and 'crates', and so is "
-                 "options.layer_pairs[1].");
+    EXPECT_STREQ(
+        error.message,
+        "options.layer_pairs[2] has the layers 'floor' and 'crates', like options.layer_pairs[1].");
     changed.layer_pair_count = 2;
     plan = compiled(changed);
     std::array<char, 2000> text{};
@@ -431,17 +433,17 @@ TEST_F(CSceneHostile, MessagesAndTextsNameTheLayers) {
     EXPECT_EQ(told.substr(0, told.find("models of layers ")),
               "layers 'floor' and 2: collide\n"
               "layers 'crates' and 'floor': collide\n"
-              "not computed, for no pair of layers asks: overlap, within, distance, contacts, "
+              "not requested by any pair of layers: overlap, within, distance, contacts, "
               "continuous, self, haptic\n"
-              "layers that are never looked at together: 'floor' and 'floor', 'crates' and "
+              "layers never tested against each other: 'floor' and 'floor', 'crates' and "
               "'crates', 'crates' and 2, 2 and 2\n"
-              "layers in no pair, whose objects are never looked at: 'debris'\n");
+              "layers in no pair, whose objects are never tested: 'debris'\n");
     EXPECT_NE(told.find("models of layers 'floor', 'crates' and 2 must serve collide; "),
               std::string::npos);
     EXPECT_EQ(cdprep_scene_size(plan, &size, nullptr), CDPREP_OK);
     EXPECT_NE(told.find("\nthe state of a scene: "), std::string::npos);
-    const std::string end =
-        "with the results of C: " + std::to_string(size) + " bytes, cdprep_scene_size()\n";
+    const std::string end = "with the results of the C API: " + std::to_string(size) +
+                            " bytes, as cdprep_scene_size() returns\n";
     EXPECT_EQ(told.substr(told.size() - std::min(told.size(), end.size())), end);
     cdprep_plan_end(plan);
 }
@@ -769,15 +771,15 @@ TEST_F(CSceneHostile, CandidatesAreChecked) {
     const std::vector<WrongCandidates> all = {
         {{{0, 4}},
          CDPREP_WHY_OUT_OF_RANGE,
-         "candidates[0] is slots 0 and 4; the first must be less than the second, and that less "
+         "candidates[0] has slots 0 and 4; the first must be less than the second, and both less "
          "than 4."},
         {{{0, 1}, {1, UINT32_MAX}}, CDPREP_WHY_OUT_OF_RANGE, nullptr},
         {{{1, 1}}, CDPREP_WHY_OUT_OF_RANGE, nullptr},
         {{{0, 1}, {3, 1}}, CDPREP_WHY_OUT_OF_RANGE, nullptr},
         {{{0, 1}, {0, 1}},
          CDPREP_WHY_OUT_OF_RANGE,
-         "candidates[1] is slots 0 and 1 after 0 and 1; candidates must be sorted, and each occur "
-         "once."},
+         "candidates[1] has slots 0 and 1 after 0 and 1; candidates must be sorted and "
+         "unique."},
         {{{0, 3}, {0, 1}}, CDPREP_WHY_OUT_OF_RANGE, nullptr},
         {{{1, 3}, {0, 3}}, CDPREP_WHY_OUT_OF_RANGE, nullptr},
         {{{0, 1}, {1, 2}}, CDPREP_WHY_STALE, "candidates[1] names slot 2, which has no object."},

@@ -149,7 +149,7 @@ TEST_F(CWindow, NumbersStayFinite) {
     EXPECT_EQ(found.lower, 0x1p1000);
 }
 
-TEST_F(CWindow, ItServesSurfacesAloneAndIsNotClosed) {
+TEST_F(CWindow, ItServesSurfacesAloneAndIsNotBalanced) {
     fill({1, 0, 0.45}, 0.1);
     const cdprep_model* const model = cdprep_window_model(window_);
     cdprep_error error;
@@ -165,7 +165,7 @@ TEST_F(CWindow, ItServesSurfacesAloneAndIsNotClosed) {
     EXPECT_EQ(cdprep_model_corners(model, &none, 1, &corners, &error), CDPREP_BAD_ARGUMENT);
     cdprep_model_info info{};
     ASSERT_EQ(cdprep_model_describe(model, &info, nullptr), CDPREP_OK);
-    EXPECT_EQ(info.closed, std::uint32_t{CDPREP_NO});
+    EXPECT_EQ(info.balanced, std::uint32_t{CDPREP_NO});
     cdprep_model_close(const_cast<cdprep_model*>(model));
     EXPECT_EQ(cdprep_model_serves(cdprep_window_model(window_), CDPREP_ASK_TOUCH, nullptr),
               CDPREP_OK);

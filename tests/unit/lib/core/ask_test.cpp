@@ -141,7 +141,7 @@ TEST(Refusal, TellsWhatWasNotOpenedFromWhatWasNotBaked) {
     EXPECT_FALSE(opened.value().refusal(Ask::ray));
 }
 
-TEST(Refusal, KnowsThatOnlyClosedMeshesHaveMass) {
+TEST(Refusal, KnowsThatOnlyBalancedMeshesHaveMass) {
     const auto cube = test::open_tiny(baked_cube());
     EXPECT_NE(cube.model.refusal(Ask::response)->message.find("with --effects response"),
               std::string::npos);

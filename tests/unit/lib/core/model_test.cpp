@@ -212,7 +212,7 @@ TEST(Model, SaysWhatIsWrongWithAFile) {
     EXPECT_NE(sentence(scratch.path()).find("not a regular file"), std::string::npos);
     EXPECT_NE(sentence(scratch.write("empty", "")).find("has 0 bytes"), std::string::npos);
     EXPECT_NE(sentence(scratch.write("cut", bytes.span().first(bytes.size() - 1)))
-                  .find("but its header says " + std::to_string(bytes.size())),
+                  .find("but its header states " + std::to_string(bytes.size())),
               std::string::npos);
     AlignedBytes flipped(bytes.span());
     flipped.span()[bytes.size() - 64] ^= std::byte{1};

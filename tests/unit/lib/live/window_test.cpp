@@ -484,7 +484,7 @@ TEST(WindowDeathTest, AnotherModelStopsTheProgram) {
     OwnedWindow owned = window_of(3);
     Workspace workspace;
     EXPECT_DEATH((void)owned.window.distance({cube.model, cube.model, shifted({})}, workspace),
-                 "another model");
+                 "must be the model of the window");
 }
 
 /// Two windows. One thread fills one of them while another thread reads the other.

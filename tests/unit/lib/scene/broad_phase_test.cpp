@@ -461,9 +461,11 @@ TEST(BroadPhaseDeathTest, StopsOnWrongSizes) {
     BroadPhase small = made_for(9, 100), enough = made_for(10, 100);
     EXPECT_DEATH((void)small.update(boxes), "was made for fewer boxes");
     EXPECT_DEATH((void)enough.update(boxes, filters), "needs a filter for each box");
-    EXPECT_DEATH((void)enough.update_moved(boxes, {}, moved), "differs from the last one");
+    EXPECT_DEATH((void)enough.update_moved(boxes, {}, moved),
+                 "differs from that of the last update");
     (void)enough.update(boxes);
-    EXPECT_DEATH((void)enough.update_moved(boxes, {}, moved), "does not exist");
+    EXPECT_DEATH((void)enough.update_moved(boxes, {}, moved),
+                 "number of a moved box is out of range");
 }
 
 }  // namespace

@@ -106,8 +106,7 @@ TEST(ObjectBoxDeathTest, AReachThatIsNoLengthEndsTheProgram) {
     const test::OpenModel ball = test::open_tiny(test::icosphere(1));
     for (const double reach : {-1.0, -0x1p-1060, std::numeric_limits<double>::infinity(),
                                std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_DEATH((void)root_box(ball.model, {}, reach),
-                     "The reach of a box is a finite number");
+        EXPECT_DEATH((void)root_box(ball.model, {}, reach), "The reach of a box must be finite");
     }
     const test::AlignedBytes bytes =
         test::bake_tiny(test::icosphere(1).positions, test::icosphere(1).triangles);

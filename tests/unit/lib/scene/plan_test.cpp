@@ -62,15 +62,14 @@ TEST(Plan, DropsWhatNobodyAsksFor) {
     EXPECT_EQ(plan.reach_of(1), 1);
     EXPECT_FALSE(plan.filter_of(0).allows(plan.filter_of(3)));
     EXPECT_TRUE(plan.filter_of(3).allows(plan.filter_of(1)));
-    EXPECT_EQ(
-        effects_of(plan),
-        "layers 0 and 1: collide\n"
-        "layers 3 and 1: within 0.5 (mostly from distance), distance up to 2\n"
-        "not computed, for no pair of layers asks: overlap, contacts, continuous, self, haptic\n"
-        "layers that are never looked at together: 0 and 0, 0 and 3, 1 and 1, 3 and 3\n"
-        "layers in no pair, whose objects are never looked at: 2\n");
+    EXPECT_EQ(effects_of(plan),
+              "layers 0 and 1: collide\n"
+              "layers 3 and 1: within 0.5 (mostly from distance), distance up to 2\n"
+              "not requested by any pair of layers: overlap, contacts, continuous, self, haptic\n"
+              "layers never tested against each other: 0 and 0, 0 and 3, 1 and 1, 3 and 3\n"
+              "layers in no pair, whose objects are never tested: 2\n");
     EXPECT_EQ(effects_of(*compiled({}).plan),
-              "not computed, for no pair of layers asks: collide, overlap, within, distance, "
+              "not requested by any pair of layers: collide, overlap, within, distance, "
               "contacts, continuous, self, haptic\n");
 }
 
@@ -101,31 +100,30 @@ TEST(Plan, DescribesListsAndTheirLimits) {
     EXPECT_EQ(effects_of(*made.plan),
               "layers 0 and 0: collide, proper (from overlap), overlap, proper, contacts within "
               "0.25, at most 8, work 1000\n"
-              "not computed, for no pair of layers asks: within, distance, continuous, self, "
+              "not requested by any pair of layers: within, distance, continuous, self, "
               "haptic\n");
     EXPECT_EQ(made.plan->reach_of(0), 0.125);
 }
 
 constexpr const char* kChangingContacts =
-    "Pair 0 of layers: contacts of models that deform or tear are not built: pieces do not follow "
-    "the surface. Ask for overlap, within or distance.";
+    "Pair 0 of layers: contacts is not supported for models that deform or tear: pieces do not "
+    "follow the surface. Use overlap, within or distance.";
 constexpr const char* kChangingContinuous =
-    "Pair 0 of layers: continuous is not built for models that deform or tear. Ask for within, or "
-    "use a Sweep.";
+    "Pair 0 of layers: continuous is not supported for models that deform or tear. Use within or a "
+    "Sweep.";
 constexpr const char* kSelfOfTwo =
-    "Pair 0 of layers: self is about single objects. Ask for it in a pair of one layer with "
-    "itself.";
+    "Pair 0 of layers: self tests single objects. Request it for a pair of one layer with itself.";
 constexpr const char* kTwoDistances =
-    "Pair 0 of layers: haptic is a distance within a limit of work. Ask for haptic or for "
-    "distance.";
+    "Pair 0 of layers: haptic is a distance within a limit of work. Request haptic or distance, "
+    "not both.";
 constexpr const char* kSolidHaptic =
-    "Pair 0 of layers: haptic is about surfaces. Ask for distance of solids.";
+    "Pair 0 of layers: haptic supports surfaces only. Use distance for solids.";
 
 /// The refusal of an effect that scenes do not compute.
 std::string unbuilt(const std::string& name) {
     return "Pair 0 of layers: " + name +
-           " is not built in a scene. Built are collide, overlap, within, distance, contacts, "
-           "continuous, self, haptic, deform and tear.";
+           " is not supported in a scene. Supported effects: collide, overlap, within, distance, "
+           "contacts, continuous, self, haptic, deform and tear.";
 }
 
 /// The refusals of a pair of layers, as the header tells them.
@@ -249,7 +247,7 @@ TEST(Plan, ChoosesTheWalkWherePartsDoNotCertify) {
     const std::string text = made.plan->describe();
     EXPECT_EQ(text.substr(0, text.find('\n')),
               "layers 0 and 1: collide of solids, distance of solids up to 2; max_error "
-              "0.37499999999999994: by the walk, error at most 0.37499999999999994");
+              "0.37499999999999994: by BVH traversal, error at most 0.37499999999999994");
     // Without max_error, nothing is permitted, and nothing told.
     EXPECT_EQ(rung_of(near_solids(0), {with_parts(3, 1, 0)}).rung, Rung::walk);
     EXPECT_EQ(compiled({near_solids(0)}, models).plan->describe().find("max_error"),
@@ -345,15 +343,17 @@ TEST(Plan, DescribesMotionsChangesAndSingleObjects) {
               "layers 1 and 1: models may tear, overlap\n"
               "layers 2 and 2: continuous of solids with tolerance 0.5\n"
               "layers 2 and 3: haptic up to 4, work 300\n"
-              "not computed, for no pair of layers asks: within, distance, contacts\n"
-              "layers that are never looked at together: 0 and 0, 0 and 2, 0 and 3, 1 and 2, 1 "
+              "not requested by any pair of layers: within, distance, contacts\n"
+              "layers never tested against each other: 0 and 0, 0 and 2, 0 and 3, 1 and 2, 1 "
               "and 3, 3 and 3\n");
     const Plan& plan = *made.plan;
     // Layers 0 and 1 have models that change, 2 and 3 have none.
     const std::string text = plan.describe();
-    EXPECT_TRUE(line_of(text, "models of layer 0 must").ends_with("must serve that too"));
-    EXPECT_TRUE(line_of(text, "models of layer 1 must").ends_with("must serve that too"));
-    EXPECT_EQ(line_of(text, "models of layer 2 must").find("that too"), std::string::npos);
+    EXPECT_TRUE(
+        line_of(text, "models of layer 0 must").ends_with("must also serve deform or tear"));
+    EXPECT_TRUE(
+        line_of(text, "models of layer 1 must").ends_with("must also serve deform or tear"));
+    EXPECT_EQ(line_of(text, "models of layer 2 must").find("also serve"), std::string::npos);
     EXPECT_GT(line_of(text, "models of layer 3 must serve haptic;").size(), 50U);
     EXPECT_EQ(plan.effects(), Ask::self | Ask::deform | Ask::tear | Ask::collide | Ask::overlap |
                                   Ask::continuous | Ask::haptic);
@@ -366,7 +366,7 @@ TEST(Plan, DescribesMotionsChangesAndSingleObjects) {
     EXPECT_EQ(
         compiled({{.effects = Ask::continuous, .impact = {.tolerance = 0.5}}}).plan->reach_of(0),
         0.25);
-    // A pair that asks for nothing of two objects: not even their boxes are looked at.
+    // A pair that asks for nothing of two objects: not even their boxes are tested.
     EXPECT_FALSE(plan.filter_of(0).allows(plan.filter_of(0)));
     EXPECT_TRUE(plan.filter_of(0).allows(plan.filter_of(1)));
     EXPECT_TRUE(plan.filter_of(3).allows(plan.filter_of(2)));
@@ -447,11 +447,11 @@ TEST(Plan, TellsLayersInNoPair) {
     EXPECT_EQ(effects_of(*made.plan),
               "layers 'floor' and 'crates': collide\n"
               "layers 2 and 2: self (each object)\n"
-              "not computed, for no pair of layers asks: overlap, within, distance, contacts, "
+              "not requested by any pair of layers: overlap, within, distance, contacts, "
               "continuous, haptic\n"
-              "layers that are never looked at together: 'floor' and 'floor', 'floor' and 2, "
+              "layers never tested against each other: 'floor' and 'floor', 'floor' and 2, "
               "'crates' and 'crates', 'crates' and 2, 2 and 2\n"
-              "layers in no pair, whose objects are never looked at: 'debris', 9 and 31\n");
+              "layers in no pair, whose objects are never tested: 'debris', 9 and 31\n");
 }
 
 // The sections are those of the table of needs: each name is told, and no other.
@@ -503,9 +503,9 @@ TEST(Plan, NamesLayers) {
     EXPECT_EQ(effects_of(*made.plan),
               "layers 'floor' and 'crates': collide\n"
               "layers 'crates' and 2: within 0.5\n"
-              "not computed, for no pair of layers asks: overlap, distance, contacts, continuous, "
+              "not requested by any pair of layers: overlap, distance, contacts, continuous, "
               "self, haptic\n"
-              "layers that are never looked at together: 'floor' and 'floor', 'floor' and 2, "
+              "layers never tested against each other: 'floor' and 'floor', 'floor' and 2, "
               "'crates' and 'crates', 2 and 2\n");
     const std::vector<LayerPair> wrong = {{.a = 0, .b = 1, .effects = Ask::collide},
                                           {.a = 1, .b = 0, .effects = Ask::within},
@@ -518,12 +518,12 @@ TEST(Plan, NamesLayers) {
             .refusals,
         Sentences({"Pair 1 of layers, 'crates' and 'floor': layers 'crates' and 'floor' are "
                    "also those of pair 0.",
-                   "Pair 2 of layers, 2 and 2: ray is not built in a scene. Built are collide, "
-                   "overlap, within, distance, contacts, continuous, self, haptic, deform and "
-                   "tear.",
-                   "arm.cdp.h5: its layer 'crates' asks for within, which the model does not "
+                   "Pair 2 of layers, 2 and 2: ray is not supported in a scene. Supported effects: "
+                   "collide, overlap, within, distance, contacts, continuous, self, haptic, deform "
+                   "and tear.",
+                   "arm.cdp.h5: its layer 'crates' requests within, which the model does not "
                    "serve. Bake it with --effects within.",
-                   "cup.cdp.h5: its layers 'floor' and 'crates' ask for collide, which the "
+                   "cup.cdp.h5: its layers 'floor' and 'crates' request collide, which the "
                    "model does not serve. Bake it with --effects collide."}));
 }
 
@@ -538,9 +538,9 @@ TEST(Plan, SaysHowToBakeAllThatAModelLacks) {
     EXPECT_EQ(
         Plan::compile({.pairs = pairs, .models = models, .limits = kLimits, .layer_names = names})
             .refusals,
-        Sentences({"x: its layer 'floor' asks for collide, contacts and solid, which the model "
+        Sentences({"x: its layer 'floor' requests collide, contacts and solid, which the model "
                    "does not serve. Bake it with --effects collide,contacts.",
-                   "y: its layer 'crates' asks for distance, contacts and solid, which the model "
+                   "y: its layer 'crates' requests distance, contacts and solid, which the model "
                    "does not serve. Bake it with --effects distance,contacts,collide."}));
 }
 
@@ -552,7 +552,7 @@ TEST(Plan, SaysHowToBakeWhatAModelLacks) {
         {.name = "cup.cdp.h5", .serves = Ask::collide, .layers = 4},
         {.name = "part.cdp.h5", .serves = Ask::distance | Ask::ray, .layers = 3}};
     EXPECT_EQ(compiled(pairs, models).refusals,
-              Sentences({"arm.cdp.h5: its layers ask for distance, which the model does not serve. "
+              Sentences({"arm.cdp.h5: its layers request distance, which the model does not serve. "
                          "Bake it with --effects distance."}));
 }
 
