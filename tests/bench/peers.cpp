@@ -18,11 +18,13 @@
 // "absent"}; vertices and facets are of hulls alone.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -88,11 +90,11 @@ std::vector<Case> read_cases(const std::filesystem::path& path) {
         words >> made.letters;
         for (double& number : rows) words >> number;
         auto pose = Pose::from_rows(rows);
-        if (!words || !pose) stop(path.string() + ": a line is no pose.");
+        if (!words || !pose) stop(path.string() + ": a line is not a pose.");
         made.a_from_b = pose.value();
         cases.push_back(std::move(made));
     }
-    if (cases.empty()) stop(path.string() + " holds no pose.");
+    if (cases.empty()) stop(path.string() + " contains no pose.");
     return cases;
 }
 
@@ -138,8 +140,9 @@ public:
         return "FCL " FCL_VERSION;
     }
     [[nodiscard]] std::string note() const override {
-        return "oriented boxes for collide and overlap, swept rectangles for distance, as PQP, of "
-               "which it descends; it has no tolerance question: its distance answers that";
+        return "oriented boxes for collide and overlap, swept rectangles for distance, as in PQP, "
+               "from which FCL is derived; it has no tolerance query: its distance query answers "
+               "that";
     }
     [[nodiscard]] std::string find_reason(char /*letter*/) const override {
         return "";
@@ -153,6 +156,11 @@ public:
             return result.numContacts();
         }
         fcl::DistanceResultd result;
+        // Its search visits nothing beyond the distance that it has found.
+        if (letter == 'w') {
+            result.min_distance =
+                std::nextafter(tolerance_, std::numeric_limits<double>::infinity());
+        }
         fcl::distance(&spheres_a_, fcl::Transform3d::Identity(), &spheres_b_, placed,
                       fcl::DistanceRequestd(false, false, 0, 0), result);
         if (letter == 'd') return result.min_distance > 0 ? 1 : 0;
@@ -183,8 +191,8 @@ public:
     }
     [[nodiscard]] std::string find_reason(char letter) const override {
         if (letter == 'c') return "";
-        return letter == 'o' ? "gives contacts, not pairs of triangles"
-                             : "has no distances of meshes";
+        return letter == 'o' ? "finds contacts, not pairs of triangles"
+                             : "has no distance query for meshes";
     }
     std::size_t ask(char /*letter*/, const Pose& a_from_b) override {
         const auto& r = a_from_b.rotation();
@@ -273,10 +281,10 @@ public:
         return "Bullet " + std::to_string(BT_BULLET_VERSION) + " (GImpact)";
     }
     [[nodiscard]] std::string note() const override {
-        return "single precision, as its package is built; margin 0";
+        return "single precision, like its package; margin 0";
     }
     [[nodiscard]] std::string find_reason(char letter) const override {
-        return letter == 'c' || letter == 'o' ? "" : "has no distances of meshes";
+        return letter == 'c' || letter == 'o' ? "" : "has no distance query for meshes";
     }
     std::size_t ask(char letter, const Pose& a_from_b) override {
         const auto& r = a_from_b.rotation();
@@ -359,7 +367,8 @@ public:
     }
     [[nodiscard]] std::string find_reason(char letter) const override {
         if (letter == 'c') return "";
-        return letter == 'o' ? "tells that meshes meet, not where" : "has no distances of meshes";
+        return letter == 'o' ? "tests whether meshes collide, but lists no triangles"
+                             : "has no distance query for meshes";
     }
     std::size_t ask(char /*letter*/, const Pose& a_from_b) override {
         const auto& r = a_from_b.rotation();
@@ -500,12 +509,12 @@ public:
         return "Embree " RTC_VERSION_STRING;
     }
     [[nodiscard]] std::string note() const override {
-        return "rtcCollide: pairs of boxes, held against each other here by signs of volumes in "
-               "float; boxes do not turn, so B is moved and its tree refitted at each pose, and "
-               "there is no end at the first hit";
+        return "rtcCollide: pairs of boxes, whose triangles are tested here by signs of volumes in "
+               "float; boxes cannot rotate, so B is moved and its tree is refitted at each pose; "
+               "the search does not end at the first hit";
     }
     [[nodiscard]] std::string find_reason(char letter) const override {
-        return letter == 'c' || letter == 'o' ? "" : "has no distances of meshes";
+        return letter == 'c' || letter == 'o' ? "" : "has no distance query for meshes";
     }
     std::size_t ask(char letter, const Pose& a_from_b) override {
         b_.move(a_from_b);
@@ -764,16 +773,16 @@ int build_all(const std::vector<std::string>& arguments) {
 #ifdef CDPREP_HAVE_FCL
     builds.add("fcl", "FCL " FCL_VERSION, "oriented boxes",
                [&] { return timed([&] { return fcl_model<fcl::OBBd>(model); }); });
-    builds.add("fcl_swept", "FCL " FCL_VERSION, "swept rectangles, as PQP",
+    builds.add("fcl_swept", "FCL " FCL_VERSION, "swept rectangles, as in PQP",
                [&] { return timed([&] { return fcl_model<fcl::RSSd>(model); }); });
 #endif
 #ifdef CDPREP_HAVE_ODE
-    builds.add("ode", "ODE 0.16 (OPCODE)", "copies of the triangles included",
+    builds.add("ode", "ODE 0.16 (OPCODE)", "includes copies of the triangles",
                [&] { return timed([&] { return std::make_unique<Ode::Alone>(model); }); });
 #endif
 #ifdef CDPREP_HAVE_BULLET
     builds.add("bullet", "Bullet " + std::to_string(BT_BULLET_VERSION) + " (GImpact)",
-               "copies of the triangles included",
+               "includes copies of the triangles",
                [&] { return timed([&] { return std::make_unique<Bullet::Body>(model); }); });
 #endif
 #ifdef CDPREP_HAVE_CGAL
@@ -797,7 +806,7 @@ int main_of(const std::vector<std::string>& words) {
     const std::vector<std::string> rest(words.begin() + (words.empty() ? 0 : 1), words.end());
     if (!words.empty() && words[0] == "pair" && rest.size() == 6) return ask_pair(rest);
     if (!words.empty() && words[0] == "build" && rest.size() == 3) return build_all(rest);
-    stop("Usage: see the head of peers.cpp.");
+    stop("Usage: see the comment at the top of peers.cpp.");
 }
 
 }  // namespace
