@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Halves and doubles every named constant of decomposition, one at a time, and prints a CSV
-row for each: how many pieces, how large an error and how much time a few requests then take.
+"""Halves and doubles named constants of decomposition, one at a time, and writes a CSV row for
+each: how many pieces or parts, how large an error and how much time a few requests then take.
 
 Builds a copy of the sources in FOLDER in which each constant of tools/decompose/enclose and
 tools/decompose/surface reads a factor from the environment, so that one build answers for all.
 A constant that sizes an array or is an argument of a template keeps its value and is listed as
 `fixed`. Whole numbers are rounded, and stay 1 or more.
 
-  pieces:  of all requests together, and of the request that changed most, in per cent.
+  count:   pieces and parts of all requests together, and of the request that changed most, in per
+           cent. Constants of drop_points.cpp have requests of their own, to `export`: the points
+           it writes.
   error:   the proved outer error beside that with the written value, as ratios: the geometric
            mean over all requests, and the request that changed most. Errors below a ten
            thousandth of the diagonal count as that.
@@ -17,11 +19,16 @@ A constant that sizes an array or is an argument of a template keeps its value a
   same:    whether all reports are equal, apart from their times.
 
 Usage: vary_constants.py CDPREP FOLDER [--again] [--models FOLDER_OF_MODELS] [--rounds N]
-                         [--only NAME,...]
+                         [--only NAME,...] [--into TABLE]
 --again asks the program that an earlier run built in FOLDER.
-CDPREP closes the horse. FOLDER_OF_MODELS holds horse.ply, and need not be there.
+--only measures these constants, such as drop_points.kPads; otherwise all.
+--into puts the rows into a table of an earlier run. Without --only, it measures the constants that
+the table lacks, or has with another value. Rows of constants that are gone leave the table.
+CDPREP closes the horse, and bakes what is exported. FOLDER_OF_MODELS holds horse.ply, and need not
+be there.
 """
 import argparse
+import csv
 import json
 import math
 import os
@@ -34,14 +41,13 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-NEEDED = ("cli", "command_line", "decompose", "hull", "import", "mesh", "text", "write")
+NEEDED = ("cli", "command_line", "decompose", "export", "hull", "import", "mesh", "text", "write")
 ROOMS = ("tools/decompose/enclose", "tools/decompose/surface")
 TYPE = r"double|float|std::size_t|std::u?int\d+_t|unsigned|int"
 NAMED = re.compile(rf"^(\s*)((?:inline |static )*)constexpr ({TYPE}) (k\w+) = ([^;]+);", re.M)
-# Limits of options that no caller sets.
-OPTIONS = {"piece_cover.h": ["margin"], "face_cells.h": ["most_cells"],
-           "hull_error.h": ["most_cells"], "solid_cells.h": ["most_cells", "most_fragments"],
-           "surface_pieces.h": ["most_work"]}
+# Defaults of options that bound what a caller sets.
+OPTIONS = {"hull_error.h": ["most_cells"], "solid_cells.h": ["most_cells"]}
+COLUMNS = "constant,value,factor,count,count_most_percent,error_mean,error_most,seconds,same"
 VARIED = """#pragma once
 #include <algorithm>
 #include <cmath>
@@ -114,7 +120,8 @@ def build(folder):
         if path.is_dir() and path.name not in (*NEEDED, "page"):
             shutil.rmtree(path)
     main = source / "tools/cli/main.cpp"
-    main.write_text(re.sub(r"    add_(?!decompose)\w+\(root, exit\);\n", "", main.read_text()))
+    main.write_text(re.sub(r"    add_(?!decompose|export)\w+\(root, exit\);\n", "",
+                           main.read_text()))
     (source / "tools/decompose/varied.h").write_text(VARIED)
     fixed = set()
     while True:
@@ -145,6 +152,25 @@ def built(folder):
     return program, found, {key for key in found if key.encode() + b"\0" not in code}
 
 
+def exports(cdprep, folder, models):
+    """The same as requests(), for drop_points.cpp."""
+    kettle, meshes = folder / "kettle.obj", ROOT / "samples/meshes"
+    subprocess.run([sys.executable, ROOT / "tests/engines/make_kettle.py", kettle], check=True)
+    sources = [(meshes / "bolt.obj", "mm", "--max-error", "0.5"),
+               (meshes / "bracket.obj", "mm", "--max-error", "0.5"),
+               (kettle, "m", "--parts", "32")]
+    if models and models.exists():
+        sources.append((models / "horse.ply", "m", "--parts", "16"))
+    asked = []
+    for source, unit, *limits in sources:
+        baked = folder / f"{source.stem}.cdp.h5"
+        subprocess.run([cdprep, "bake", source, "-o", baked, "--unit", unit, "--structures", "hull",
+                        *limits], check=False, stdout=subprocess.DEVNULL)
+        asked.append((f"{source.stem} exported", ["export", baked, "--for", "godot", "--no-visual",
+                                                  "-o", folder / f"{source.stem}.glb"]))
+    return asked
+
+
 def requests(cdprep, folder, models):
     """What is asked of what: [(name, arguments)]."""
     meshes = ROOT / "samples/meshes"
@@ -161,7 +187,7 @@ def requests(cdprep, folder, models):
                   ("horse sheet", [models / "horse.ply", "--parts", "12", "--to-surface"]),
                   ("horse little work", [closed, "--parts", "16", "--work", "6000000"]),
                   ("horse tolerance", [closed, "--tolerance", "0.0005"])]
-    return asked
+    return [(name, ["decompose", *arguments]) for name, arguments in asked]
 
 
 def ask(program, asked, key="", factor=1.0):
@@ -170,10 +196,17 @@ def ask(program, asked, key="", factor=1.0):
     reports, before = [], resource.getrusage(resource.RUSAGE_CHILDREN)
     for _, arguments in asked:
         try:
-            done = subprocess.run([program, "decompose", *arguments, "--format", "json"],
-                                  env=env, text=True, capture_output=True, timeout=300)
+            done = subprocess.run([program, *arguments, "--format", "json"], env=env, text=True,
+                                  capture_output=True, timeout=300)
             reports.append(json.loads(done.stdout))
             reports[-1].pop("seconds", None)
+            if "stored_points" in reports[-1]:  # of an export
+                reports[-1].update(count=reports[-1]["points"],
+                                   diagonal=math.hypot(*reports[-1]["size"]))
+                continue
+            for key_of_count in ("pieces", "parts"):
+                if key_of_count in reports[-1]:
+                    reports[-1]["count"] = reports[-1][key_of_count]
         except (subprocess.TimeoutExpired, json.JSONDecodeError):
             reports.append(None)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -181,17 +214,43 @@ def ask(program, asked, key="", factor=1.0):
 
 
 def compare(base, now):
-    """Pieces and errors of reports beside those of others: a list of CSV fields."""
-    pairs = [(a, b) for a, b in zip(base, now) if a and b and "pieces" in a and "pieces" in b]
-    pieces = sum(b["pieces"] for _, b in pairs)
-    worst = max(pairs, key=lambda p: abs(p[1]["pieces"] / p[0]["pieces"] - 1))
+    """Counts and errors of reports beside those of others: a list of CSV fields."""
+    pairs = [(a, b) for a, b in zip(base, now) if a and b and "count" in a and "count" in b]
+    count = sum(b["count"] for _, b in pairs)
+    worst = max(pairs, key=lambda p: abs(p[1]["count"] / p[0]["count"] - 1))
     least = [1e-4 * a.get("diagonal", 0) for a, _ in pairs]  # below, all errors count as equal
     errors = [max(b["outer_error"], low) / max(a["outer_error"], low)
               for (a, b), low in zip(pairs, least) if low]
     mean = math.exp(sum(map(math.log, errors)) / len(errors)) if errors else 1
     most = max(errors, key=lambda r: abs(math.log(r)), default=1)
-    return [str(pieces), f"{100 * (worst[1]['pieces'] / worst[0]['pieces'] - 1):+.0f}",
+    return [str(count), f"{100 * (worst[1]['count'] / worst[0]['count'] - 1):+.0f}",
             f"{mean:.3f}", f"{most:.3f}"]
+
+
+def measure(program, asked, base, beside, key, value, rounds):
+    """The rows of a constant, beside the reports and the time with its written value."""
+    rows = []
+    for factor in (0.5, 2.0):
+        ratios = []
+        for _ in range(rounds):
+            now, seconds = ask(program, asked, key, factor)
+            ratios.append(seconds / beside)
+        rows.append([key, value, str(factor), *compare(base, now),
+                     f"{statistics.median(ratios):.2f}", "yes" if now == base else "no"])
+    return rows
+
+
+def read_table(path):
+    """The comments of a table, and its rows by constant."""
+    lines = path.read_text().splitlines()
+    rows = {}
+    for row in csv.reader(line for line in lines if not line.startswith(("#", "constant,"))):
+        rows.setdefault(row[0], []).append(row)
+    return [line for line in lines if line.startswith("#")], rows
+
+
+def line_of(row):
+    return f'{row[0]},"{row[1]}",{",".join(row[2:])}'
 
 
 def main():
@@ -202,32 +261,46 @@ def main():
     parser.add_argument("--models", type=pathlib.Path)
     parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--only", default="")
+    parser.add_argument("--into", type=pathlib.Path)
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
-    program, found, fixed = (built if options.again else build)(options.folder.resolve())
-    asked = requests(options.cdprep.resolve(), options.folder.resolve(), options.models)
-    only = set(filter(None, options.only.split(",")))
-    base = ask(program, asked)[0]
-    print("# requests: " + "; ".join(name for name, _ in asked))
-    print(f"# with the written values: {sum(r['pieces'] for r in base)} pieces")
-    print("constant,value,factor,pieces,pieces_most_percent,error_mean,error_most,seconds,same")
-    for number, (key, value) in enumerate(sorted(found.items())):
-        if number % 10 == 0:
-            beside = ask(program, asked)[1]
-        if only and key not in only:
+    folder, cdprep = options.folder.resolve(), options.cdprep.resolve()
+    comments, table = read_table(options.into) if options.into else ([], {})
+    program, found, fixed = (built if options.again else build)(folder)
+    wanted = set(filter(None, options.only.split(",")))
+    if wanted - set(found):
+        sys.exit("no such constant: " + ", ".join(sorted(wanted - set(found))))
+    wanted = wanted or {key for key, value in found.items()
+                        if key not in table or table[key][0][1] != value}
+    rows, heads = {}, []
+    for group, prepare in ((False, requests), (True, exports)):
+        keys = sorted(key for key in wanted if key.startswith("drop_points.") == group)
+        if not set(keys) - fixed:
+            rows.update((key, [[key, found[key], "fixed"] + 6 * [""]]) for key in keys)
             continue
-        if key in fixed:
-            print(f'{key},"{value}",fixed,,,,,,', flush=True)
-            continue
-        for factor in (0.5, 2.0):
-            ratios = []
-            for _ in range(options.rounds):
-                now, seconds = ask(program, asked, key, factor)
-                ratios.append(seconds / beside)
-            row = compare(base, now)
-            same = "yes" if now == base else "no"
-            print(f'{key},"{value}",{factor},{",".join(row)},{statistics.median(ratios):.2f},'
-                  f"{same}", flush=True)
+        asked = prepare(cdprep, folder, options.models)
+        base = ask(program, asked)[0]
+        failed = [name for (name, _), report in zip(asked, base) if "count" not in (report or ())]
+        if failed:
+            sys.exit("failed: " + ", ".join(failed))
+        heads += ["# requests: " + "; ".join(name for name, _ in asked),
+                  f"# with the written values: {sum(r['count'] for r in base)} "
+                  + ("points" if group else "pieces and parts")]
+        for number, key in enumerate(keys):
+            if number % 10 == 0:
+                beside = ask(program, asked)[1]
+            rows[key] = ([[key, found[key], "fixed"] + 6 * [""]] if key in fixed else
+                         measure(program, asked, base, beside, key, found[key], options.rounds))
+            print(*map(line_of, rows[key]), sep="\n", file=sys.stderr, flush=True)
+    if table and rows:
+        heads = [*comments, "# later, " + ", ".join(sorted(rows)) + ":", *heads]
+    table = {key: rows.get(key, table.get(key)) for key in found if key in rows or key in table}
+    lines = [*(heads or comments), COLUMNS,
+             *(line_of(row) for key in sorted(table) for row in table[key])]
+    if options.into:
+        options.into.write_text("\n".join(lines) + "\n")
+    else:
+        print("\n".join(lines))
 
 
 main()
