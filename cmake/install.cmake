@@ -71,6 +71,12 @@ foreach(document IN LISTS documents)
     file(WRITE ${documents_folder}/${document} "${text}")
 endforeach()
 install(DIRECTORY ${documents_folder}/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation)
+file(GLOB linked RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS
+    tools/*/*.schema.json tools/validate/RULES.md)
+foreach(file IN LISTS linked)
+    cmake_path(GET file PARENT_PATH folder)
+    install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT documentation)
+endforeach()
 install(FILES LICENSES/MIT.txt DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT documentation
     FILES_MATCHING PATTERN "*.png" PATTERN "*.svg")

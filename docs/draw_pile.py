@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Draws docs/pile.png: twenty jacks at rest in a tray, on the page of simulate --html.
+"""Draws docs/pile.png: twenty jacks that fall into a tray, on the page of simulate --html.
 
 Needs Chromium, and cdprep built with Bullet. Usage: docs/draw_pile.py CDPREP
 """
@@ -15,8 +15,8 @@ from browser import Browser  # noqa: E402  after the path is set
 
 CAMERA = """(() => {
   const view = state.view;
-  view.controls.target.set(0, 0, 0.05);
-  view.camera.position.set(0.75, -1.6, 1.45);
+  view.controls.target.set(0, 0, -0.25);
+  view.camera.position.set(0.8, -1.75, 1.3);
   view.controls.update();
 })()"""
 
