@@ -7,5 +7,5 @@ endif()
 if(NOT CMAKE_SIZEOF_VOID_P EQUAL 8 AND NOT CDPREP_PROCESSOR STREQUAL "wasm32")
     math(EXPR bits "8 * ${CMAKE_SIZEOF_VOID_P}")
     message(FATAL_ERROR "cdprep needs pointers of 64 bits, but those of this compiler have ${bits} "
-        "bits: a model of many triangles does not fit in its memory. WebAssembly alone is excepted.")
+        "bits: a model of many triangles does not fit in its memory. The only exception is WebAssembly.")
 endif()

@@ -47,7 +47,7 @@ set(tools_rooms
     "export: cli command_line decompose/enclose hull mesh text write"
     "bake: cli crossings decompose/enclose decompose/surface hull import command_line mesh repair\
  text validate validate/defects write"
-    "info: cli decompose/surface hull command_line mesh study text validate/defects"
+    "info: cli decompose/surface command_line mesh study text validate/defects"
     "study: bake decompose/enclose decompose/surface mesh"
     "accuracy: cli decompose/enclose hull command_line mesh page study text"
     "cell_searches: mesh study"
@@ -121,6 +121,24 @@ check_rooms(tools "${tools_rooms}")
 check_listed(lib "${lib_rooms}")
 check_listed(tools "${tools_rooms}")
 
+# Features that stand alone: each goes with its folder and its line in tools/cli/main.cpp.
+foreach(feature accuracy compare export info query simulate)
+    foreach(row IN LISTS tools_rooms)
+        if(row MATCHES "[: ]${feature}(/| |$)" AND NOT row MATCHES "^${feature}[:/]")
+            add_offence(${ROOT}/tools/${feature} "is used elsewhere: ${row}")
+        endif()
+    endforeach()
+    file(GLOB_RECURSE files ${ROOT}/tools/CMakeLists.txt ${ROOT}/tests/CMakeLists.txt)
+    list(FILTER files EXCLUDE REGEX "/tools/${feature}/")
+    foreach(file IN LISTS files)
+        file(STRINGS ${file} hits REGEX "cdprep_${feature}[^a-z_]")
+        list(FILTER hits EXCLUDE REGEX "^if\\(TARGET ")
+        if(hits)
+            add_offence(${file} "${hits}")
+        endif()
+    endforeach()
+endforeach()
+
 # Public headers include public headers; those of format and samples even fewer.
 function(allow_only folder pattern)
     file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp
@@ -140,6 +158,17 @@ allow_only(format/include "cdprep/format/")
 allow_only(format/src "cdprep/format/|[a-z_]+\\.h\"")
 allow_only(lib/bindings "cdprep/")
 allow_only(samples "cdprep/|bullet_(manifold|shape)\\.h\"")
+
+# The library cells is above the rest of lib, which knows none of its public headers. Its own C API
+# does.
+file(GLOB_RECURSE files ${ROOT}/lib/*.h ${ROOT}/lib/*.hpp ${ROOT}/lib/*.cpp)
+list(FILTER files EXCLUDE REGEX "/lib/(cells|include/cdprep/cells)/|/cdprep/cells\\.h$|/c_cells\\.cpp$")
+foreach(file IN LISTS files)
+    file(STRINGS ${file} hits REGEX "^ *# *include *[<\"]cdprep/cells[/.]")
+    foreach(hit IN LISTS hits)
+        add_offence(${file} "${hit}")
+    endforeach()
+endforeach()
 
 # A kernel knows nothing of ours but what kernels share, and two headers: macros, and what compilers
 # offer in different ways. Who chooses among kernels knows more.

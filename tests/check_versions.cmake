@@ -3,11 +3,11 @@
 # Run by ctest as: cmake -D ROOT=<source dir> -P check_versions.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Stores in result what stands where pattern has its parentheses, which must be found in the file.
+# Stores in result the text that the parentheses of pattern match. The file must have a match.
 function(read_version path pattern result)
     file(READ ${ROOT}/${path} text)
     if(NOT text MATCHES "${pattern}")
-        message(FATAL_ERROR "${path}: no version was found. It is looked for as ${pattern}")
+        message(FATAL_ERROR "${path}: found no version that matches ${pattern}")
     endif()
     set(${result} "${CMAKE_MATCH_1}" PARENT_SCOPE)
 endfunction()

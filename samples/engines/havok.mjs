@@ -4,9 +4,9 @@
 import { inMetres, reachOf } from './colliders.mjs';
 
 export function havokBody(havok, colliders, density) {
-    const { pieces, mass, centre, moments, axes } = inMetres(colliders, density);
+    const { parts, mass, centre, moments, axes } = inMetres(colliders, density);
     const body = havok.HP_Body_Create()[1], container = havok.HP_Shape_CreateContainer()[1];
-    for (const piece of pieces) addHull(havok, container, piece);
+    for (const part of parts) addHull(havok, container, part);
     havok.HP_Body_SetShape(body, container);
     havok.HP_Body_SetMotionType(body, havok.MotionType.DYNAMIC);
     const inertia = moments.map((x) => x / mass);  // for a mass of 1

@@ -6,8 +6,8 @@
 import { inMetres, reachOf } from './colliders.mjs';
 
 export function joltBody(Jolt, bodies, colliders, density, position, layer) {
-    const { pieces, mass, centre, moments, axes } = inMetres(colliders, density);
-    const shape = shapeOf(Jolt, pieces, centre), upright = new Jolt.Quat(0, 0, 0, 1);
+    const { parts, mass, centre, moments, axes } = inMetres(colliders, density);
+    const shape = shapeOf(Jolt, parts, centre), upright = new Jolt.Quat(0, 0, 0, 1);
     const settings = new Jolt.BodyCreationSettings(shape, position, upright,
                                                    Jolt.EMotionType_Dynamic, layer);
     settings.mOverrideMassProperties = Jolt.EOverrideMassProperties_CalculateInertia;
@@ -19,10 +19,10 @@ export function joltBody(Jolt, bodies, colliders, density, position, layer) {
     return body;
 }
 
-/** All pieces. Jolt's bodies turn about the centre of mass of their shape, so that is moved. */
-function shapeOf(Jolt, pieces, centre) {
+/** All parts. Jolt's bodies turn about the centre of mass of their shape, so that is moved. */
+function shapeOf(Jolt, parts, centre) {
     const compound = new Jolt.StaticCompoundShapeSettings();
-    for (const { points } of pieces) addHull(Jolt, compound, points);
+    for (const { points } of parts) addHull(Jolt, compound, points);
     const made = compound.Create();
     if (made.HasError()) throw new Error(`Jolt: ${made.GetError().c_str()}`);
     const at = made.Get().GetCenterOfMass(), own = [at.GetX(), at.GetY(), at.GetZ()];
@@ -30,7 +30,7 @@ function shapeOf(Jolt, pieces, centre) {
     return new Jolt.OffsetCenterOfMassShape(made.Get(), offset);
 }
 
-/** Jolt's tolerances are metres, and would lose points of small pieces or refuse them. So the hull
+/** Jolt's tolerances are metres, and would lose points of small parts or refuse them. So the hull
  *  is built with coordinates of up to 10 metres, and scaled down. */
 function addHull(Jolt, compound, points) {
     const scale = reachOf(points) / 10, p = new Jolt.Vec3(0, 0, 0);

@@ -5,10 +5,10 @@
 import { inMetres } from './colliders.mjs';
 
 export function physxBody(PhysX, physics, colliders, density, material, filter) {
-    const { pieces, mass, centre, moments, axes } = inMetres(colliders, density);
+    const { parts, mass, centre, moments, axes } = inMetres(colliders, density);
     const body = physics.createRigidDynamic(new PhysX.PxTransform(PhysX.PxIDENTITYEnum.PxIdentity));
-    for (const piece of pieces) {
-        const shape = physics.createShape(hullOf(PhysX, physics, piece), material, true);
+    for (const part of parts) {
+        const shape = physics.createShape(hullOf(PhysX, physics, part), material, true);
         shape.setSimulationFilterData(filter);
         body.attachShape(shape);
     }

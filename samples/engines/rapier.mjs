@@ -5,11 +5,11 @@
 import { inMetres } from './colliders.mjs';
 
 export function rapierBody(RAPIER, world, colliders, density) {
-    const { pieces, mass, centre, moments, axes } = inMetres(colliders, density);
+    const { parts, mass, centre, moments, axes } = inMetres(colliders, density);
     const vector = ([x, y, z, w]) => ({ x, y, z, w });
     const body = world.createRigidBody(RAPIER.RigidBodyDesc.dynamic().setAdditionalMassProperties(
         mass, vector(centre), vector(moments), vector(axes)));
-    for (const { name, points } of pieces) {
+    for (const { name, points } of parts) {
         const shape = RAPIER.ColliderDesc.convexHull(Float32Array.from(points));
         if (!shape) throw new Error(`Rapier refuses ${name}`);
         world.createCollider(shape.setDensity(0), body);

@@ -40,7 +40,7 @@ void score_refusals(const HardCaseOptions& options, Scoreboard& board);
 void score_point_sets(const HardCaseOptions& options, Scoreboard& board);
 /// S16 and K: contacts.
 void score_contacts(const HardCaseOptions& options, Scoreboard& board);
-/// D: pieces, findings and repairs.
+/// D: pieces, parts, findings and repairs.
 void score_surfaces(const HardCaseOptions& options, Scoreboard& board);
 #endif
 

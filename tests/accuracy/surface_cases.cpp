@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// D: convex pieces of surfaces, pieces that enclose solids, findings and repairs. Pieces are
+// D: convex pieces of surfaces, convex parts that enclose solids, findings and repairs. Pieces are
 // judged by exact rationals; findings are known by hand.
 #include <array>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "accuracy/exact_change.h"
 #include "accuracy/hard_cases.h"
 #include "accuracy/mesh_variants.h"
-#include "decompose/enclose/approximate_pieces.h"
+#include "decompose/enclose/approximate_parts.h"
 #include "decompose/surface/surface_pieces.h"
 #include "mesh/weld.h"
 #include "repair/repair.h"
@@ -273,9 +273,9 @@ void ask_zoo(const HardCaseOptions& options, Scoreboard& board) {
     }
 }
 
-/// D09: pieces stick out of a wall by what is permitted and no more: what is left of a slot
+/// D09: parts stick out of a wall by what is permitted and no more: what is left of a slot
 /// between two walls is free for a probe that is narrower by twice that. Where less is reached
-/// than was asked for, the pieces say so, and that counts as missed.
+/// than was asked for, the parts say so, and that counts as missed.
 void ask_slots(const HardCaseOptions& options, Scoreboard& board) {
     if (!options.wants("D09")) return;
     for (const double width : {0.5, 0.125}) {
@@ -284,26 +284,26 @@ void ask_slots(const HardCaseOptions& options, Scoreboard& board) {
         const mesh::Mesh mesh = mesh::weld(soup_of(block)).mesh;
         convex::ApproximateOptions permitted;
         permitted.max_error = 0.45 * width;
-        const convex::ApproximatePieces pieces = convex::find_approximate_pieces(mesh, permitted);
+        const convex::ApproximateParts parts = convex::find_approximate_parts(mesh, permitted);
         // In the middle of the slot, well above its ground.
         const SmallHull probe(box_corners(0.04 * width, 0.2, 0.2));
         const Placement placement = Placement::b_moves(
             Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, 1 + width / 2, 1.75, 0.5}).value());
         bool collides = false;
-        for (const convex::ApproximatePiece& piece : pieces.pieces) {
-            const SmallHull hull(piece.hull.points);
+        for (const convex::ApproximatePart& part : parts.parts) {
+            const SmallHull hull(part.hull.points);
             collides = collides || convex_collide(hull.view(), probe.view(), placement);
         }
         Tally& tally = board.of("D09", "enclosing");
         const auto told = [&] { return "D09 a slot of width " + std::to_string(width); };
-        tally.expect(pieces.proof.outside == 0, told);
-        if (!pieces.is_as_asked) {
-            tally.expect(pieces.outer_error > *permitted.max_error, told);
+        tally.expect(parts.proof.outside == 0, told);
+        if (!parts.is_as_asked) {
+            tally.expect(parts.outer_error > *permitted.max_error, told);
             ++tally.missed;
             continue;
         }
         tally.expect(!collides, told);
-        tally.expect_narrow(pieces.outer_error, *permitted.max_error, told);
+        tally.expect_narrow(parts.outer_error, *permitted.max_error, told);
     }
 }
 

@@ -40,7 +40,7 @@ inline std::vector<Pose> read_poses(const std::filesystem::path& path) {
         if (!pose) stop(path.string() + ": " + pose.error().message);
         poses.push_back(pose.value());
     }
-    if (poses.empty()) stop(path.string() + " holds no pose.");
+    if (poses.empty()) stop(path.string() + " contains no pose.");
     return poses;
 }
 

@@ -69,7 +69,7 @@ void run_stages(const TriangleSoup& soup, Times& times) {
     });
     times.take("areas and volumes", [&] {
         return measure_surface(sound, components, std::vector<bool>(components.count, false),
-                               DefectOptions{}.sliver_ratio, findings, counts);
+                               findings, counts);
     });
 }
 

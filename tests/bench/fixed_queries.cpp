@@ -75,7 +75,7 @@ double ask(const std::string& question, const Model& ball, const Model& ring, Wo
     }
     static std::array<std::uint32_t, 4096> triangles;
     if (const auto answer = ask_ring(question, ring, workspace, triangles)) return *answer;
-    std::fprintf(stderr, "fixed_queries: no question '%s'\n", question.c_str());
+    std::fprintf(stderr, "fixed_queries: no query '%s'\n", question.c_str());
     std::exit(2);
 }
 

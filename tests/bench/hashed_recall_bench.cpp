@@ -281,7 +281,8 @@ struct Arguments {
 CellSearch search_named(const char* name) {
     if (std::strcmp(name, "modulus") == 0) return CellSearch::modulus;
     if (std::strcmp(name, "mixed") == 0) return CellSearch::mixed;
-    if (std::strcmp(name, "sorted") != 0) stop(std::string(name) + " is no way to find a cell.");
+    if (std::strcmp(name, "sorted") != 0)
+        stop(std::string(name) + " is not a method to find a cell.");
     return CellSearch::sorted;
 }
 

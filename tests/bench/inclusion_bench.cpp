@@ -111,7 +111,7 @@ void measure_file(const char* path, const test::Division& division, int rounds) 
     if (bytes.empty()) stop(std::string(path) + " cannot be read.");
     const test::AlignedBytes file(std::as_bytes(std::span(bytes)));
     const test::OpenModel open = test::open_tiny(test::with_every_structure(file, division));
-    if (!open.model.is_balanced()) stop(std::string(path) + " is open: nothing is inside.");
+    if (!open.model.is_balanced()) stop(std::string(path) + " is unbalanced: nothing is inside.");
     const test::BuilderInput input = test::builder_input(open.model);
     const std::string stem = std::filesystem::path(path).stem().stem().string();
     measure("inclusion/uniform/" + stem, open.model, uniform_points(input), rounds);

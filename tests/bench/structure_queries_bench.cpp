@@ -60,7 +60,7 @@ Setting setting_of(const std::string& text) {
     Setting setting;
     setting.name = text;
     std::vector<std::string> part = parts(text);
-    if (part.size() < 3) stop(text + " is no STRUCTURE:LEVEL:THRESHOLD.");
+    if (part.size() < 3) stop(text + " is not of the form STRUCTURE:LEVEL:THRESHOLD.");
     setting.boxes = part[0].ends_with('+');
     if (setting.boxes) part[0].pop_back();
     setting.structure = part[0];

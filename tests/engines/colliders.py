@@ -9,8 +9,8 @@ def cross(u, v):
 def points_of(colliders):
     """All points, in metres."""
     unit = colliders["metres_per_unit"] or 1
-    return [tuple(unit * x for x in piece["points"][i:i + 3]) for piece in colliders["pieces"]
-            for i in range(0, len(piece["points"]), 3)]
+    return [tuple(unit * x for x in part["points"][i:i + 3]) for part in colliders["parts"]
+            for i in range(0, len(part["points"]), 3)]
 
 
 def moved(quaternion, translation, p):

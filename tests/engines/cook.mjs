@@ -30,7 +30,7 @@ function cooked(points) {
 const bytes = readFileSync(process.argv[2]);
 const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength);
 const { scene } = await new GLTFLoader().parseAsync(buffer, '');
-const sum = { pieces: 0, given: 0, kept: 0, kept_in_metres: 0 };
+const sum = { parts: 0, given: 0, kept: 0, kept_in_metres: 0 };
 scene.updateMatrixWorld(true);
 scene.traverse((node) => {
     if (!node.isMesh) return;
@@ -39,7 +39,7 @@ scene.traverse((node) => {
         own.push(p.fromBufferAttribute(stored, i).toArray());
         metres.push(p.applyMatrix4(node.matrixWorld).toArray());
     }
-    sum.pieces += 1;
+    sum.parts += 1;
     sum.given += stored.count;
     sum.kept += cooked(own);
     sum.kept_in_metres += cooked(metres);

@@ -189,7 +189,7 @@ async function mujoco(colliders, start, [x, y, z, w], mjcf) {
         centre: Array.from(model.body_ipos.slice(3, 6)),
         inertia: tensor(Array.from(model.body_inertia.slice(3, 6)), [ix, iy, iz, iw]),
         kept, given: Array.from(model.mesh_vertnum).reduce((sum, n) => sum + n, 0),
-        mass: model.body_mass[1], pieces: model.mesh_graphadr.length,
+        mass: model.body_mass[1], parts: model.mesh_graphadr.length,
         steps: Math.round(SECONDS / model.opt.timestep),
         step: () => mj.mj_step(model, data),
         state: () => {
@@ -211,9 +211,9 @@ async function main() {
         isFinite = isFinite && body.state().flat().every(Number.isFinite);
     }
     const [position, quaternion, velocity, spin] = body.state();
-    const points = colliders.pieces.reduce((sum, piece) => sum + piece.points.length / 3, 0);
+    const points = colliders.parts.reduce((sum, part) => sum + part.points.length / 3, 0);
     console.log(JSON.stringify({
-        pieces: body.pieces ?? colliders.pieces.length, given: body.given ?? points,
+        parts: body.parts ?? colliders.parts.length, given: body.given ?? points,
         kept: body.kept, mass: body.mass, centre: body.centre, inertia: body.inertia,
         is_finite: isFinite, position, quaternion,
         speed: Math.hypot(...velocity), spin: Math.hypot(...spin),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drops a body of convex pieces onto the floor z = 0 in Bullet for two seconds, and prints what
+// Drops a body of convex parts onto the floor z = 0 in Bullet for two seconds, and prints what
 // became of it as JSON: drop.mjs in C++.
 //
 // Usage: drop_bullet COLLIDERS.json X Y Z QX QY QZ QW
@@ -31,16 +31,16 @@ constexpr btScalar kStep = btScalar(1) / 240;
 constexpr int kSteps = 480;
 constexpr double kDensity = 1000;
 
-/// The pieces as one shape about the centre of mass.
-struct Pieces {
+/// The parts as one shape about the centre of mass.
+struct Parts {
     btCompoundShape shape;
     std::vector<std::unique_ptr<btConvexHullShape>> hulls;
     int points = 0;
 
-    Pieces(const Json& pieces, const btVector3& centre, double unit) {
-        for (const Json& piece : pieces) {
+    Parts(const Json& parts, const btVector3& centre, double unit) {
+        for (const Json& part : parts) {
             auto hull = std::make_unique<btConvexHullShape>();
-            const auto numbers = piece["points"].get<std::vector<double>>();
+            const auto numbers = part["points"].get<std::vector<double>>();
             const auto metres = [&](std::size_t i) { return btScalar(unit * numbers[i]); };
             for (std::size_t i = 0; i < numbers.size(); i += 3) {
                 hull->addPoint({metres(i), metres(i + 1), metres(i + 2)}, false);
@@ -86,12 +86,12 @@ Json drop(const Json& colliders, const std::array<btScalar, 7>& start) {
     const Json& mass = colliders["mass"];
     const auto at = mass["centre"].get<std::array<double, 3>>();
     const btVector3 centre(btScalar(unit * at[0]), btScalar(unit * at[1]), btScalar(unit * at[2]));
-    Pieces pieces(colliders["pieces"], centre, unit);
+    Parts parts(colliders["parts"], centre, unit);
     const double volume = unit * unit * unit * mass["volume"].get<double>();
     btVector3 inertia(0, 0, 0);
-    pieces.shape.calculateLocalInertia(btScalar(kDensity * volume), inertia);
+    parts.shape.calculateLocalInertia(btScalar(kDensity * volume), inertia);
     World world;
-    btRigidBody body(btScalar(kDensity * volume), nullptr, &pieces.shape, inertia);
+    btRigidBody body(btScalar(kDensity * volume), nullptr, &parts.shape, inertia);
     const btQuaternion turn(start[3], start[4], start[5], start[6]);
     const btVector3 origin(start[0], start[1], start[2]);
     body.setCenterOfMassTransform(btTransform(turn, origin + quatRotate(turn, centre)));
@@ -105,9 +105,9 @@ Json drop(const Json& colliders, const std::array<btScalar, 7>& start) {
                     std::isfinite(body.getAngularVelocity().length());
     }
     const btQuaternion q = model.getRotation();
-    Json result = {{"pieces", pieces.hulls.size()},
-                   {"given", pieces.points},
-                   {"kept", pieces.points},
+    Json result = {{"parts", parts.hulls.size()},
+                   {"given", parts.points},
+                   {"kept", parts.points},
                    {"mass", 1 / body.getInvMass()},
                    {"is_finite", is_finite},
                    {"position", list(model.getOrigin())},

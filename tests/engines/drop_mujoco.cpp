@@ -27,7 +27,7 @@ void count_points(const mjModel& model, Json& result) {
         const int graph = model.mesh_graphadr[i];
         if (graph >= 0) kept += model.mesh_graph[graph];  // begins with the number of points
     }
-    result["pieces"] = model.nmesh;
+    result["parts"] = model.nmesh;
     result["given"] = given;
     result["kept"] = kept;
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Pieces of three models in the engines that they are for: a bolt, a bracket and a kettle. Each
-engine must accept every piece. The body that falls onto a floor must come to rest on it, within
+"""Parts of three models in the engines that they are for: a bolt, a bracket and a kettle. Each
+engine must accept every part. The body that falls onto a floor must come to rest on it, within
 what the engine allows. It must have the mass, the centre and the inertia of the mesh. Prints a
 table: points given and kept, depth and speed after two seconds. Sizes are true, and engines build
 their own hulls with their default tolerances. "unity" is PhysX with the parts that Unity gets.
@@ -49,7 +49,7 @@ def exported(program, source, folder, kinds, unit, limits):
     done = run(program, "bake", source, "-o", baked, "--unit", unit, "--structures", "hull",
                "--hull-vertices", 64, *limits)
     must(done.returncode in (0, 1), f"bake {source.name}: {done.stderr}")
-    outputs = {kind: folder / f"{source.stem}_pieces.{kind}" for kind in ("json", *kinds)}
+    outputs = {kind: folder / f"{source.stem}_parts.{kind}" for kind in ("json", *kinds)}
     engines = {"json": ["json"], "glb": ["godot", "--no-visual"], "sdf": ["gazebo", "--no-visual"],
                "mjcf": ["mujoco", "--no-visual", "--floating"], "unity": ["unity", "--no-visual"]}
     for kind, output in outputs.items():
@@ -76,7 +76,7 @@ class Exported:
         self.mjcf = with_floor(outputs["mjcf"], folder / f"{name}_floor.mjcf")
         self.colliders = json.loads(self.json.read_text())
         of_mesh, metres = self.colliders["mass"], METRES[unit]
-        must(of_mesh["closed"], f"{name} is not closed")
+        must(of_mesh["of_solid"], f"{name} is not a solid")
         self.mass = DENSITY * metres ** 3 * of_mesh["volume"]
         self.centre = [metres * x for x in of_mesh["centre"]]
         self.inertia = [[DENSITY * metres ** 5 * x for x in row] for row in of_mesh["inertia"]]
@@ -105,7 +105,7 @@ class Table:
 
     def __init__(self):
         self.faults = []
-        print(f"{'engine':14}{'model':9}{'pieces':>7}{'given':>7}{'kept':>6}{'':>7}"
+        print(f"{'engine':14}{'model':9}{'parts':>7}{'given':>7}{'kept':>6}{'':>7}"
               f"{'depth mm':>10}{'speed m/s':>11}{'centre um':>11}{'inertia':>10}")
 
     def fault(self, condition, sentence):
@@ -116,10 +116,10 @@ class Table:
         name = f"{engine}, {model.name}"
         depth = -lowest(model.colliders, result["quaternion"], result["position"])
         kept = result["kept"] / result["given"]
-        print(f"{engine:14}{model.name:9}{result['pieces']:7}{result['given']:7}"
+        print(f"{engine:14}{model.name:9}{result['parts']:7}{result['given']:7}"
               f"{result['kept']:6}{100 * kept:6.1f}%{1000 * depth:10.3f}{result['speed']:11.4f}"
               f"{self.weight(name, model, result)}", flush=True)
-        self.fault(result["pieces"] == len(model.colliders["pieces"]), f"{name}: pieces are lost")
+        self.fault(result["parts"] == len(model.colliders["parts"]), f"{name}: parts are lost")
         self.fault(result["is_finite"], f"{name}: a number is not finite")
         self.fault(abs(result["mass"] - model.mass) <= 1e-4 * model.mass,
                    f"{name}: {result['mass']} kg, not {model.mass}")
@@ -146,10 +146,10 @@ class Table:
         """Unity cooks a mesh as it is stored. PhysX drops points of hulls smaller than 1 by an
         absolute height, so a bolt of 34 mm loses many when it is cooked in metres."""
         kept, metres = (result[k] / result["given"] for k in ("kept", "kept_in_metres"))
-        print(f"{'unity':14}{model.name:9}{result['pieces']:7}{result['given']:7}{result['kept']:6}"
+        print(f"{'unity':14}{model.name:9}{result['parts']:7}{result['given']:7}{result['kept']:6}"
               f"{100 * kept:6.1f}%   (cooked in metres: {result['kept_in_metres']}, "
               f"{100 * metres:.1f}%)", flush=True)
-        self.fault(result["pieces"] == len(model.colliders["pieces"]), f"unity, {model.name}: lost")
+        self.fault(result["parts"] == len(model.colliders["parts"]), f"unity, {model.name}: lost")
         self.fault(kept >= LEAST_KEPT, f"unity, {model.name}: keeps {100 * kept:.1f}%")
         self.fault(metres < LEAST_KEPT,
                    f"unity, {model.name}: PhysX keeps {100 * metres:.1f}% in metres too")
@@ -168,7 +168,7 @@ def native(models, bullet, mujoco, readers):
         table.add("MuJoCo 2.2.2", model, must_read(run(mujoco, model.mjcf, *model.place()),
                                                    "drop_mujoco"))
         found = must_read(run(readers, model.sdf), f"SDFormat, {model.name}")
-        must(found["is_valid"] and len(found["parts"]) == len(model.colliders["pieces"]),
+        must(found["is_valid"] and len(found["parts"]) == len(model.colliders["parts"]),
              f"SDFormat, {model.name}: {found}")
         must(abs(found["mass"] - model.mass) <= 1e-6 * model.mass, f"SDFormat: {found['mass']}")
         must(math.dist(found["centre"], model.centre) <= CENTRE_ERROR * math.hypot(*model.centre),
@@ -199,10 +199,10 @@ def install(folder):
 
 def read_glb(model, folder):
     meshes = must_read(run("node", "read_glb.mjs", model.glb, cwd=folder), f"three, {model.name}")
-    pieces = model.colliders["pieces"]
+    parts = model.colliders["parts"]
     triangles = sum(mesh["triangles"] for mesh in meshes)
-    must(len(meshes) == len(pieces), f"three, {model.name}: {len(meshes)} meshes")
-    must(triangles == sum(len(piece["triangles"]) // 3 for piece in pieces),
+    must(len(meshes) == len(parts), f"three, {model.name}: {len(meshes)} meshes")
+    must(triangles == sum(len(part["triangles"]) // 3 for part in parts),
          f"three, {model.name}: {triangles} triangles")
     must(all(mesh["hits"] + mesh["flat"] == mesh["triangles"] for mesh in meshes),
          f"three-mesh-bvh, {model.name}: a ray misses: {meshes}")

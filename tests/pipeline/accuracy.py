@@ -16,15 +16,13 @@ import sys
 import tempfile
 import xml.etree.ElementTree
 
-import jsonschema
-
 from browser import Browser, find_chromium
+from schemas import report_of
 from shared_models import bake, must, run
 
 PROGRAM, FAULTY = sys.argv[1:3]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MESHES = ROOT / "samples" / "meshes"
-SCHEMA = json.loads((ROOT / "tools/accuracy/accuracy.schema.json").read_text())
 BOLT, BRACKET = MESHES / "bolt.obj", MESHES / "bracket.obj"
 LADDERS = ["geometry", "distance", "predicates", "storage", "coherence"]
 STRATA = ["deep", "shallow", "touching", "near", "far"]
@@ -34,12 +32,6 @@ def accuracy(*arguments, code=0):
     done = run(PROGRAM, "accuracy", *arguments)
     must(done.returncode == code, f"accuracy {arguments} exited {done.returncode}: {done.stderr}")
     return done
-
-
-def check_schema(study):
-    error = jsonschema.exceptions.best_match(
-        jsonschema.Draft202012Validator(SCHEMA).iter_errors(study))
-    must(error is None, error and f"at {list(error.absolute_path)}: {error.message[:400]}")
 
 
 def wrong_flags(study, rung, rigid_only=False):
@@ -95,8 +87,7 @@ def check_json(folder):
     output, table = folder / "study.json", folder / "study.csv"
     accuracy(BOLT, BRACKET, "--quick", "--format", "json", "-o", output, "--save", table, "--save",
              folder / "study.html")
-    study = json.loads(output.read_text())
-    check_schema(study)
+    study = report_of("accuracy", output.read_text())
     must(study["exit"] == 0 and study["broken"] == [], f"broken: {study['broken']}")
     must([ladder["name"] for ladder in study["ladders"]] == LADDERS, "ladders")
     must({pose["stratum"] for pose in study["poses"]} == set(STRATA), "strata")
@@ -151,7 +142,7 @@ def check_poses(study, folder):
 def check_baked(study, baked):
     """Baked files are the same models: the same poses."""
     done = accuracy(*baked, "--quick", "--ladder", "distance", "--format", "json")
-    again = json.loads(done.stdout)
+    again = report_of("accuracy", done.stdout)
     must([pose["pose"] for pose in again["poses"]] == [pose["pose"] for pose in study["poses"]],
          "baked files give other poses")
     must([ladder["name"] for ladder in again["ladders"]] == ["distance"], "--ladder")
@@ -214,8 +205,7 @@ def check_broken_promise(folder):
     done = run(FAULTY, *short, "--format", "json", "-o", output)
     must(done.returncode == 6, f"exit {done.returncode}: {done.stderr}")
     must("a promise is broken: geometry, octree 3: " in done.stderr, done.stderr)
-    study = json.loads(output.read_text())
-    check_schema(study)
+    study = report_of("accuracy", output.read_text())
     must(study["exit"] == 6 and len(study["broken"]) == 2, study["broken"])
     must(all("misses" in sentence for sentence in study["broken"]), study["broken"])
     done = run(FAULTY, *short)
@@ -223,7 +213,7 @@ def check_broken_promise(folder):
 
 
 def check_refusals(folder):
-    """Asked wrongly: 2; unreadable: 3; not written: 4; each in a sentence."""
+    """Invalid arguments: 2; unreadable: 3; not written: 4; each in a sentence."""
     empty = folder / "empty.obj"
     empty.write_text("v 0 0 0\n")
     for arguments, code, words in [
@@ -234,14 +224,14 @@ def check_refusals(folder):
             ([BOLT, BRACKET, "--quick", "--save", BOLT], 2, "the extension must be .txt"),
             ([BOLT, BRACKET, "--quick", "-o", BOLT], 2, "is an input or another output"),
             ([folder / "bolt.cdp.h5", BRACKET, "--normalize"], 2, "is a baked file"),
-            ([BOLT, BRACKET, "--progress", "loud"], 2, "must be auto"),
+            ([BOLT, BRACKET, "--progress", "loud"], 2, "'loud' is not auto, bar, plain or none"),
             ([BOLT, BRACKET, "--quick", "--ladder", "predicates", "-o", folder / "no" / "x"], 4,
              "x")]:
         done = accuracy(*arguments, code=code)
         must(words in done.stderr, f"{arguments}: {done.stderr}")
         must(done.stdout == "", f"{arguments} printed {done.stdout[:80]}")
-    failed = json.loads(accuracy(BOLT, empty, "--allow-empty", "--format", "json", code=2).stdout)
-    check_schema(failed)
+    done = accuracy(BOLT, empty, "--allow-empty", "--format", "json", code=2)
+    failed = report_of("accuracy", done.stdout)
     must(failed["exit"] == 2 and "no triangles" in failed["error"], failed)
 
 

@@ -131,7 +131,7 @@ def warnings(program, folder):
     pile["dynamics"]["most_contacts"] = 1
     many = folder / "many.json"
     many.write_text(json.dumps(pile))
-    for scene, words in ((fast, "faster than contacts can follow"), (many, "cut short")):
+    for scene, words in ((fast, "too fast for the search for contacts"), (many, "cut short")):
         for form in ("text",) if IS_SLOW else ("text", "json", "ndjson"):
             done = run(program, "simulate", scene, "--format", form, "-o", folder / "report",
                        "--frames", 45)
@@ -178,7 +178,7 @@ def refusals(program, folder):
     parts = ["crate.cdp.h5: its layer 'a' needs response, but the file has no mass_properties. "
              "Bake it again with --effects contacts,response.",
              "The contact tolerance is 1e-06",
-             "object 'open': response needs mass, and the mesh is open"]
+             "object 'open': response needs mass, and the mesh is unbalanced"]
     must(len(told["refusals"]) == len(parts), f"{told['refusals']}")
     for part, sentence in zip(parts, told["refusals"]):
         must(part in sentence, sentence)
@@ -202,7 +202,7 @@ def refusals(program, folder):
                         objects=[{"name": "x", "model": "sheet.obj", "layer": "a",
                                   "motion": "body"}])
     done = run(program, "simulate", alone)
-    must(done.returncode == 2 and "no pair of this layer asks for response" in done.stderr,
+    must(done.returncode == 2 and "no pair of this layer requests response" in done.stderr,
          done.stderr)
     plan = run(program, "simulate", SCENES / "pile.json", "--plan").stdout
     must("; contacts within 0.05555; layers 'bodies' and 'trays', 'bodies' and 'bodies'\n" in plan,

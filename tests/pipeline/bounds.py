@@ -4,13 +4,13 @@
 
 Usage: bounds.py CDPREP
 """
-import json
 import pathlib
 import random
 import sys
 import tempfile
 
 from killed_bake import digest, write_sheet
+from schemas import report_of
 from shared_models import answers, bake, must, run, shared_models_if_there
 
 SECTION = {"aabb": set(), "obb": {"oriented_nodes"}, "pss": {"swept_nodes"},
@@ -33,7 +33,7 @@ def random_pose(source):
 def sections(program, path, bounds):
     info = run(program, "info", path, "--deep", "--format", "json")
     must(info.returncode == 0, f"info --deep exited {info.returncode}: {info.stderr}")
-    told = json.loads(info.stdout)
+    told = report_of("info", info.stdout)
     must(told["bounds"] == bounds and told["provenance"]["options"]["bounds"] == bounds, f"{told}")
     return {s["name"]: s["bytes"] for s in told["sections"]}
 

@@ -98,15 +98,15 @@ def the_cut(program, folder):
     must(told[12]["event"] == "ends" and max(told) == 12, f"{told}")
     changes = summary["changes"]
     must(changes["deform"] == changes["tear"] == 1 and changes["missed"] == [], f"{changes}")
-    must(changes["refits"] == 24 and 0 < changes["torn"] < changes["parts"], f"{changes}")
+    must(changes["refits"] == 24 and 0 < changes["torn"] < changes["appended"], f"{changes}")
 
     plan = plan_of(program, folder / "cut.json")
     must(plan["models"][0]["serves"] == ["tear"], f"{plan['models']}")
     planned, = plan["changes"]
     must(planned["object"] == "sheet" and planned["deform"] == "shear" and
          planned["live_bytes"] > 10000, f"{planned}")
-    must({key: planned["tear"][key] for key in ("torn", "parts")} ==
-         {key: changes[key] for key in ("torn", "parts")}, f"{planned} {changes}")
+    must({key: planned["tear"][key] for key in ("torn", "appended")} ==
+         {key: changes[key] for key in ("torn", "appended")}, f"{planned} {changes}")
     text = run(program, "simulate", folder / "cut.json", "--plan").stdout
     must("live model of object 'sheet': deforms by a shear; tears at 1.5 s: " in text, text)
     text = run(program, "simulate", folder / "cut.json", "--format", "text").stdout
@@ -208,8 +208,9 @@ def the_refusals(program, folder):
             (["collide"], ["Object 'sheet' in layer 'a' tears. Add tear to the effects of pair 0 "
                            "of layers, 'a' and 'a' (line 1)."]),
             (["collide", "deform"], ["Object 'sheet' in layer 'a' tears. Add tear to "]),
-            (["contacts", "tear"], ["contacts of models that deform or tear are not built"]),
-            (["continuous", "tear"], ["continuous is not built for models that deform or tear"])):
+            (["contacts", "tear"], ["contacts is not supported for models that deform or tear"]),
+            (["continuous", "tear"],
+             ["continuous is not supported for models that deform or tear"])):
         scene["pairs"][0]["effects"] = effects
         (folder / "refused.json").write_text(json.dumps(scene))
         done = run(program, "simulate", folder / "refused.json", "--plan")
@@ -258,9 +259,9 @@ def the_tears(program, folder):
              f"{x}: {events} {changes}")
         must(plan_of(program, scene)["changes"][0]["tear"]["misses"], "the plan says nothing")
         text = run(program, "simulate", scene, "--format", "text").stdout
-        must("object 'sheet' is not torn, for the plane misses its model" in text, text)
+        must("object 'sheet' is not torn: the plane misses its model" in text, text)
         text = run(program, "simulate", scene, "--plan").stdout
-        must("does not tear, for the plane misses it" in text, text)
+        must("does not tear: the plane misses it" in text, text)
 
 
 def the_mistakes(program, folder):
@@ -282,7 +283,7 @@ def the_mistakes(program, folder):
         (stream("none.pc2"), 3, "/motion/deform/stream/file: there is no file "),
         (stream("magic.pc2"), 3, "magic.pc2: byte 0: found "),
         (stream("short.pc2"), 3, "short.pc2: byte 28: found 9 samples of 2028 bytes; expected as "
-                                 "many as the 18251 bytes behind the first 32 hold."),
+                                 "many as fit in the 18251 bytes after the header."),
         (stream("few.pc2"), 3, "few.pc2: byte 16: found 168 points; expected at least 169, the "
                                "vertices of "),
         (stream("nan.pc2"), 3, "nan.pc2: sample 8: coordinate z of point 168 is not a number; "),

@@ -20,20 +20,13 @@ import sys
 import tempfile
 import time
 
-import jsonschema
-
+from schemas import check_schema, schema_of
 from shared_models import IS_SLOW, bake, must, run
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENES = ROOT / "samples/scenes"
-SCHEMA = jsonschema.Draft202012Validator(
-    json.loads((ROOT / "tools/query/clash.schema.json").read_text()))
+SCHEMA = schema_of("query/clash")
 IDENTITY = (1, 0, 0, 0, 1, 0, 0, 0, 1)
-
-
-def check_schema(value, what):
-    error = jsonschema.exceptions.best_match(SCHEMA.iter_errors(value))
-    must(error is None, f"{what}: {error and error.message}")
 
 
 # --- Meshes and files ----------------------------------------------------------------------
@@ -121,7 +114,7 @@ def clashes(program, effect, scene, *arguments):
     must(done.returncode == 0, f"{scene} {arguments} exited {done.returncode}: {done.stderr}")
     lines = [json.loads(line) for line in done.stdout.splitlines()]
     for line in lines:
-        check_schema(line, f"{effect} {scene}")
+        check_schema(SCHEMA, line, f"{effect} {scene}")
     must("summary" in lines[-1], f"{scene}: the last line is no summary")
     summary = lines[-1]["summary"]
     must(summary["clashes"] + summary["undecided"] == len(lines) - 1, f"{summary}")
@@ -139,7 +132,7 @@ def pose_text(rotation, translation):
 
 
 def single(program, effect, a, b, *arguments):
-    """The answer about two parts (file, rotation, translation), without the number of its pose."""
+    """The answer about two objects (file, rotation, translation), without the number of its pose."""
     done = run(program, "query", effect, a[0], b[0], "--pose-a", pose_text(*a[1:]), "--pose-b",
                pose_text(*b[1:]), "--placement", "world", "--format", "ndjson", *arguments)
     must(done.returncode == 0, done.stderr)
@@ -151,13 +144,13 @@ def single(program, effect, a, b, *arguments):
 VERDICT = {"overlap": "hit", "within": "within", "distance": "found"}
 
 
-def expected(program, effect, parts, *arguments, is_asked=lambda a, b: True):
-    """What single queries say about pairs of named parts."""
+def expected(program, effect, placed, *arguments, is_asked=lambda a, b: True):
+    """What single queries say about pairs of named objects."""
     found = []
-    for a, b in itertools.combinations(parts, 2):
+    for a, b in itertools.combinations(placed, 2):
         if not is_asked(a, b):
             continue
-        answer = single(program, effect, parts[a], parts[b], *arguments)
+        answer = single(program, effect, placed[a], placed[b], *arguments)
         if answer[VERDICT[effect]] or answer.get("containment") == "unknown":
             found.append({"a": a, "b": b, "effect": effect, **answer})
     return found
@@ -174,7 +167,7 @@ def matrix(rotation, translation):
 
 
 class Heap:
-    """Parts in exact poses, two meshes used by many nodes, below a moved root."""
+    """Objects in exact poses, two meshes used by many nodes, below a moved root."""
 
     def __init__(self, program, folder, count=11, reach=7, shift=(8, -4, 0.5)):
         self.meshes = [star(1), star(2), cube()]
@@ -184,14 +177,14 @@ class Heap:
             bake(program, write_gltf(folder / f"mesh{i}.glb", [mesh], [{"mesh": 0}]), "-o",
                  files[-1], "--effects", "collide,overlap,distance,within")
         places = random.Random(5)
-        self.parts, self.nodes, self.objects = {}, [], []
+        self.placed, self.nodes, self.objects = {}, [], []
         for i in range(count):
             mesh, rotation = i % 3, QUARTERS[places.randrange(4)]
             at = tuple(places.randrange(-reach, reach + 1) / 4 for _ in range(3))
             world = tuple(x + y for x, y in zip(at, shift))
             name = f"part {i}"
             self.nodes.append({"name": name, "mesh": mesh, "matrix": matrix(rotation, at)})
-            self.parts[f"root/{name}"] = (files[mesh], rotation, world)
+            self.placed[f"root/{name}"] = (files[mesh], rotation, world)
             rows = [[*rotation[3 * k:3 * k + 3], world[k]] for k in range(3)]
             self.objects.append({"name": f"root/{name}", "model": files[mesh].name,
                                  "layer": "abc"[mesh], "pose": {"matrix": rows}})
@@ -202,7 +195,7 @@ class Heap:
 def the_heap(program, folder):
     """Every answer is that of a single query, with every option."""
     heap = Heap(program, folder, 6 if IS_SLOW else 11)
-    every = math.comb(len(heap.parts), 2)
+    every = math.comb(len(heap.placed), 2)
     cases = [("overlap", []), ("overlap", ["--count"]), ("overlap", ["--segments"]),
              ("overlap", ["--as", "solid", "--count"]),
              ("overlap", ["--contact", "proper", "--skip-degenerate"]),
@@ -215,11 +208,11 @@ def the_heap(program, folder):
              ("distance", ["--max-distance", 2, "--relative-error", 0.5])]
     for effect, arguments in cases[::3] if IS_SLOW else cases:
         found, summary = clashes(program, effect, heap.glb, *arguments)
-        oracle = expected(program, effect, heap.parts, *arguments)
+        oracle = expected(program, effect, heap.placed, *arguments)
         must(found == oracle, f"{effect} {arguments}: {len(found)} clashes, not {len(oracle)}:\n"
              f"{[x for x in found if x not in oracle][:1]}\n"
              f"{[x for x in oracle if x not in found][:1]}")
-        must(summary["objects"] == len(heap.parts) and summary["models"] == 3 and
+        must(summary["objects"] == len(heap.placed) and summary["models"] == 3 and
              summary["pairs_possible"] == every and summary["rounding"] == 0, f"{summary}")
         all_of_them = 100 in arguments
         must(every > len(found) > 0 or all_of_them, f"{effect} {arguments} says nothing")
@@ -230,22 +223,22 @@ def the_heap(program, folder):
     found, summary = clashes(program, "overlap", heap.glb)
     whole = run(program, "query", "overlap", "--scene", heap.glb, "--format", "json")
     document = json.loads(whole.stdout)
-    check_schema(document, "--format json")
+    check_schema(SCHEMA, document, "--format json")
     must(document["clashes"] == found, "json and ndjson differ")
     must(without_times(document["summary"]) == without_times(summary), f"{document['summary']}")
     text = run(program, "query", "overlap", "--scene", heap.glb, "--format", "text", "--count")
     lines = text.stdout.splitlines()
     must(lines[0] == f"{found[0]['a']} and {found[0]['b']}: hit, {found[0]['count']} pairs", lines[0])
-    must(f"{len(found)} clashes" in lines[-1] and f"{len(heap.parts)} objects of 3 models" in lines[-1], lines[-1])
+    must(f"{len(found)} clashes" in lines[-1] and f"{len(heap.placed)} objects of 3 models" in lines[-1], lines[-1])
     nothing = run(program, "query", "within", "--scene", write_gltf(
         folder / "one.gltf", [cube()], [{"mesh": 0}]), "--tolerance", 1, "--format", "json")
     document = json.loads(nothing.stdout)
-    check_schema(document, "one part")
+    check_schema(SCHEMA, document, "one object")
     must(document["clashes"] == [] and document["summary"]["pairs_possible"] == 0, f"{document}")
 
 
 def the_distant_heap(program, folder):
-    """Far from 0 no more pairs of boxes meet: there, a float is 16 times a part."""
+    """Far from 0 no more pairs of boxes meet: there, a float is 16 times an object."""
     summaries = []
     for shift in ((0, 0, 0), (2**27, -2**27, 2**27)):
         heap = Heap(program, folder, 60, 12, shift)
@@ -416,7 +409,7 @@ def the_pairs(program, folder):
         return [line for line in lines if {layer[line["a"]], layer[line["b"]]} == layers]
 
     def oracle(layers, effect, *arguments):
-        return expected(program, effect, heap.parts, *arguments,
+        return expected(program, effect, heap.placed, *arguments,
                         is_asked=lambda a, b: {layer[a], layer[b]} == layers)
 
     near = {"layers": ["b", "a"], "effects": ["within"], "tolerance": 0.25}
@@ -548,7 +541,7 @@ def mistakes(program, folder):
         ("overlap", [empty], 3, ["empty.gltf: has no node with triangles"]),
         ("overlap", [range_of], 3, ["range.glb/node_0: triangle 0 uses vertex 1"]),
         ("overlap", [huge], 3, ["huge.gltf: the transform of node 'far' has the number 1e+305"]),
-        ("overlap", [cycle], 3, ["cycle.gltf: node 0 is below itself"]),
+        ("overlap", [cycle], 3, ["cycle.gltf: node 0 is its own descendant"]),
         ("overlap", [bad], 3, ["bad.json: line 1: /objects/0/model: there is no file",
                                "/objects/0/layer: 'b' is not a layer"]),
         ("distance", [unserved], 2, ["crate.cdp.h5: its layer 'a' needs distance",

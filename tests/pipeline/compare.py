@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: MIT
 """cdprep compare: every cell of every table has a value or a reason, in each format, and the JSON is
 as its schema says; poses follow from the seed, and are the same when they are saved and read again;
-the page opens in a browser; peers are set beside us, and a program that is none is one sentence;
-what is asked wrongly has its exit code and writes nothing.
+the page opens in a browser; peers are set beside us, and a file that is not a program is one
+sentence; an invalid argument has its exit code and writes nothing.
 
 Usage: compare.py CDPREP MESHES [PEERS]
 MESHES holds bracket.obj and bolt.obj. PEERS is the program that asks other libraries.
 """
 import csv
-import json
 import pathlib
 import re
 import signal
@@ -19,13 +18,8 @@ import sys
 import tempfile
 import time
 
-import jsonschema
-
 from browser import Browser, find_chromium
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCHEMA = jsonschema.Draft202012Validator(
-    json.loads((ROOT / "tools/compare/comparison.schema.json").read_text()))
+from schemas import report_of
 
 
 def run(program, *arguments):
@@ -33,11 +27,7 @@ def run(program, *arguments):
 
 
 def parsed(text):
-    """A report, held to its schema."""
-    report = json.loads(text)
-    error = jsonschema.exceptions.best_match(SCHEMA.iter_errors(report))
-    assert error is None, f"{error.json_path}: {error.message[:500]}"
-    return report
+    return report_of("compare", text)
 
 
 def check_json(report, models):
@@ -77,7 +67,7 @@ def check_all_formats(program, meshes):
     for word, count in (("Table 1", 1), ("Table 2", 2), ("exact answers", 1),
                         ("against itself", 1), ("at least as long as", 1), ("corners of", 1),
                         ("Every step of pruning", 1),
-                        ("talk's hashed octree", 4)):
+                        ("hashed octree reduces", 4)):
         assert sum(word in claim for claim in claims) == count, (word, count, claims)
     poses = report["pairs"][0]["poses"]
     assert len(poses) == 15 and all(len(p["a_from_b"]) == 12 for p in poses), len(poses)
@@ -242,8 +232,8 @@ def check_peers(program, meshes, folder, peers):
     asked = [meshes / "bolt.obj", "--quick", "--tables", "4", "--format", "json", "--peers"]
     for name, body, word in (("none", None, "cannot be started"),
                              ("crashes", "kill -SEGV $$\n", "signal 11"),
-                             ("fails", "exit 3\n", "ended with 3"),
-                             ("babbles", "echo hello\n", "not the JSON"),
+                             ("fails", "exit 3\n", "ended with exit code 3"),
+                             ("babbles", "echo hello\n", "not the expected JSON"),
                              ("lacks", """echo '{"peers": [{"key": "x", "name": "X", "note": "",
  "collide": {"seconds": [[1]], "answers": [1]}, "reasons": {}}], "absent": []}'""", "1 answers")):
         path = folder / name
@@ -262,7 +252,7 @@ def check_peers(program, meshes, folder, peers):
     table = {t["table"]: t for t in report["tables"]}
     labels = [row["label"] for row in table["4.bolt-bolt"]["rows"]]
     assert labels[10] == "exact BVH", labels
-    assert any("PQP was not asked" in line for line in report["peers"]), report["peers"]
+    assert any("PQP was not measured" in line for line in report["peers"]), report["peers"]
     for label in labels[11:]:
         assert any(line.startswith(label) for line in report["peers"]), (label, report["peers"])
     check_peer_cells(table["4.peers"]["rows"][0]["cells"], 2, report["peers"])
@@ -280,7 +270,8 @@ def check_peer_cells(cells, ours, said):
     title = {"fcl": "FCL", "ode": "ODE", "bullet": "Bullet", "cgal": "CGAL", "embree": "Embree",
              "qhull": "qhull", "pqp": "PQP", "swift": "SWIFT++"}
     for key, cell in list(cells.items())[ours:]:
-        absent = any(line.startswith(title[key.split("_")[0]] + " was not asked") for line in said)
+        words = title[key.split("_")[0]] + " was not measured"
+        absent = any(line.startswith(words) for line in said)
         assert ("value" in cell) != absent, (key, cell, said)
 
 

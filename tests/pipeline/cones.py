@@ -50,8 +50,8 @@ def inaccessible(program, folder):
     colours = ply_face_colours(folder / "nested.ply", 16, 24)
     must(sorted(map(colours.count, set(colours))) == [12, 12], f"colours {colours}")
     counted = run(program, "query", "inaccessible", folder / "nested", "--count")
-    must(counted.stdout == "12 of 24 triangles cannot be reached straight towards the centre.\n",
-         counted.stdout)
+    must(counted.stdout == "12 of 24 triangles are occluded along every ray to the tetra-tree's "
+                           "centre.\n", counted.stdout)
     obj = run(program, "query", "inaccessible", folder / "nested", "--count", "--export",
               folder / "nested.obj")
     must(obj.returncode == 0 and (folder / "nested.mtl").is_file(), obj.stderr)
@@ -81,9 +81,9 @@ def levels_of_detail(program, folder):
     must(coarse(3, 9)[1] < coarse(1, 9)[1] < coarse(0, 9)[1], "errors do not fall")
     must(coarse(0, 9)[0] == "no" and coarse(0, 0.1)[0] == "yes" and coarse(3, 2.3)[0] != "yes"
          and coarse(3, 1.9)[0] != "no", "coarse answers contradict")
-    wrongly = run(program, "query", "collide", folder / "cube", folder / "cube",
+    refused = run(program, "query", "collide", folder / "cube", folder / "cube",
                   "--level-of-detail", "2")
-    must(wrongly.returncode == 2 and "tetra-tree" in wrongly.stderr, wrongly.stderr)
+    must(refused.returncode == 2 and "tetra-tree" in refused.stderr, refused.stderr)
 
 
 def coloured_points(program, folder):

@@ -9,14 +9,11 @@ import pathlib
 import sys
 import tempfile
 
-import jsonschema
-
 from known_meshes import CUBE
+from schemas import check_schema, schema_of
 from shared_models import bake, must, run
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCHEMA = jsonschema.Draft202012Validator(
-    json.loads((ROOT / "tools/query/contacts.schema.json").read_text()))
+SCHEMA = schema_of("query/contacts")
 
 SHEET = "OFF 4 2 0\n0 0 0\n9 0 0\n9 9 0\n0 9 0\n3 0 1 2\n3 0 2 3\n"
 
@@ -69,8 +66,7 @@ def ask(program, *arguments):
     if "json" in arguments or "ndjson" in arguments:
         lines = asked.stdout.splitlines() if "ndjson" in arguments else [asked.stdout]
         for line in lines:
-            error = jsonschema.exceptions.best_match(SCHEMA.iter_errors(json.loads(line)))
-            must(error is None, f"{arguments} breaks the schema: {error}")
+            check_schema(SCHEMA, json.loads(line), arguments)
     return asked.stdout
 
 
@@ -144,7 +140,8 @@ def main():
     through = ask(program, *pair, "--manifold", "--format", "json", "--structure", "pieces")
     must(json.loads(through) == answers, f"through pieces: {through}")
     asked = run(program, "query", "contacts", *pair, "--structure", "octree")
-    must(asked.returncode == 2 and "bvh, pieces" in asked.stderr, asked.stderr)
+    must(asked.returncode == 2 and "--structure: 'octree' is not bvh or pieces." in asked.stderr,
+         asked.stderr)
     must("points" not in ask(program, *pair, "--format", "ndjson"), "points without --manifold")
     text = ask(program, *pair)
     must(text.splitlines()[0] == "pose 0: 1 contact" and "normal 0 0 1" in text.replace("-0 ", "0 "),

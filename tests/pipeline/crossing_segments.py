@@ -102,7 +102,7 @@ def main():
     solids = answers(program, "distance", cube, small, *pose, "--as", "solid")[0]
     must(abs(surfaces["lower"] - 0.75) < 1e-12 and solids["upper"] == 0, f"{surfaces}, {solids}")
     must(run(program, "query", "overlap", cube, cube, "--segments", "--count").returncode == 2,
-         "--segments with --count is asked wrongly")
+         "--segments with --count is an invalid argument")
     print("segments of two cubes: all in both triangles, length as known")
 
 

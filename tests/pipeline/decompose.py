@@ -3,12 +3,12 @@
 """Cuts sample meshes into pieces through the program and reads what it wrote: groups of the
 OBJ and colours of the PLY are one partition of the triangles, the same for any number of
 threads, and the report says how many there are. Usage: decompose.py PROGRAM"""
-import json
 import pathlib
 import struct
 import sys
 import tempfile
 
+from schemas import report_of
 from shared_models import bake, must, run
 
 SAMPLES = pathlib.Path(__file__).resolve().parent / "../../samples/meshes"
@@ -51,7 +51,8 @@ def ply_pieces(path):
 def check_sample(program, folder, name, tolerance):
     source = SAMPLES / name
     options = ["--tolerance", tolerance] if tolerance else ["--exact"]
-    report = json.loads(decompose(program, source, "--format", "json", "--table", *options).stdout)
+    report = report_of("decompose", decompose(program, source, "--format", "json", "--table",
+                                              *options).stdout)
     must(report["exit"] == 0 and report["method"] == "surface", f"report {report}")
     must(report["outer_error"] <= float(tolerance or 0), f"error {report['outer_error']}")
     must(report["inner_error"] == 0, "hulls hold their pieces")
@@ -106,7 +107,8 @@ def check_names(program, folder):
         for options in ((), ("--max-error", "1e-3")):
             done = run(program, "decompose", path, "--format", "json", *options)
             must(done.returncode in (0, 1), f"decompose {path}: {done.stderr}")
-            count[path, bool(options)] = json.loads(done.stdout)["pieces"]
+            of = "parts" if options else "pieces"
+            count[path, bool(options)] = report_of("decompose", done.stdout)[of]
     must(count[tagged, False] == count[plain, False] == 3, f"a box and two of an L: {count}")
     must(count[tagged, True] == 2 and count[plain, True] == 3, f"hulls of what is named: {count}")
 
@@ -121,14 +123,14 @@ def main():
             must(exact > 1, f"{name} is not convex")
             must(loose < exact, f"{name}: any height is tolerated")
             for order in ("depth-first", "breadth-first", "cresting"):
-                grown = json.loads(decompose(program, SAMPLES / name, "--order", order,
-                                             "--format", "json").stdout)
+                grown = report_of("decompose", decompose(program, SAMPLES / name, "--order", order,
+                                                         "--format", "json").stdout)
                 must(grown["order"] == order and grown["pieces"] > 1, f"{order} {grown}")
             baked = folder / f"{name}.cdp.h5"
             bake(program, SAMPLES / name, "-o", baked, "--effects", "pieces")
             done = run(program, "info", "--deep", "--format", "json", baked)
             must(done.returncode == 0, done.stderr)
-            counts = {s["name"]: s["count"] for s in json.loads(done.stdout)["sections"]}
+            counts = {s["name"]: s["count"] for s in report_of("info", done.stdout)["sections"]}
             must(counts["pieces"] == exact, f"{counts['pieces']} pieces baked, {exact} reported")
 
         check_names(program, folder)
@@ -143,7 +145,7 @@ def main():
                              "--normalize", *options, code=code).stderr
             must("has no unit after --normalize" in said and "Leave out --normalize." in said, said)
         missing = decompose(program, folder / "missing.obj", "--format", "json", code=3)
-        must("error" in json.loads(missing.stdout), "the report says why")
+        must("error" in report_of("decompose", missing.stdout), "the report says why")
         decompose(program, bolt, "-o", folder / "no folder" / "x.obj", code=4)
 
 

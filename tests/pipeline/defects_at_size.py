@@ -8,7 +8,6 @@ bounds tell near-linear from quadratic, not one machine from another. A program 
 needs FACTOR times as much.
 Usage: defects_at_size.py CDPREP [FACTOR]
 """
-import json
 import math
 import os
 import pathlib
@@ -17,12 +16,9 @@ import subprocess
 import sys
 import tempfile
 
-import jsonschema
-
+from schemas import report_of
 from shared_models import must
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-REPORT_SCHEMA = json.loads((ROOT / "tools/validate/validation.schema.json").read_text())
 MEGABYTES = 300
 SECONDS = 60  # of processor time; quadratic work takes many minutes
 
@@ -83,8 +79,7 @@ class Program:
 
     def validate(self, *arguments):
         code, text, errors = self("validate", *arguments, "--format", "json")
-        report = json.loads(text)
-        jsonschema.Draft202012Validator(REPORT_SCHEMA).validate(report)
+        report = report_of("validate", text)
         must(code == report["exit"], f"{arguments}: exit {code}: {errors}")
         return report["meshes"][0]
 
@@ -154,13 +149,13 @@ def says_where_it_ended(program):
 def bakes_to_a_limit(program):
     code, text, errors = program("bake", "some.ply", "-o", "some.h5", "--max-pairs", "1000",
                                  "--format", "json")
-    model, = json.loads(text)["models"]
+    model, = report_of("bake", text)["models"]
     must(code == 0 and model["crossings_complete"] is False and "--max-pairs" in
          model["remarks"][0], f"bake: exit {code}: {text}{errors}")
     code, _, errors = program("info", "--deep", "some.h5")
     must(code == 0, f"what was left open is not false: {errors}")
     code, text, _ = program("bake", "some.ply", "-o", "some.h5", "--format", "json")
-    model, = json.loads(text)["models"]
+    model, = report_of("bake", text)["models"]
     must(model["crossings_complete"] is True and "remarks" not in model, f"bake: {text}")
     # Examined for the file beyond the limit of a bake: 6 million pairs.
     write_ply(program.folder / "more.ply", *shifted_triangles(3500))

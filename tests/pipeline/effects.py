@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A bake holds what its effects need and no more; a question that needs more
-names the missing sections and is asked wrongly (exit 2).
+"""A bake holds what its effects need and no more. A query that needs more fails with exit code 2 and
+names the missing sections.
 
 Usage: effects.py CDPREP
 """
-import json
 import pathlib
 import sys
 import tempfile
 
 from killed_bake import write_sheet
+from schemas import report_of
 from shared_models import bake, must, run
 
 GEOMETRY = {"positions_f32", "triangles", "bvh_nodes", "degenerate_bits"}
@@ -40,7 +40,7 @@ MUST_HAVE = {"collide": {"bvh_nodes", "bvh_leaves", "components"}, "inside": {"c
 def sections(program, path):
     info = run(program, "info", path, "--deep", "--format", "json")
     must(info.returncode == 0, f"info --deep exited {info.returncode}: {info.stderr}")
-    return {section["name"] for section in json.loads(info.stdout)["sections"]}
+    return {section["name"] for section in report_of("info", info.stdout)["sections"]}
 
 
 def main():

@@ -5,7 +5,7 @@
 //
 // sides: CGAL's Side_of_triangle_mesh with exact constructions; the model must be closed
 // and 2-manifold. rays: what random rays cross, by exact predicates, a ray with a zero sign
-// thrown away and another drawn; any closed model. Points are uniform in the model's box,
+// thrown away and another drawn; any balanced model. Points are uniform in the model's box,
 // on and near triangles, behind corners along x and as the tetra-tree's centre sees them.
 // Prints what was asked; exits with 1 at the first point that any structure gets wrong.
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -277,7 +277,7 @@ int main(int argc, char** argv) {
     const cdprep::test::OpenModel open = open_file(argv[2]);
     const std::size_t count = std::strtoull(argv[3], nullptr, 10);
     if (!open.model.is_balanced()) {
-        std::fprintf(stderr, "%s is open\n", argv[2]);
+        std::fprintf(stderr, "%s is unbalanced\n", argv[2]);
         return 2;
     }
     const BuilderInput input = cdprep::test::builder_input(open.model);

@@ -15,8 +15,7 @@ import sys
 import tempfile
 import xml.etree.ElementTree as xml
 
-import jsonschema
-
+from schemas import check_schema, report_of, schema_of
 from shared_models import bake, must, run
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -25,19 +24,7 @@ EXTENSION = {"godot": "glb", "unreal": "glb", "unity": "glb", "mujoco": "xml", "
              "urdf": "urdf", "json": "json"}
 GLB = ("godot", "unreal", "unity")
 ROBOTS = ("mujoco", "gazebo", "urdf")
-
-
-def schema_of(name):
-    return jsonschema.Draft202012Validator(
-        json.loads((ROOT / f"tools/export/{name}.schema.json").read_text()))
-
-
-REPORT, COLLIDERS = schema_of("export"), schema_of("colliders")
-
-
-def check_schema(schema, value, what):
-    error = jsonschema.exceptions.best_match(schema.iter_errors(value))
-    must(error is None, f"{what}: {error and error.message}")
+COLLIDERS = schema_of("export/colliders")
 
 
 # --- Meshes ----------------------------------------------------------------------------------
@@ -89,9 +76,7 @@ def export(program, model, engine, output, *options, code=0):
     done = run(program, "export", model, "--for", engine, "-o", output, "--format", "json",
                *options)
     must(done.returncode == code, f"export for {engine}: exit {done.returncode}: {done.stderr}")
-    report = json.loads(done.stdout)
-    check_schema(REPORT, report, f"report for {engine}")
-    return report, done.stderr
+    return report_of("export", done.stdout), done.stderr
 
 
 def read_with(reader, path):
@@ -118,13 +103,13 @@ def colliders(program, model, folder, *options):
     return found, report
 
 
-def points_of(piece):
-    flat = piece["points"]
+def points_of(part):
+    flat = part["points"]
     return [tuple(flat[i:i + 3]) for i in range(0, len(flat), 3)]
 
 
-def facets_of(piece):
-    flat = piece["triangles"]
+def facets_of(part):
+    flat = part["triangles"]
     return [tuple(flat[i:i + 3]) for i in range(0, len(flat), 3)]
 
 
@@ -142,10 +127,10 @@ def exactly(points):
     return [tuple(map(fractions.Fraction, p)) for p in points]
 
 
-def holds(piece, points):
-    """Whether a piece contains points, by exact arithmetic. Its facets face outwards."""
-    corners = exactly(points_of(piece))
-    for a, b, c in facets_of(piece):
+def holds(part, points):
+    """Whether a part contains points, by exact arithmetic. Its facets face outwards."""
+    corners = exactly(points_of(part))
+    for a, b, c in facets_of(part):
         at = corners[a]
         u, v = ([q[k] - at[k] for k in range(3)] for q in (corners[b], corners[c]))
         n = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
@@ -154,12 +139,12 @@ def holds(piece, points):
     return True
 
 
-def must_be_closed(piece):
-    edges = {(t[k], t[(k + 1) % 3]) for t in facets_of(piece) for k in range(3)}
-    must(len(edges) == len(piece["triangles"]), f"{piece['name']}: an edge twice in one direction")
-    must(all((b, a) in edges for a, b in edges), f"{piece['name']}: not closed")
-    must({i for t in facets_of(piece) for i in t} == set(range(len(points_of(piece)))),
-         f"{piece['name']}: a point without a triangle")
+def must_be_closed(part):
+    edges = {(t[k], t[(k + 1) % 3]) for t in facets_of(part) for k in range(3)}
+    must(len(edges) == len(part["triangles"]), f"{part['name']}: an edge twice in one direction")
+    must(all((b, a) in edges for a, b in edges), f"{part['name']}: not closed")
+    must({i for t in facets_of(part) for i in t} == set(range(len(points_of(part)))),
+         f"{part['name']}: a point without a triangle")
 
 
 # --- Checks ----------------------------------------------------------------------------------
@@ -169,8 +154,8 @@ def check_json(program, folder, model):
     """An L of volume 3, whose numbers are known by hand."""
     found, report = colliders(program, model, folder)
     must(found["name"] == "colliders" and found["metres_per_unit"] == 0.001, f"{found}")
-    must([p["name"] for p in found["pieces"]] == ["colliders_00", "colliders_01"], "names")
-    must(near([found["mass"]["volume"]], [3]) and found["mass"]["closed"], f"{found['mass']}")
+    must([p["name"] for p in found["parts"]] == ["colliders_00", "colliders_01"], "names")
+    must(near([found["mass"]["volume"]], [3]) and found["mass"]["of_solid"], f"{found['mass']}")
     must(near(found["mass"]["centre"], [5 / 6, 5 / 6, 1 / 2]), f"{found['mass']}")
     # Three cubes of side 1: 1/6 each about its own centre, and the squared distances.
     away = [(x - 5 / 6, y - 5 / 6) for x, y in ((.5, .5), (1.5, .5), (.5, 1.5))]
@@ -186,17 +171,17 @@ def check_json(program, folder, model):
     first = [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)]
     must(near([abs(v) for v in first], [0.5 ** 0.5, 0.5 ** 0.5, 0], 1e-9) and
          first[0] * first[1] < 0, f"the first axis is the diagonal of the L: {first}")
-    must(near([sum(p["volume"] for p in found["pieces"])], [3], 1e-9), "volumes of the parts")
+    must(near([sum(p["volume"] for p in found["parts"])], [3], 1e-9), "volumes of the parts")
     must(report["of"] == "parts" and report["left_out"] == 0 and not report["visual"], f"{report}")
-    for piece in found["pieces"]:
-        must_be_closed(piece)
+    for part in found["parts"]:
+        must_be_closed(part)
     done = run(program, "export", model, "--for", "json", "-o", "-", "-q")
     named = json.loads(done.stdout)
     must(named["name"] == "prism" and named["mass"] == found["mass"], "JSON on standard output")
     return found
 
 
-def check_glb(program, reader, folder, model, pieces):
+def check_glb(program, reader, folder, model, parts):
     """Nodes have the names that engines know, and corners are those of the JSON in metres, y up.
     Unity cooks meshes before nodes scale them: those that are small are written larger."""
     for engine in GLB:
@@ -204,9 +189,9 @@ def check_glb(program, reader, folder, model, pieces):
         report, said = export(program, model, engine, output)
         must(report["visual"] and report["written_up"] == "y" and not said, f"{report} {said}")
         found = read_with(reader, output)["parts"]
-        names = {"godot": [f"godot_{i:02}-convcolonly" for i in range(len(pieces))],
-                 "unreal": [f"UCX_unreal_{i:02}" for i in range(len(pieces))],
-                 "unity": [f"unity_{i:02}" for i in range(len(pieces))]}[engine]
+        names = {"godot": [f"godot_{i:02}-convcolonly" for i in range(len(parts))],
+                 "unreal": [f"UCX_unreal_{i:02}" for i in range(len(parts))],
+                 "unity": [f"unity_{i:02}" for i in range(len(parts))]}[engine]
         given = [p["name"] for p in found]
         must(given == [engine] + names, f"{engine}: {given}")
         must(all((p["parent"] == "colliders") == (engine == "unity") for p in found[1:]),
@@ -214,41 +199,43 @@ def check_glb(program, reader, folder, model, pieces):
         must(len(found[0]["facets"]) == len(l_prism()[1]), f"{engine}: {len(found[0]['facets'])}")
         scales = node_scales(output)
         must(set(scales) == (set(names) if engine == "unity" else set()), f"{engine}: {scales}")
-        for part, piece in zip(found[1:], pieces):
-            half = sum(max(p[k] for p in part["vertices"]) - min(p[k] for p in part["vertices"])
+        for written, part in zip(found[1:], parts):
+            corners = written["vertices"]
+            half = sum(max(p[k] for p in corners) - min(p[k] for p in corners)
                        for k in range(3)) / 2
-            must(engine != "unity" or 1 <= half < 2, f"{engine}: {part['name']} is {half} large")
-            scale = scales.get(part["name"], 1)
+            must(engine != "unity" or 1 <= half < 2,
+                 f"{engine}: {written['name']} is {half} large")
+            scale = scales.get(written["name"], 1)
             wanted = {tuple(map(to_float, (x * .001, z * .001, -y * .001)))
-                      for x, y, z in points_of(piece)}
-            must({tuple(scale * x for x in p) for p in part["vertices"]} == wanted,
-                 f"{engine}: {part['name']}")
+                      for x, y, z in points_of(part)}
+            must({tuple(scale * x for x in p) for p in corners} == wanted,
+                 f"{engine}: {written['name']}")
         alone, _ = (export(program, model, engine, output, "--no-visual") if engine != "unreal"
                     else (None, None))
         if alone:
-            must(len(read_with(reader, output)["parts"]) == len(pieces), f"{engine} --no-visual")
+            must(len(read_with(reader, output)["parts"]) == len(parts), f"{engine} --no-visual")
 
 
-def check_import_knows_names(program, folder, model, pieces):
-    """What was exported is imported as the same parts, each one convex piece."""
+def check_import_knows_names(program, folder, model, parts):
+    """What was exported is imported as the same parts."""
     for engine in ("godot", "unreal", "unity"):
         output = folder / f"again_{engine}.glb"
         export(program, model, engine, output)
         done = run(program, "hull", output, "-o", folder / "hulls.obj", "--per", "node", "--format",
                    "json")
         must(done.returncode == 0, done.stderr)
-        hulls = [h for h in json.loads(done.stdout)["hulls"] if "_0" in h["name"]]
-        must(len(hulls) == len(pieces), f"{engine}: {hulls}")
-        for hull, piece in zip(hulls, pieces):
-            must(hull["points"] == len(points_of(piece)), f"{engine}: {hull}")
+        hulls = [h for h in report_of("hull", done.stdout)["hulls"] if "_0" in h["name"]]
+        must(len(hulls) == len(parts), f"{engine}: {hulls}")
+        for hull, part in zip(hulls, parts):
+            must(hull["points"] == len(points_of(part)), f"{engine}: {hull}")
         done = run(program, "decompose", output, "--max-error", 1, "--format", "json", "--table")
         must(done.returncode == 0, done.stderr)
-        rows = [r for r in json.loads(done.stdout)["table"] if "_0" in r["node"]]
-        must([r["vertices"] for r in rows] == [len(points_of(p)) for p in pieces], f"{rows}")
+        rows = [r for r in report_of("decompose", done.stdout)["table"] if "_0" in r["node"]]
+        must([r["vertices"] for r in rows] == [len(points_of(p)) for p in parts], f"{rows}")
 
 
 def check_import_knows_tags(program, folder):
-    """An L is its hull where its name says so, and stays two pieces of their own elsewhere."""
+    """An L is its hull where its name says so, and stays two parts of their own elsewhere."""
     points, triangles = l_prism()
     for name, count in (("a-convcolonly", 1), ("a-convcol", 1), ("UCX_a_00", 1), ("a-colonly", 2),
                         ("a", 2)):
@@ -259,7 +246,8 @@ def check_import_knows_tags(program, folder):
                    "--table")
         # The hull of an L sticks out by more than asked.
         must(done.returncode == (1 if count == 1 else 0), f"{name}: {done.stderr}")
-        rows = [r for r in json.loads(done.stdout)["table"] if r.get("node", "").endswith(name)]
+        rows = [r for r in report_of("decompose", done.stdout)["table"]
+                if r.get("node", "").endswith(name)]
         must(len(rows) == count, f"{name}: {rows}")
 
 
@@ -267,7 +255,7 @@ def baked_mesh(program, source, folder, *options):
     """The report of a bake of a mesh file, and its volume in cubic metres."""
     model = folder / "again.cdp.h5"
     done = bake(program, source, "-o", model, "--structures", "hull", "--format", "json", *options)
-    report, = json.loads(done.stdout)["models"]
+    report, = report_of("bake", done.stdout)["models"]
     found, _ = colliders(program, model, folder)
     return report, found["metres_per_unit"] ** 3 * found["mass"]["volume"]
 
@@ -280,7 +268,7 @@ def check_bake_leaves_colliders_out(program, folder):
          "--unit", "mm")
     kept, _ = colliders(program, bolt, folder)
     wanted, triangles = 1e-9 * kept["mass"]["volume"], 212
-    of_parts = 1e-9 * sum(piece["volume"] for piece in kept["pieces"])
+    of_parts = 1e-9 * sum(part["volume"] for part in kept["parts"])
     must(of_parts > 1.01 * wanted, f"{of_parts} is the volume of the bolt too")
     # The last model has the name of the node above its parts.
     names = [("godot", "left", "left_00-convcolonly"), ("unreal", "left", "UCX_left_00"),
@@ -299,7 +287,7 @@ def check_bake_leaves_colliders_out(program, folder):
         must(near([volume], [wanted + of_parts], 1e-4), f"{engine}: {volume} with the parts")
         for options, count in (((), triangles), (("--with-colliders",), whole["triangles"])):
             done = run(program, "validate", output, "--format", "json", *options)
-            found, = json.loads(done.stdout)["meshes"]
+            found, = report_of("validate", done.stdout)["meshes"]
             must(found["triangles"] == count, f"{engine}: {found['triangles']} triangles")
             told = "colliders were left out" in " ".join(found.get("remarks", []))
             must(told == (not options), f"{engine}: {found.get('remarks')}")
@@ -320,12 +308,14 @@ def check_kept_colliders_are_told(program, folder):
             done = run(program, *command, output, "--format", "json")
             must("kept_" + engine in done.stderr and
                  "2 colliders are a part of the mesh: " in done.stderr and
-                 "Leave them out by --without-colliders." in done.stderr,
+                 "Leave them out with --without-colliders." in done.stderr,
                  f"{engine}, {command[0]}: {done.stderr}")
-            must(json.loads(done.stdout)["triangles"] > triangles, f"{engine}: {done.stdout}")
+            report = report_of(command[0], done.stdout)
+            must(report["triangles"] > triangles, f"{engine}: {done.stdout}")
             done = run(program, *command, output, "--format", "json", "--without-colliders")
             must(not done.stderr, f"{engine}, {command[0]}: {done.stderr}")
-            must(json.loads(done.stdout)["triangles"] == triangles, f"{engine}: {done.stdout}")
+            report = report_of(command[0], done.stdout)
+            must(report["triangles"] == triangles, f"{engine}: {done.stdout}")
         scene = folder / "kept.json"
         parts = [{"name": name, "model": output.name, "layer": "parts"} for name in ("a", "b")]
         scene.write_text(json.dumps({"cdprep_scene": 1, "metres_per_unit": 1, "layers": ["parts"],
@@ -347,7 +337,7 @@ def check_package(program, model, output, names):
     must(done.returncode == 0, f"check_urdf: {done.stderr}{done.stdout}")
 
 
-def check_robots(program, reader, folder, model, pieces):
+def check_robots(program, reader, folder, model, parts):
     """Mass by hand: 1,000 kg a cubic metre of 3 mm^3; density 8,000 gives eight times that."""
     for engine in ROBOTS:
         output = folder / f"{engine}.{EXTENSION[engine]}"
@@ -357,7 +347,7 @@ def check_robots(program, reader, folder, model, pieces):
             must(report["written_up"] == "z" and report["visual"] and not said, f"{report} {said}")
         found = read_with(reader, output)
         solid = [p for p in found["parts"] if p.get("collides", True)]
-        must(len(solid) == len(pieces), f"{engine}: {found['parts']}")
+        must(len(solid) == len(parts), f"{engine}: {found['parts']}")
         if engine == "urdf":
             done = run("check_urdf", output)
             must(done.returncode == 0, f"check_urdf: {done.stderr}{done.stdout}")
@@ -392,7 +382,7 @@ def check_mujoco(program, reader, folder, model):
         must(near([found["mass"]], [report["mass"]]), f"{options}: {found['mass']}")
         must((folder / "free_visual.obj").exists() == bool(shown), f"{options}: visual mesh")
         must([p["name"] for p in found["parts"]][shown:] == ["free_00", "free_01"], f"{found}")
-    # An open mesh has no volume for MuJoCo: its parts are shown instead, and it is said.
+    # An unbalanced mesh has no volume for MuJoCo: its parts are shown instead, and it is said.
     points, triangles = l_prism()
     open_mesh = write_obj(folder / "open.obj", points, triangles[:-1])
     bake(program, open_mesh, "--structures", "hull", "--parts", 2, "--unit", "mm")
@@ -402,9 +392,9 @@ def check_mujoco(program, reader, folder, model):
     must(all(p["collides"] for p in found["parts"]), f"{found}")
     done = run(program, "export", folder / "open.cdp.h5", "--for", "mujoco", "-o",
                folder / "open.xml")
-    must("not closed" in done.stdout and "overlaps count twice" in done.stdout, done.stdout)
+    must("not balanced" in done.stdout and "overlaps count twice" in done.stdout, done.stdout)
     as_json, _ = colliders(program, folder / "open.cdp.h5", folder)
-    must(not as_json["mass"]["closed"], f"{as_json['mass']}")
+    must(not as_json["mass"]["of_solid"], f"{as_json['mass']}")
 
 
 def check_points_are_dropped(program, folder):
@@ -419,18 +409,18 @@ def check_points_are_dropped(program, folder):
         found, report = colliders(program, model, folder)
         must(before["growth"] == 0 and before["points"] == before["stored_points"], f"{before}")
         must(report["stored_points"] == before["points"], f"{report}")
-        must(report["points"] == sum(len(points_of(p)) for p in found["pieces"]), f"{report}")
+        must(report["points"] == sum(len(points_of(p)) for p in found["parts"]), f"{report}")
         must(report["growth"] < before["outer_error"], f"{report} {before}")
         must(found["error"] <= before["outer_error"] + report["growth"], f"{report} {before}")
         must(report["low_points"] <= report["points"] / 20, f"{report}")
         dropped += before["points"] - report["points"]
-        for piece, old in zip(found["pieces"], kept["pieces"], strict=True):
-            must_be_closed(piece)
-            must(holds(piece, exactly(points_of(old))), f"{piece['name']} is too small")
+        for part, old in zip(found["parts"], kept["parts"], strict=True):
+            must_be_closed(part)
+            must(holds(part, exactly(points_of(old))), f"{part['name']} is too small")
     must(dropped > 0, "nothing was dropped: the check tests nothing")
     found, _ = colliders(program, folder / "ring.cdp.h5", folder)
     for point in exactly(torus(40, 20)[0]):
-        must(any(holds(piece, [point]) for piece in found["pieces"]), f"{point} is outside")
+        must(any(holds(part, [point]) for part in found["parts"]), f"{point} is outside")
 
 
 def check_units(program, folder):
@@ -495,8 +485,8 @@ def check_whole(program, folder):
     source = write_obj(folder / "whole.obj", *l_prism())
     bake(program, source, "--structures", "hull", "--unit", "m")
     found, report = colliders(program, folder / "whole.cdp.h5", folder)
-    must(report["of"] == "whole" and len(found["pieces"]) == 1, f"{report}")
-    must(near([found["pieces"][0]["volume"]], [3.5]), f"{found['pieces'][0]['volume']}")
+    must(report["of"] == "whole" and len(found["parts"]) == 1, f"{report}")
+    must(near([found["parts"][0]["volume"]], [3.5]), f"{found['parts'][0]['volume']}")
     must(0.5 <= found["error"] <= 1.03 * 0.5, f"{found['error']}")
 
 
@@ -575,12 +565,12 @@ def main():
         bake(program, folder / "prism.obj", "--structures", "hull", "--parts", 2, "--unit", "mm",
              "--up-axis", "z")
         found = check_json(program, folder, model)
-        check_glb(program, reader, folder, model, found["pieces"])
-        check_import_knows_names(program, folder, model, found["pieces"])
+        check_glb(program, reader, folder, model, found["parts"])
+        check_import_knows_names(program, folder, model, found["parts"])
         check_import_knows_tags(program, folder)
         check_bake_leaves_colliders_out(program, folder)
         check_kept_colliders_are_told(program, folder)
-        check_robots(program, reader, folder, model, found["pieces"])
+        check_robots(program, reader, folder, model, found["parts"])
         check_mujoco(program, reader, folder, model)
         check_points_are_dropped(program, folder)
         check_units(program, folder)

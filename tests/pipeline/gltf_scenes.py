@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """cdprep simulate X.gltf: triggers of KHR_physics_rigid_bodies have the events known by hand. A
 scene file of the same objects has the same events. Forms, threads, the cache and recordings change
-nothing. What is not taken is listed. Mistakes have their exit codes.
+nothing. What is ignored is listed. Mistakes have their exit codes.
 
 Usage: gltf_scenes.py CDPREP
 """
@@ -13,14 +13,11 @@ import pathlib
 import sys
 import tempfile
 
-import jsonschema
-
 from clash import cube, write_gltf
+from schemas import check_schema, schema_of
 from shared_models import must, run
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCHEMA = jsonschema.Draft202012Validator(
-    json.loads((ROOT / "tools/simulate/simulate.schema.json").read_text()))
+SCHEMA = schema_of("simulate/simulate")
 EXTENSION = "KHR_physics_rigid_bodies"
 
 
@@ -34,8 +31,7 @@ def lines_of(done):
     """The events, and the summary without times."""
     lines = [json.loads(line) for line in done.stdout.splitlines()]
     for line in lines:
-        error = jsonschema.exceptions.best_match(SCHEMA.iter_errors(line))
-        must(error is None, f"{line}: {error and error.message}")
+        check_schema(SCHEMA, line, line)
     return lines[:-1], lines[-1]["summary"]
 
 
@@ -144,8 +140,7 @@ def the_triggers(program, folder):
 def the_plan(program, folder):
     scene = write_scene(folder / "scene.gltf")
     plan = json.loads(simulate(program, scene, "--plan", "--format", "json").stdout)
-    error = jsonschema.exceptions.best_match(SCHEMA.iter_errors(plan))
-    must(error is None, f"{error and error.message}")
+    check_schema(SCHEMA, plan, "--plan")
     must([(layer["name"], layer["objects"]) for layer in plan["layers"]] ==
          [("colliders of cubes", 2), ("triggers of gates", 2), ("triggers of gates#2", 1),
           ("colliders", 1), ("triggers", 1)], f"{plan['layers']}")
@@ -179,20 +174,20 @@ def the_recordings(program, folder):
         moved[1]["translation"] = [0, 0, 1]
         write_scene(scene, moved)
         wrong = simulate(program, first, code=3)
-        must(f"{name}: this is not the file that was recorded." in wrong.stderr, wrong.stderr)
+        must(f"{name}: the file has changed since it was recorded." in wrong.stderr, wrong.stderr)
         scene.unlink()
         wrong = simulate(program, first, code=3)
         must(name in wrong.stderr, wrong.stderr)
 
 
 def the_list(program, folder):
-    """What is not taken, and what is assumed."""
+    """What is ignored, and what is assumed."""
     plain = simulate(program, write_scene(folder / "scene.gltf"), "--plan").stderr.splitlines()
     start = f"cdprep simulate: {folder / 'scene.gltf'}: "
     must(plain == [
-        start + "not taken: a node with triangles but without a collider or trigger (/nodes/7).",
+        start + "ignored: a node with triangles but without a collider or trigger (/nodes/7).",
         start + "assumed: a kinematic node without a centre of mass turns about its origin.",
-        start + "assumed: a collider or trigger in no collision system is in none of those that a "
+        start + "assumed: a collider or trigger without collision systems is in no system that a "
                 "filter lists.",
         start + "assumed: a step is 1/60 s, and a run takes 1 s without --frames or "
                 "--until."], f"{plain}")
@@ -206,7 +201,7 @@ def the_list(program, folder):
     for words in (f"a joint (/nodes/8{at}joint).",
                   f"a convex hull as geometry; the mesh is used (/nodes/9{at}trigger/geometry/node).",
                   "an animation of a node (/animations/0/channels/0)."):
-        must(start + "not taken: " + words in more.stderr, more.stderr)
+        must(start + "ignored: " + words in more.stderr, more.stderr)
 
 
 def mistakes(program, folder):

@@ -5,7 +5,6 @@
 Prints a table of file, triangles, seconds, bytes and bytes per triangle.
 Usage: hard_models.py CDPREP
 """
-import json
 import pathlib
 import re
 import subprocess
@@ -13,6 +12,7 @@ import sys
 import tempfile
 import time
 
+from schemas import report_of
 from shared_models import must, run, shared_folder
 
 NOT_MODELS = {".md", ".bin"}
@@ -47,7 +47,7 @@ def main():
                "--timings")
     must(done.returncode == 0, f"baking all exited {done.returncode}: {done.stderr}")
     reports = {pathlib.Path(report["input"]).name: report
-               for report in json.loads(done.stdout)["models"]}
+               for report in report_of("bake", done.stdout)["models"]}
     expected = expected_triangles(models / "hard" / "PROVENANCE.md")
     print(f"{'file':45} {'triangles':>9} {'seconds':>8} {'bytes':>10} {'B/tri':>7}")
     for path in seeds + hard:

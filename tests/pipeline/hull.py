@@ -15,6 +15,7 @@ import re
 import sys
 import tempfile
 
+from schemas import report_of
 from shared_models import must, run
 
 F = fractions.Fraction
@@ -78,7 +79,7 @@ def check_exact_and_enclosing(program, folder):
         options = [] if most is None else ["--max-vertices", most]
         done = run(program, "hull", source, "-o", output, "--format", "json", *options)
         must(done.returncode == 0, done.stderr)
-        report = json.loads(done.stdout)
+        report = report_of("hull", done.stdout)
         hull, = report["hulls"]
         vertices, triangles, groups = read_obj(output)
         must(list(groups) == ["hull"], f"groups {list(groups)}")
@@ -105,7 +106,7 @@ def check_parts(program, folder):
     for scope, hulls in (("whole", 1), ("component", 2), ("node", 1)):
         done = run(program, "hull", source, "-o", output, "--per", scope, "--format", "json")
         must(done.returncode == 0, done.stderr)
-        report = json.loads(done.stdout)
+        report = report_of("hull", done.stdout)
         must(len(report["hulls"]) == hulls, f"{scope}: {len(report['hulls'])} hulls")
         for hull in report["hulls"]:
             must((hull["dimension"], hull["points"], hull["faces"]) == (3, 8, 6), f"{hull}")
@@ -121,7 +122,7 @@ def check_low_dimensions(program, folder):
         write_obj(source, points, [(0, 1, 2)])
         done = run(program, "hull", source, "-o", output, "--format", "json")
         must(done.returncode == 0, done.stderr)
-        hull, = json.loads(done.stdout)["hulls"]
+        hull, = report_of("hull", done.stdout)["hulls"]
         must((hull["dimension"], hull["points"]) == (dimension, dimension + 1), f"{hull}")
 
 
@@ -133,8 +134,8 @@ def check_every_format(program, folder):
     for extension in ("obj", "ply", "stl", "off"):
         first, second = folder / f"a.{extension}", folder / f"b.{extension}"
         run(program, "hull", source, "-o", first)
-        counts = [json.loads(run(program, "hull", path, "-o", second, "--format",
-                                 "json").stdout)["hulls"][0]["points"]
+        counts = [report_of("hull", run(program, "hull", path, "-o", second, "--format",
+                                        "json").stdout)["hulls"][0]["points"]
                   for path in (source, first)]
         must(counts[0] == counts[1], f"{extension}: {counts}")
         # STL has no shared vertices, whose numbers decide on the order of facets.
@@ -152,7 +153,7 @@ def check_baked(program, folder):
     must(done.returncode == 0, done.stderr)
     done = run(program, "info", baked, "--deep", "--format", "json")
     must(done.returncode == 0, done.stderr)
-    hulls = json.loads(done.stdout)["hulls"]
+    hulls = report_of("info", done.stdout)["hulls"]
     must([(hull["around"], hull["number"]) for hull in hulls]
          == [("whole", 0), ("component", 0), ("component", 1)], f"{hulls}")
     try:

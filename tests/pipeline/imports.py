@@ -12,6 +12,7 @@ import sys
 import tempfile
 import zipfile
 
+from schemas import report_of
 from shared_models import bake, must, run, shared_models_if_there
 
 try:
@@ -52,7 +53,7 @@ def validated(program, path, code=None):
     done = run(program, "validate", path, "--format", "json")
     must(code is None or done.returncode == code,
          f"validate {path} exited {done.returncode}: {done.stdout}{done.stderr}")
-    return json.loads(done.stdout)["meshes"][0]
+    return report_of("validate", done.stdout)["meshes"][0]
 
 
 def refused(program, path, *words, options=()):
@@ -63,7 +64,7 @@ def refused(program, path, *words, options=()):
 
 
 def info(program, path):
-    return json.loads(run(program, "info", path, "--format", "json").stdout)
+    return report_of("info", run(program, "info", path, "--format", "json").stdout)
 
 
 def packages_of_3mf(program, folder):
@@ -100,7 +101,8 @@ def packages_of_3mf(program, folder):
         (model('<resources><object id="1"><b:ball/></object></resources><build><item objectid="1"/>'
                "</build>"), [], ["object 1", "neither triangles nor components"]),
         (model('<resources><object id="1"><components><component objectid="1"/></components>'
-               '</object></resources><build><item objectid="1"/></build>'), [], ["object 1", "below"]),
+               '</object></resources><build><item objectid="1"/></build>'), [],
+         ["object 1", "contains itself"]),
         (model("<resources/><build/>", 'requiredextensions="b"'), [], ["http://example.org/balls"]),
         (placed(""), [], ["no triangle"]),
         (placed('<item objectid="1" transform="1 2"/>'), [], ["12 finite numbers"]),
@@ -155,7 +157,7 @@ def wrong_numbers_of_3mf(program, folder):
             ('y="2"', 'y="two"', ['y="two"', "not a number"]),
             ('v2="1"', 'v2="-1"', ['v2="-1"', "not a vertex number"]),
             ('v2="1"', "", ['v2=""', "not a vertex number"]),
-            ("</mesh>", "<beamlattice/></mesh>", ["beams, which are not read"]),
+            ("</mesh>", "<beamlattice/></mesh>", ["beams, which are not supported"]),
             ('unit="inch"', 'unit="yard"', ['"yard"', "not a unit of 3MF"])):
         package(folder / "bad.3mf", plain.replace(old, new))
         refused(program, folder / "bad.3mf", *words)

@@ -3,7 +3,7 @@
 """Points inside real models, asked through every structure, against CGAL.
 
 The closed scans skull and armadillo against Side_of_triangle_mesh with an exact kernel;
-buddha, which crosses itself, and the closed hard models that are no 2-manifolds against
+buddha, which crosses itself, and the balanced hard models that are no 2-manifolds against
 counting what exact rays cross. By default some points of each; a million of each scan
 and many more of the others with CDPREP_ALL_POSES=yes.
 Usage: inclusion.py CDPREP ORACLE

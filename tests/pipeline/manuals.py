@@ -77,6 +77,12 @@ def bash_completes(folder):
     must(completed(folder, "cdprep", "validate", "--format", "sa") == ["sarif"],
          "bash offers no value")
     must("overlap" in completed(folder, "cdprep", "query", "o"), "bash offers no query")
+    must("octree" in completed(folder, "cdprep", "query", "overlap", "--structure", "''"),
+         "bash offers no structure")
+    must(completed(folder, "cdprep", "bake", "--effects", "ov") == ["overlap"],
+         "bash does not complete the first word of a list")
+    must(completed(folder, "cdprep", "bake", "--effects", "ray,collide,ov")
+         == ["ray,collide,overlap"], "bash does not complete the last word of a list")
 
 
 def other_shells_read_theirs(folder):

@@ -9,6 +9,7 @@ import pathlib
 import sys
 import tempfile
 
+from schemas import report_of
 from shared_models import SKIPPED, bake, must, run
 
 try:
@@ -78,7 +79,7 @@ def main():
     output = folder / "tent.cdp.h5"
     bake(program, folder / "tent.obj", "-o", output, "--effects", "all", "--unit", "mm",
          "--up-axis", "z")
-    info = json.loads(run(program, "info", output, "--format", "json").stdout)
+    info = report_of("info", run(program, "info", output, "--format", "json").stdout)
 
     with h5py.File(output, "r") as file:
         must(list(file) == ["cdprep"], f"groups {list(file)}")

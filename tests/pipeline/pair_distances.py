@@ -84,7 +84,7 @@ def main():
                  f"{option}: {truth}, {answer}")
 
     timed = run(program, "query", "distance", *poses, "--repeat", 3, "--timings")
-    must(re.search(r"^1536 questions: median [0-9.]+ us", timed.stderr), timed.stderr)
+    must(re.search(r"^1536 queries: median [0-9.]+ us", timed.stderr), timed.stderr)
     must(len(timed.stdout.splitlines()) == len(moves), "--repeat writes each answer once")
     must("distance 3 " in timed.stdout or "distance 2.99" in timed.stdout, timed.stdout[:200])
 

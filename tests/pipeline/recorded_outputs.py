@@ -20,6 +20,7 @@ import sys
 import tempfile
 
 from known_meshes import CUBE
+from schemas import OF_COMMANDS, report_of
 from shared_models import bake, must, place_of_shared_folder, shared_folder_if_there
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -405,6 +406,8 @@ class Outputs:
             (folder / words[words.index("-o") + 1]).parent.mkdir(exist_ok=True)
         done = subprocess.run([self.program, *words], cwd=folder, capture_output=True,
                               stdin=subprocess.DEVNULL)
+        if words[0] in OF_COMMANDS and "json" in words and done.stdout:
+            report_of(words[0], done.stdout)
         return b"%d\n%s\n%s" % (done.returncode, told(done.stdout), told(done.stderr))
 
 

@@ -10,7 +10,6 @@ with CDPREP_ALL_POSES=yes.
 Usage: repair.py CDPREP [PRESET...]
 """
 import concurrent.futures
-import json
 import math
 import os
 import pathlib
@@ -18,6 +17,7 @@ import sys
 import tempfile
 import time
 
+from schemas import report_of
 from shared_models import IS_SLOW, checker, hard_files, must, run, shared_folder, small
 
 PRESETS = ("safe", "closed", "solid")
@@ -37,7 +37,7 @@ def repaired(program, preset, path, output):
     begun = time.time()
     done = run(program, "repair", path, "-o", output, "--preset", preset, "--format", "json")
     must(done.returncode in (0, 1), f"{path.name}: exit {done.returncode}: {done.stderr}")
-    report = json.loads(done.stdout)
+    report = report_of("repair", done.stdout)
     must((done.returncode == 0) == report["goal"] and report["exit"] == done.returncode,
          f"{path.name}: exit {done.returncode}, goal {report['goal']}: {done.stderr}")
     must(report["goal"] or f"not {preset}: " in done.stderr or WORSE in done.stderr,
@@ -117,11 +117,12 @@ def says_what_is_missed(program, folder):
             (square, ["--preset", "closed", "--hole-size", "0.5"], 1, False,
              "not closed: 4 edges are still open."),
             (square, ["--steps", "weld"], 0, None, ""),
-            (nothing, ["--preset", "solid"], 1, False, "no triangle is left of the 1 of the input."),
-            (nothing, ["--steps", "drop-bad-numbers"], 1, None, "no triangle is left")):
+            (nothing, ["--preset", "solid"], 1, False,
+             "the output has no triangles, but the input has 1."),
+            (nothing, ["--steps", "drop-bad-numbers"], 1, None, "the output has no triangles")):
         output.unlink(missing_ok=True)
         done = run(program, "repair", path, "-o", output, *arguments, "--format", "json")
-        report = json.loads(done.stdout)
+        report = report_of("repair", done.stdout)
         must((done.returncode, report["exit"], report["goal"]) == (code, code, goal),
              f"{path.name} {arguments}: exit {done.returncode}, goal {report['goal']}")
         must(sentence in done.stderr and bool(sentence) == bool(done.stderr), done.stderr)
@@ -160,10 +161,11 @@ def tells_of_crossings(program, folder):
 
     def repair(name, *arguments):
         done = run(program, "repair", meshes[name], "-o", output, *arguments, "--format", "json")
-        report = json.loads(done.stdout)
+        report = report_of("repair", done.stdout)
         pairs = [report[when]["crossing_pairs"] for when in ("before", "after")]
         must(done.returncode == report["exit"], f"{name}: {done.returncode}")
-        counts, = json.loads(run(program, "validate", output, "--format", "json").stdout)["meshes"]
+        counts, = report_of("validate", run(program, "validate", output, "--format",
+                                            "json").stdout)["meshes"]
         must(counts["counts"]["self_intersecting_pairs"] == pairs[1],
              f"{name}: {pairs[1]} pairs after, validate finds {counts['counts']}")
         return done, report, pairs
@@ -177,13 +179,14 @@ def tells_of_crossings(program, folder):
             continue
         must(done.returncode == 1 and report["goal"] is False, f"closed: {done.returncode}")
         must(pairs[1] > pairs[0] > 0, f"{pairs}: a lid must cross the post")
-        must(f"{WORSE}{pairs[1]} pairs of triangles cross or touch, and {pairs[0]} before"
-             in done.stderr, done.stderr)
+        must(f"{WORSE}{pairs[1]} pairs of triangles cross or touch, compared with "
+             f"{pairs[0]} before" in done.stderr, done.stderr)
         text = run(program, "repair", meshes["crossing.off"], "-o", output, "--preset", preset)
         for words in (f"{pairs[0]} pairs that cross", f"{pairs[1]} pairs that cross"):
             must(words in text.stdout, text.stdout)
     done, report, pairs = repair("crossing.off", "--steps", "fill-holes")
-    must(done.returncode == 1 and report["goal"] is None and "and " in report["missed"],
+    must(done.returncode == 1 and report["goal"] is None and
+         f"compared with {pairs[0]} before" in report["missed"],
          f"steps: {done.stderr}")
     done, report, pairs = repair("crossing.off", "--preset", "solid")
     must(pairs[1] == 0 and report["goal"] and done.returncode == 0, f"solid: {done.stderr}")

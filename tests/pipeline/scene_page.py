@@ -221,8 +221,9 @@ def check_panels(browser, page, events):
                         ".getBoundingClientRect(); return [r.x, r.y, r.width, r.height]; })()")
     browser.click(box[0] + box[2] / 2, box[1] + box[3] / 2)
     must(browser.value("run.objects[state.chosen][0]") == "tumbling", "a click in the picture")
-    must(text_of(browser, "not-computed").startswith("Not computed: overlap, distance, contacts, "
-                                                   "continuous, self, haptic, response."),
+    must(text_of(browser, "not-computed").startswith(
+        "Not requested by any pair of layers: overlap, distance, contacts, continuous, self, "
+        "haptic, response."),
          text_of(browser, "not-computed"))
     browser.value("document.getElementById('tab-plan').click()")
     plan = text_of(browser, "panel-plan")
@@ -307,7 +308,7 @@ def check_shapes(browser, program, folder):
     must(pixel_at(browser, Picture(browser.screenshot()), gap) == ground, "there is no gap")
     changes = json.loads(run(program, "simulate", SCENES / "cut.json").stdout.splitlines()[-1])
     changes = changes["summary"]["changes"]
-    must(browser.value(triangles) == len(faces) - changes["torn"] + changes["parts"],
+    must(browser.value(triangles) == len(faces) - changes["torn"] + changes["appended"],
          f"{browser.value(triangles)} triangles after the tear; {changes}")
     # Time runs backwards as well.
     go(browser, 3)

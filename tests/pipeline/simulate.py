@@ -15,21 +15,12 @@ import sys
 import tempfile
 import time
 
-import jsonschema
-
+from schemas import check_schema, schema_of
 from shared_models import bake, must, run
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCENES = ROOT / "samples/scenes"
-SCENE_SCHEMA = jsonschema.Draft202012Validator(
-    json.loads((ROOT / "tools/scene_file/scene.schema.json").read_text()))
-OUTPUT_SCHEMA = jsonschema.Draft202012Validator(
-    json.loads((ROOT / "tools/simulate/simulate.schema.json").read_text()))
-
-
-def check_schema(schema, value, what):
-    error = jsonschema.exceptions.best_match(schema.iter_errors(value))
-    must(error is None, f"{what}: {error and error.message}")
+SCENE_SCHEMA, OUTPUT_SCHEMA = schema_of("scene_file/scene"), schema_of("simulate/simulate")
 
 
 def simulate(program, scene, *arguments):
@@ -90,10 +81,10 @@ def the_plans(program):
         must(model["read_bytes"] == sum(s["bytes"] for s in model["read"]) > 1000, f"{model}")
     text = run(program, "simulate", SCENES / "crates.json", "--plan").stdout
     for words in ("layer 'debris': 60 objects", "layers 'crates' and 'triggers': collide of solids",
-                  "not computed, for no pair of layers asks: overlap, distance, contacts, continuous, "
+                  "not requested by any pair of layers: overlap, distance, contacts, continuous, "
                   "self, haptic, response\n", "never touched: 4 sections",
-                  "layers in no pair, whose objects are never looked at: debris\n",
-                  "layers that are never looked at together: ground-triggers (1 pair of objects)",
+                  "layers in no pair, whose objects are never tested: debris\n",
+                  "layers never tested against each other: ground-triggers (1 pair of objects)",
                   "debris-debris (1770 pairs of objects)\n"):
         must(words in text, f"the plan does not say '{words}':\n{text}")
     the_state(program)
@@ -302,8 +293,8 @@ def the_thousand(program, folder):
          "a false file in the cache is believed")
 
     text = run(program, "simulate", scene, "--format", "text").stdout
-    for words in ("not computed, for no pair of layers asks: overlap, distance",
-                  "layers that are never looked at together: resting-resting (124750 pairs of "
+    for words in ("not requested by any pair of layers: overlap, distance",
+                  "layers never tested against each other: resting-resting (124750 pairs of "
                   "objects), resting-crossing",
                   "not read: 4 sections, ", f"state {one[1]['state_hash']}"):
         must(words in text, text)
@@ -456,7 +447,7 @@ def refusals(program, folder):
                         pairs=[{"layers": ["a", "b"], "effects": ["inside", "response"]},
                                {"layers": ["b", "a"], "effects": ["collide"], "tolerance": 3}])
     words = ["Pair 0 of layers, 'a' and 'b': response needs bodies",
-             "Pair 0 of layers, 'a' and 'b': inside is not built",
+             "Pair 0 of layers, 'a' and 'b': inside is not supported",
              "line 1: /pairs/1: Pair 1 of layers, 'b' and 'a': layers 'b' and 'a' are also those of "
              "pair 0",
              "Pair 1 of layers, 'b' and 'a': tolerance has no meaning without within",
@@ -520,7 +511,7 @@ def mistakes(program, folder):
         ([folder / "no.json"], 3, ["no.json: line 2: this is not JSON"]),
         *(([folder / name], 3, [f"{name}: this is {form}, which joins bodies"])
           for name, (form, _) in robots.items()),
-        ([folder / "bad.json"], 3, ["bad.json: line 4: /colour: 'colour' is not a key here",
+        ([folder / "bad.json"], 3, ["bad.json: line 4: /colour: unknown key 'colour'",
                                     "line 3: /objects/0/model: there is no file",
                                     "line 3: /objects/0/layer: 'b' is not a layer"]),
         ([folder / "broken.json"], 3, ["broken.obj", "short.obj"]),
@@ -559,8 +550,7 @@ def mistakes(program, folder):
 
 def the_effects(program, folder):
     """The schema of scene files names the effects that the program reads."""
-    words = json.loads((ROOT / "tools/scene_file/scene.schema.json").read_text())
-    words = words["$defs"]["pair"]["properties"]["effects"]["items"]["enum"]
+    words = SCENE_SCHEMA["$defs"]["pair"]["properties"]["effects"]["items"]["enum"]
     scene = write_scene(folder / "effects.json", layers=["a"], objects=[],
                         pairs=[{"layers": ["a", "a"], "effects": ["none"]}])
     told = run(program, "simulate", scene).stderr
@@ -568,9 +558,12 @@ def the_effects(program, folder):
 
 
 def the_help(program):
-    """It states the defaults of bodies."""
+    """It states the defaults of bodies, as the schema of scene files does."""
+    dynamics = SCENE_SCHEMA["$defs"]["dynamics"]["properties"]
+    substeps, iterations = (dynamics[key]["default"] for key in ("substeps", "iterations"))
     told = " ".join(run(program, "simulate", "--help").stdout.split())
-    must("4 substeps, and the solver takes 50 iterations" in told and "`dynamics`" in told, told)
+    must(f"A frame then has {substeps} substeps, and the solver {iterations} iterations in each. "
+         "`dynamics` of the scene changes these numbers." in told, told)
 
 
 def an_interrupt(program):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """bake --structures and query --structure: a file holds the octrees and the tetra-tree
-that were asked for and no others, h5py reads them as tables, and questions through each
+that were requested and no others, h5py reads them as tables, and queries through each
 have the answers of the hierarchy of boxes.
 
 With the test models also every pair of Table 4 against the exact sets: by default some
@@ -9,7 +9,6 @@ poses of each, a slow program those of two models; all of them with CDPREP_ALL_P
 every option of a bake is also left out for a scanned model.
 Usage: structures.py CDPREP
 """
-import json
 import math
 import os
 import pathlib
@@ -21,6 +20,7 @@ from bounds import random_pose
 from killed_bake import digest, write_sheet
 from known_meshes import CUBE
 from poses_truth import truth
+from schemas import report_of
 from shared_models import (IS_SLOW, answers, bake, must, run, shared_folder_if_there,
                            shared_models_if_there)
 
@@ -85,7 +85,7 @@ def write_torus(path, big, small, n, m):
 def told(program, path):
     info = run(program, "info", path, "--deep", "--format", "json")
     must(info.returncode == 0, f"info --deep {path.name} exited {info.returncode}: {info.stderr}")
-    return json.loads(info.stdout)
+    return report_of("info", info.stdout)
 
 
 def holds_what_was_asked(program, mesh, folder):
@@ -102,8 +102,8 @@ def holds_what_was_asked(program, mesh, folder):
                  "boxes"], OCTREE)]
     for options, sections in wanted:
         baked = folder / "some.cdp.h5"
-        report = json.loads(bake(program, mesh, "-o", baked, *options, "--allow-empty", "--format",
-                                 "json").stdout)
+        report = report_of("bake", bake(program, mesh, "-o", baked, *options, "--allow-empty",
+                                        "--format", "json").stdout)
         info = told(program, baked)
         names = {section["name"] for section in info["sections"]}
         must(names & ALL == sections, f"{options} baked {names & ALL}")
@@ -212,7 +212,7 @@ def same_bytes(program, mesh, folder):
 
 
 def agree(program, a, b, poses, questions, what):
-    """Returns how many of the poses hit and how many pairs the talk's algorithm missed."""
+    """Returns how many of the poses hit and how many pairs hashed-octree-literal missed."""
     hits = missed = 0
     for question in questions:
         ask = [*question, a, b, "--poses", poses]
@@ -226,10 +226,10 @@ def agree(program, a, b, poses, questions, what):
             continue
         for answer, literal in zip(expected, answers(program, *ask, "--structure",
                                                      "hashed-octree-literal")):
-            must(literal.pop("approximate") is True, "the talk's algorithm claims to be exact")
+            must(literal.pop("approximate") is True, "hashed-octree-literal claims to be exact")
             if "pairs" in answer:
                 must(set(map(tuple, literal["pairs"])) <= set(map(tuple, answer["pairs"])),
-                     f"{what}: the talk's algorithm finds pairs that are none")
+                     f"{what}: hashed-octree-literal finds a false pair")
             must(literal["count"] <= answer["count"], f"{what}: {literal}")
             missed += answer["count"] - literal["count"]
     return hits, missed
@@ -272,7 +272,7 @@ def inclusion_agrees(program, meshes, folder):
         print(f"{mesh.name}: {inside} of {len(points)} points inside, all structures agree")
 
 
-def asked_wrongly(program, mesh, folder):
+def invalid_arguments(program, mesh, folder):
     plain, octree = folder / "plain.cdp.h5", folder / "octree.cdp.h5"
     bake(program, mesh, "-o", plain)
     bake(program, mesh, "-o", octree, "--structures", "octree")
@@ -301,7 +301,7 @@ def asked_wrongly(program, mesh, folder):
         (["query", "overlap", *pair, "--structure", "kd-tree"], ["'kd-tree'", "tetra-tree"]),
         (["query", "overlap", *pair, "--structure", "pieces"], ["piece_nodes", "--effects pieces"]),
         (["query", "collide", *pair, "--structure", "sphere-tree"],
-         ["'sphere-tree'", "collide", "version"]),
+         ["'sphere-tree'", "collide", "tetra-tree or hull."]),
         (["query", "collide", *pair, "--structure", "hashed-octree-literal"],
          ["hashed-octree-literal", "collide"]),
         (["query", "distance", *pair, "--structure", "octree"], ["'octree'", "distance", "bvh"]),
@@ -359,11 +359,11 @@ def pairs_of_the_papers(program, shared, folder):
         literal = sum(answer["count"] for answer in
                       answers(program, *ask, "hashed-octree-literal", "--count"))
         count = sum(map(len, expected))
-        must(literal <= count, f"{poses.stem}: the talk's algorithm finds {literal} of {count}")
+        must(literal <= count, f"{poses.stem}: hashed-octree-literal finds {literal} of {count}")
         checked, pairs, missed = checked + len(expected), pairs + count, missed + count - literal
-    must(checked > 0, "no pair of models was asked")
-    print(f"{checked} poses, {pairs} pairs, all structures equal to the exact sets; the talk's "
-          f"algorithm misses {missed}")
+    must(checked > 0, "no pair of models was tested")
+    print(f"{checked} poses, {pairs} pairs, all structures equal to the exact sets; "
+          f"hashed-octree-literal misses {missed}")
 
 
 def random_poses_of_the_papers(program, folder):
@@ -402,7 +402,7 @@ def main():
         same_bytes(program, mesh, folder)
     answers_agree(program, (sheet, torus, folder / "cube.off"), folder)
     inclusion_agrees(program, (sheet, torus, folder / "cube.off"), folder)
-    asked_wrongly(program, torus, folder)
+    invalid_arguments(program, torus, folder)
     shared = shared_folder_if_there()
     if shared is None:
         print("skipped: pairs of the test models, which are not there (set CDPREP_SHARED)")

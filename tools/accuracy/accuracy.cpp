@@ -32,20 +32,20 @@ constexpr std::array<Weight, 18> kWeights = {{
     {"poses", 3, 0.8},
     {"self-check", 1, 0.3},
     {"shapes", 1, 0.3},
-    {"2 pieces", 0.5, 0.5},
-    {"4 pieces", 0.8, 0},
-    {"8 pieces", 1, 1},
-    {"16 pieces", 2, 0},
-    {"32 pieces", 4, 0},
-    {"64 pieces", 7, 0},
-    {"128 pieces", 0.1, 0},
-    {"256 pieces", 0.1, 0},
+    {"2 parts", 0.5, 0.5},
+    {"4 parts", 0.8, 0},
+    {"8 parts", 1, 1},
+    {"16 parts", 2, 0},
+    {"32 parts", 4, 0},
+    {"64 parts", 7, 0},
+    {"128 parts", 0.1, 0},
+    {"256 parts", 0.1, 0},
     {"tetra-tree", 3, 1},
     {"octree", 3, 0.5},
-    {"geometry: asking", 14, 1},
-    {"distance: asking", 5, 0.5},
-    {"predicates: asking", 3, 0.4},
-    {"coherence: asking", 8, 0.5},
+    {"geometry: queries", 14, 1},
+    {"distance: queries", 5, 0.5},
+    {"predicates: queries", 3, 0.4},
+    {"coherence: queries", 8, 0.5},
 }};
 constexpr Weight kStorage = {"storage", 8, 1};
 
@@ -233,7 +233,7 @@ Result<AccuracyStudy> study_accuracy(const mesh::Mesh& a, const mesh::Mesh& b,
     if (a.triangles.empty() || b.triangles.empty()) {
         return Error{ErrorCode::bad_argument,
                      std::string(a.triangles.empty() ? "The first" : "The second") +
-                         " model has no triangles, so no query makes sense."};
+                         " model has no triangles, so it cannot be queried."};
     }
     return AccuracyRun(a, b, options).run();
 }

@@ -33,7 +33,7 @@ struct StudiedModel {
     std::size_t triangles = 0;
     std::size_t vertices = 0;
     double diagonal = 0;  ///< of its box, model units
-    bool is_closed = false;
+    bool is_balanced = false;
     bool single_precision = false;
 };
 

@@ -58,14 +58,14 @@ function facts_of(ladder, rung) {
     facts.push(["error", `${per_cent(rung.error.value)} (${per_cent(rung.error.low)} to `
       + `${per_cent(rung.error.high)})`]);
   }
-  if (rung.outer !== undefined) facts.push(["sticks out", `${per_cent(rung.outer)} of the diagonal`]);
+  if (rung.outer !== undefined) facts.push(["outer error", `${per_cent(rung.outer)} of the diagonal`]);
   if (rung.pairs) {
     facts.push(["pairs", `recall ${in_band(rung.pairs.recall)}, `
       + `precision ${in_band(rung.pairs.precision)}`]);
   }
   if (rung.distance) {
     const holds = rung.distance.interval_holds;
-    facts.push(["interval", `holds the truth in ${holds.count} of ${holds.of}`]);
+    facts.push(["interval", `contains the exact distance in ${holds.count} of ${holds.of}`]);
   }
   if (rung.rigid) {
     const {misses, false_hits, undecided} = rung.rigid;
@@ -99,7 +99,7 @@ function add(parent, kind, text) {
 function fill_tip(ladder, rung) {
   tip.replaceChildren();
   add(tip, "h4", `${ladder.name}: ${rung.name}`);
-  add(tip, "p", rung.how + (rung.dominated ? ". Another rung beats it." : "."));
+  add(tip, "p", rung.how + (rung.dominated ? ". Another rung is better." : "."));
   const list = add(tip, "dl", "");
   for (const [name, value] of facts_of(ladder, rung)) {
     add(list, "dt", name);

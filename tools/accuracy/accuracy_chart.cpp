@@ -40,7 +40,7 @@ struct Box {
 
 /// Returns the colour number of a rung. Rungs of one kind share a colour.
 std::size_t family_of(const std::string& name) {
-    if (name.ends_with("pieces")) return 1;
+    if (name.ends_with("parts")) return 1;
     if (name.starts_with("tetra-tree")) return 2;
     if (name.starts_with("octree")) return 3;
     if (name.starts_with("float")) return 4;
@@ -346,7 +346,7 @@ private:
         }
         text += line(kLeft, kBottom, kLeft + kWide, kBottom, "axis");
         return text + words(kLeft + kWide / 2, kBottom + 42, "middle", "name",
-                            "distance of the surfaces, from far apart to deep in each other");
+                            "poses, from far apart to deep penetration");
     }
 
     [[nodiscard]] std::string rung_line(std::size_t r, const Axis& y,
@@ -477,7 +477,7 @@ std::string explanation_of(const Ladder& ladder) {
     const bool has_distances = std::ranges::any_of(
         ladder.rungs, [](const Rung& rung) { return rung.distance.has_value(); });
     return "Error: " + ladder.error + ". Hollow: not on the Pareto front. Bars: 95 % confidence" +
-           (has_distances ? " in time; in error from the median to the greatest." : ".");
+           (has_distances ? " of the time; errors range from the median to the greatest." : ".");
 }
 
 void add_charts(std::size_t number, const Ladder& ladder, std::vector<Chart>& charts) {
@@ -485,18 +485,18 @@ void add_charts(std::size_t number, const Ladder& ladder, std::vector<Chart>& ch
     if (ladder.name == "coherence") {
         const int height =
             static_cast<int>(kTop + kBelow) + kBarHeight * static_cast<int>(ladder.rungs.size());
-        charts.push_back({"coherence: time", "Every answer is the same; only time differs.", height,
-                          bars_body(number, ladder.rungs)});
+        charts.push_back({"coherence: time", "All answers are the same; only the times differ.",
+                          height, bars_body(number, ladder.rungs)});
         return;
     }
     charts.push_back({ladder.name + ": time against error", explanation_of(ladder), kParetoHeight,
                       Pareto(number, "error", points_by_error(ladder)).body()});
     const std::vector<Point> shapes = points_by_shape(ladder);
     if (shapes.size() > 1) {
-        charts.push_back({ladder.name + ": time against how far shapes stick out",
-                          "Proved: no point of a shape is farther from the solid than this share "
-                          "of the diagonal.",
-                          kParetoHeight, Pareto(number, "sticks out", shapes).body()});
+        charts.push_back({ladder.name + ": time against outer error",
+                          "Outer error, proved: no point of a shape is farther from the solid than "
+                          "this share of the diagonal.",
+                          kParetoHeight, Pareto(number, "outer error", shapes).body()});
     }
     if (!ladder.cases.starts_with("pose")) return;
     charts.push_back({ladder.name + ": time against gap",

@@ -148,7 +148,7 @@ Json model_json(const std::string& input, const study::StudiedModel& model) {
             {"triangles", model.triangles},
             {"vertices", model.vertices},
             {"diagonal", model.diagonal},
-            {"closed", model.is_closed},
+            {"balanced", model.is_balanced},
             {"single_precision", model.single_precision}};
 }
 

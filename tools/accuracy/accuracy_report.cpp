@@ -123,7 +123,7 @@ std::vector<std::string> head_of(const Columns& columns) {
     if (columns.build) head.emplace_back("build");
     if (columns.bytes) head.emplace_back("size");
     if (columns.touched) head.emplace_back("reads");
-    if (columns.outer) head.emplace_back("sticks out");
+    if (columns.outer) head.emplace_back("outer error");
     if (columns.moved) head.emplace_back("moved");
     head.emplace_back("error");
     if (columns.misses) {
@@ -384,7 +384,7 @@ std::vector<std::vector<std::string>> ladder_table(const Ladder& ladder) {
 }
 
 std::vector<std::vector<std::string>> next_digit_table(const std::vector<Ladder>& ladders) {
-    std::vector<std::vector<std::string>> table = {{"step", "time", "error", "a digit"}};
+    std::vector<std::vector<std::string>> table = {{"step", "time", "error", "per digit"}};
     for (const Ladder& ladder : ladders) {
         for (const NextDigit& step : next_digits(ladder)) {
             const bool ends = !std::isfinite(step.error);
@@ -392,7 +392,7 @@ std::vector<std::vector<std::string>> next_digit_table(const std::vector<Ladder>
                 {ladder.name + ": " + ladder.rungs[step.from].name + " -> " +
                      ladder.rungs[step.to].name,
                  "x " + in_three_digits(step.time),
-                 ends ? "none left" : "/ " + in_three_digits(step.error),
+                 ends ? "no error left" : "/ " + in_three_digits(step.error),
                  std::isnan(step.time_a_digit) ? "" : "x " + in_three_digits(step.time_a_digit)});
         }
     }
@@ -404,23 +404,23 @@ std::vector<std::vector<std::string>> study_facts(const study::AccuracyStudy& st
     std::string clock = "the exact query against itself takes " + fixed(study.self.ratio, 3) +
                         " times as long (" + fixed(study.self.low, 3) + ".." +
                         fixed(study.self.high, 3) + ")";
-    if (!study.self.holds_one()) clock += ": this machine is too busy to trust its times";
+    if (!study.self.holds_one()) clock += ": this machine is too busy for reliable times";
     const double larger = std::max(study.a.diagonal, study.b.diagonal);
     const double smaller = std::min(study.a.diagonal, study.b.diagonal);
     constexpr double kAlike = 10;
     std::string sizes =
         "diagonals " + in_six_digits(study.a.diagonal) + " and " + in_six_digits(study.b.diagonal);
     if (larger > kAlike * smaller) {
-        sizes += ": " + in_three_digits(larger / smaller) +
-                 " times apart; are both in one unit? (--unit)";
+        sizes += ": they differ by a factor of " + in_three_digits(larger / smaller) +
+                 ". Are both in the same unit? (--unit)";
     }
     return {{"sizes", sizes},
             {"poses", strata_text(study.set) + "; seed " + std::to_string(study.set.seed) +
-                          "; shares are of " + in_six_digits(study.set.diagonal) +
+                          "; shares refer to " + in_six_digits(study.set.diagonal) +
                           ", the smaller diagonal"},
-            {"truth", "exact for the vertices as moved (E1); at " + std::to_string(study.rigid) +
+            {"truth", "exact for the transformed vertices (E1); at " + std::to_string(study.rigid) +
                           " of " + std::to_string(study.set.poses.size()) +
-                          " poses proved to be that of the exact rotation too (E3)"},
+                          " poses, proved exact for the rotation too (E3)"},
             {"machine", machine.processor + ", kernels " + machine.kernels + ", " +
                             machine.compiler + ", " + machine.build + "; one thread, " +
                             std::to_string(study.timing.rounds) + " rounds"},
@@ -444,7 +444,8 @@ std::string recommendation(const study::AccuracyStudy& study) {
     }
     const std::string cost = "In short: exact answers take " + in_time(exact.time.median_s);
     if (cheaper == nullptr) {
-        return cost + "; nothing cheaper errs at less than 1 % of the poses, so ask exactly.";
+        return cost +
+               ". No faster method errs at less than 1 % of the poses, so use exact queries.";
     }
     return cost + "; " + cheaper->name + " takes " + in_time(cheaper->time.median_s) +
            " and errs at " + in_three_digits(100 * *cheaper->error) + " % of the poses.";
@@ -461,7 +462,7 @@ std::string accuracy_text(const AccuracyReport& report) {
     text += "\nwhat the next digit costs, along the Pareto front\n" +
             aligned(next_digit_table(report.study.ladders));
     text += "\n" + recommendation(report.study) + "\n";
-    text += "\n" + in_time(report.study.seconds) + " in all\n";
+    text += "\n" + in_time(report.study.seconds) + " in total\n";
     for (const std::string& sentence : report.study.broken) {
         text += "BROKEN PROMISE: " + sentence + "\n";
     }

@@ -81,8 +81,8 @@ private:
 enum class CacheState : std::uint8_t { cold, warm, coherent };
 constexpr std::array<const char*, 3> kCacheStates = {"cold", "warm", "coherent"};
 constexpr std::array<const char*, 3> kHow = {"the models are not in the processor's caches",
-                                             "the same query again at once",
-                                             "frame after frame with a PairCache"};
+                                             "the same query, repeated immediately",
+                                             "consecutive frames with a PairCache"};
 
 /// The answer in a frame.
 struct Said {
@@ -163,7 +163,7 @@ Ladder climb_coherence(const Climb& climb, std::uint64_t last_cache, Broken& bro
     ladder.question = "exact queries along motions: cold, warm and with a PairCache";
     ladder.error = "answers that differ from the warm ones";
     ladder.cases = "frame";
-    climb.begins("coherence: asking");
+    climb.begins("coherence: queries");
     const std::vector<Walk> walks = all_walks(climb);
     if (walks.empty()) {
         ladder.left_out.push_back("All: there are no poses to start from.");
@@ -198,7 +198,7 @@ Ladder climb_coherence(const Climb& climb, std::uint64_t last_cache, Broken& bro
             for (std::size_t i = 0; i < truth.size(); ++i) {
                 if (agree(truth[i], said[w][i])) continue;
                 if (++wrong == 1) {
-                    broken.push_back("coherence, " + rung.name + ": answers otherwise in frame " +
+                    broken.push_back("coherence, " + rung.name + ": the answer differs in frame " +
                                      std::to_string(i) + ".");
                 }
             }

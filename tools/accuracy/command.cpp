@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -13,10 +14,11 @@
 #include "accuracy/accuracy.h"
 #include "accuracy/accuracy_chart.h"
 #include "accuracy/accuracy_report.h"
-#include "accuracy/study_input.h"
+#include "cdprep/format/file_header.h"
 #include "cli/command.h"
 #include "cli/import_arguments.h"
 #include "cli/load_mesh.h"
+#include "cli/open_for.h"
 #include "cli/output_path.h"
 #include "cli/program_threads.h"
 #include "cli/progress.h"
@@ -24,6 +26,7 @@
 #include "cli/signals.h"
 #include "command_line/command_line.h"
 #include "command_line/command_page.h"
+#include "study/memory_model.h"
 
 namespace cdprep::cli {
 namespace {
@@ -107,6 +110,32 @@ Result<std::vector<Output>> open_outputs(const Arguments& arguments) {
     return outputs;
 }
 
+bool is_baked(const fs::path& input) {
+    std::ifstream file(input, std::ios::binary);
+    std::array<char, format::kMagic.size()> begin{};
+    file.read(begin.data(), begin.size());
+    return file && begin == format::kMagic;
+}
+
+/// Returns the mesh of a mesh file by load_mesh(), or the mesh of a baked file as it was baked. The
+/// first bytes decide which kind the file is. Shows that it is read. Fails with bad_argument if a
+/// baked file has no triangles or positions, or if the options ask to normalize or weld it.
+Result<mesh::Mesh> load_for_study(const fs::path& input, const LoadOptions& options,
+                                  Progress& progress) {
+    const bool is_mesh_file = !is_baked(input);
+    progress.show(0, input.filename().string() + ": read");
+    if (is_mesh_file) return load_mesh(input, options);
+    if (options.normalize || options.weld_distance > 0) {
+        return Error{ErrorCode::bad_argument,
+                     input.string() +
+                         ": is a baked file; --normalize and --weld apply to mesh files. Remove "
+                         "them, or give the mesh file."};
+    }
+    const Result<Model> model = open_for(input, Ask::corners);
+    if (!model) return model.error();
+    return study::mesh_of(model.value());
+}
+
 Result<study::AccuracyStudy> study_pair(const Arguments& arguments, Progress& progress) {
     const Threads threads(arguments.threads);
     LoadOptions load = arguments.load;
@@ -156,9 +185,7 @@ Exit write(const report::AccuracyReport& report, std::vector<Output>& outputs) {
 }
 
 Exit run(const Arguments& arguments) {
-    const Result<ProgressStyle> style = parse_progress(arguments.progress);
-    if (!style) return fail("accuracy", style.error());
-    Progress progress(style.value(), 100);
+    Progress progress(parse_progress(arguments.progress), 100);
     Result<std::vector<Output>> outputs = open_outputs(arguments);
     if (!outputs) return fail("accuracy", outputs.error());
     Result<study::AccuracyStudy> studied = study_pair(arguments, progress);
@@ -186,11 +213,11 @@ void add_accuracy(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     const Command command = app.add_command("accuracy", "Measure what accuracy costs in time");
     command.set_notes(
-        "The command answers the same queries about A and B in several ways, from coarse to exact. "
-        "The poses are seeded, and their exact answers are known. It reports the time, the size "
-        "and the errors of each way. The exit code is 6 when a way breaks its promise. For "
-        "example, an enclosing shape misses a contact, or an interval does not contain the "
-        "distance. Queries run on one thread; --jobs applies to building the structures.",
+        "The command answers the same queries about A and B by several methods, from coarse to "
+        "exact. The poses are seeded, and their exact answers are known. The report has the time, "
+        "size and errors of each method. The exit code is 6 if a method breaks its promise. An "
+        "example is an enclosing shape that misses a contact, or an interval without the distance. "
+        "Queries run on one thread; --jobs applies to building the structures.",
         {"cdprep accuracy arm.obj part.obj --quick",
          "cdprep accuracy arm.obj part.obj --format html -o cost.html"});
     command.add_option("A", arguments->a, "The model that does not move: a mesh or a baked file")

@@ -67,7 +67,7 @@ void judge(const Climb& climb, const std::vector<std::size_t>& poses, DistanceCo
             ++held;
         } else {
             broken.push_back("distance, " + rung.name +
-                             ": the interval does not contain the truth in " +
+                             ": the interval does not contain the exact distance at " +
                              pose_name(climb.set, i) + ".");
         }
     }
@@ -108,13 +108,13 @@ public:
             DistanceOptions options;
             options.absolute_error = share * climb_.set.diagonal;
             add("within " + number(share) + " diagonals",
-                "largest ratio of the upper to the lower bound", ask(options));
+                "the upper bound exceeds the lower by at most this length", ask(options));
         }
         for (const double share : kRelative) {
             DistanceOptions options;
             options.relative_error = share;
             add(share > 0 ? "within " + number(100 * share) + " %" : "exact",
-                share > 0 ? "largest ratio of the upper to the lower bound"
+                share > 0 ? "the upper bound exceeds the lower by at most this share"
                           : "the tightest bounds in double",
                 ask(options));
         }
@@ -181,7 +181,7 @@ Ladder climb_distance(const Climb& climb, Broken& broken) {
     ladder.left_out.emplace_back(
         "Bytes read by the hull's rung are missing: the vertices that its search visits are not "
         "counted.");
-    climb.begins("distance: asking");
+    climb.begins("distance: queries");
     DistanceContenders contenders(climb);
     contenders.add_hull();
     contenders.add_errors();

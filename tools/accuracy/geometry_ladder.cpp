@@ -13,7 +13,7 @@
 #include "accuracy/bounding_shapes.h"
 #include "accuracy/bytes_read.h"
 #include "accuracy/octree_level.h"
-#include "accuracy/piece_set.h"
+#include "accuracy/part_set.h"
 #include "cdprep/advanced/convex_distance.h"
 #include "cdprep/advanced/float_contacts.h"
 #include "cdprep/cells.h"
@@ -30,14 +30,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using format::SectionId;
 
-// The processor time of all threads for pieces. A search does not begin if twice the time of the
-// search for half as many pieces would exceed it.
-constexpr double kPieceShare_s = 60;
-constexpr double kQuickPieceShare_s = 6;
+// The processor time of all threads for parts. A search does not begin if twice the time of the
+// search for half as many parts would exceed it.
+constexpr double kPartShare_s = 60;
+constexpr double kQuickPartShare_s = 6;
 // The work of one search (convex::ApproximateOptions): about 4 s and 0.5 s of one core. Solids of
 // few plane faces use all of it.
-constexpr std::size_t kPieceWork = 400'000'000;
-constexpr std::size_t kQuickPieceWork = 50'000'000;
+constexpr std::size_t kPartWork = 400'000'000;
+constexpr std::size_t kQuickPartWork = 50'000'000;
 constexpr std::uint32_t kTetraThreshold = 4;
 
 constexpr format::SectionSet kTreeSections = {SectionId::bvh_nodes, SectionId::bvh_leaves,
@@ -147,7 +147,7 @@ public:
     void add_all() {
         add_simple_shapes();
         add_hulls();
-        add_pieces();
+        add_parts();
         add_tetra_levels();
         add_octree_levels();
         add_hierarchies();
@@ -192,18 +192,18 @@ private:
         oriented_b_ = timed(oriented_s, [&] { return oriented_box(climb_.mesh_b); });
 
         Rung& sphere = add(
-            "sphere", "the spheres around all", Promise::no_misses,
+            "sphere", "bounding spheres of the models", Promise::no_misses,
             [this](std::size_t i) { return hit_or_no(may_touch(sphere_a_, sphere_b_, pose(i))); });
         keep_all_read(sphere, sphere_s, 2 * sizeof(BoundingSphere));
         sphere.outer = outside_.of_points(corners_around(sphere_a_), corners_around(sphere_b_));
-        Rung& box = add("box", "A's box and the one around B's box as moved", Promise::no_misses,
-                        [this](std::size_t i) {
+        Rung& box = add("box", "axis-aligned boxes: A's, and one around B's transformed box",
+                        Promise::no_misses, [this](std::size_t i) {
                             return hit_or_no(may_touch_aligned(aligned_a_, aligned_b_, pose(i)));
                         });
         keep_all_read(box, box_s, 2 * sizeof(std::array<double, 6>));
         box.outer = outside_.of_points(corners_of(aligned_a_), corners_of(aligned_b_));
-        Rung& oriented = add("oriented box", "oriented boxes, by fifteen axes", Promise::no_misses,
-                             [this](std::size_t i) {
+        Rung& oriented = add("oriented box", "oriented boxes, by the 15-axis test",
+                             Promise::no_misses, [this](std::size_t i) {
                                  return hit_or_no(may_touch(oriented_a_, oriented_b_, pose(i)));
                              });
         keep_all_read(oriented, oriented_s, 2 * sizeof(BoundingBox));
@@ -215,9 +215,9 @@ private:
         double seconds = 0;
         dop_a_ = timed(seconds, [&] { return bounding_dop(climb_.mesh_a); });
         dop_b_ = timed(seconds, [&] { return bounding_dop(climb_.mesh_b); });
-        Rung& dop =
-            add("26-DOP", "polytopes of 26 faces, by the directions of both", Promise::no_misses,
-                [this](std::size_t i) { return hit_or_no(may_touch(dop_a_, dop_b_, pose(i))); });
+        Rung& dop = add(
+            "26-DOP", "polytopes of 26 faces, by the face directions of both", Promise::no_misses,
+            [this](std::size_t i) { return hit_or_no(may_touch(dop_a_, dop_b_, pose(i))); });
         keep_all_read(dop, seconds, bytes_of_dop(dop_a_) + bytes_of_dop(dop_b_));
         dop.outer = outside_.of_points(corners_of(dop_a_), corners_of(dop_b_));
     }
@@ -246,44 +246,45 @@ private:
         hull.outer = outside_.of_points(points_of(hull_a_), points_of(hull_b_));
     }
 
-    void add_pieces() {
+    void add_parts() {
         const std::vector<std::size_t> counts =
             climb_.is_quick ? std::vector<std::size_t>{2, 8}
                             : std::vector<std::size_t>{2, 4, 8, 16, 32, 64, 128, 256};
-        const double share = climb_.is_quick ? kQuickPieceShare_s : kPieceShare_s;
+        const double share = climb_.is_quick ? kQuickPartShare_s : kPartShare_s;
         double spent = 0;
         double last = 0;
         for (const std::size_t count : counts) {
-            climb_.begins(std::to_string(count) + " pieces");
+            climb_.begins(std::to_string(count) + " parts");
             if (spent + 2 * last > share) {
-                ladder_.left_out.push_back(std::to_string(count) +
-                                           " pieces: the time limit ended the search for fewer.");
+                ladder_.left_out.push_back(
+                    std::to_string(count) +
+                    " parts: building the sets of fewer parts took too long.");
                 continue;
             }
             const double begun = processor_seconds();
-            const std::size_t work = climb_.is_quick ? kQuickPieceWork : kPieceWork;
-            auto a = make_piece_set(climb_.mesh_a, count, work, climb_.parallel_for, climb_.stop);
-            auto b = make_piece_set(climb_.mesh_b, count, work, climb_.parallel_for, climb_.stop);
+            const std::size_t work = climb_.is_quick ? kQuickPartWork : kPartWork;
+            auto a = make_part_set(climb_.mesh_a, count, work, climb_.parallel_for, climb_.stop);
+            auto b = make_part_set(climb_.mesh_b, count, work, climb_.parallel_for, climb_.stop);
             if (!a || !b) return;
             last = processor_seconds() - begun;
             spent += last;
-            add_piece_rung(count, std::move(*a), std::move(*b));
+            add_part_rung(count, std::move(*a), std::move(*b));
         }
     }
 
-    void add_piece_rung(std::size_t count, PieceSet a, PieceSet b) {
-        const auto& pair = pieces_.emplace_back(std::move(a), std::move(b));
-        const PieceSet& in_a = pair.first;
-        const PieceSet& in_b = pair.second;
-        Rung& rung = add(std::to_string(count) + " pieces",
-                         "enclosing convex pieces, at most this number for each model",
-                         Promise::no_misses, [this, &in_a, &in_b](std::size_t i) {
-                             return hit_or_no(pieces_touch(in_a, in_b, pose(i), centres_));
+    void add_part_rung(std::size_t count, PartSet a, PartSet b) {
+        const auto& pair = parts_.emplace_back(std::move(a), std::move(b));
+        const PartSet& in_a = pair.first;
+        const PartSet& in_b = pair.second;
+        Rung& rung = add(std::to_string(count) + " parts",
+                         "enclosing parts, at most this number for each model", Promise::no_misses,
+                         [this, &in_a, &in_b](std::size_t i) {
+                             return hit_or_no(parts_touch(in_a, in_b, pose(i), centres_));
                          });
         rung.build_s = in_a.seconds + in_b.seconds;
         rung.bytes = in_a.bytes() + in_b.bytes();
         rung.touched = mean_read([&](std::size_t i, std::uint64_t& read) {
-            static_cast<void>(pieces_touch(in_a, in_b, pose(i), centres_, &read));
+            static_cast<void>(parts_touch(in_a, in_b, pose(i), centres_, &read));
         });
         rung.outer = std::max(in_a.outer_error, in_b.outer_error) / climb_.set.diagonal;
     }
@@ -342,7 +343,7 @@ private:
             const CellModel& in_a = pair.first;
             const CellModel& in_b = pair.second;
             Rung& rung = add("octree " + std::to_string(level),
-                             "the cells of this level that hold some of the surface",
+                             "the cells of this level that contain part of the surface",
                              Promise::no_misses, [this, &in_a, &in_b](std::size_t i) {
                                  return hit_or_no(cells_may_meet(in_a, in_b, pose(i), pending_));
                              });
@@ -476,7 +477,7 @@ private:
     BoundingDop dop_b_;
     ConvexPoints hull_a_;
     ConvexPoints hull_b_;
-    std::deque<std::pair<PieceSet, PieceSet>> pieces_;
+    std::deque<std::pair<PartSet, PartSet>> parts_;
     std::deque<std::pair<MemoryModel, MemoryModel>> levels_;
     std::deque<std::pair<CellModel, CellModel>> cells_;
     std::vector<Double3> centres_;
@@ -488,10 +489,10 @@ private:
 Ladder climb_geometry(const Climb& climb, Broken& broken) {
     Ladder ladder;
     ladder.name = "geometry";
-    ladder.question = "do the surfaces touch, by shapes around them";
+    ladder.question = "do the surfaces touch, by enclosing shapes";
     ladder.error =
-        "false hits, as a share of the poses that are apart; of rungs that may miss or are exact "
-        "wrong answers, of all poses";
+        "false hits, as a share of the poses that are apart; for rungs that may miss or are exact, "
+        "wrong answers, as a share of all poses";
     ladder.cases = "pose";
     ladder.left_out.emplace_back(
         "Bytes read by the hull's rung are missing: the vertices that its search visits are not "
@@ -503,7 +504,7 @@ Ladder climb_geometry(const Climb& climb, Broken& broken) {
     contenders.add_all();
     if (climb.must_stop()) return ladder;
 
-    climb.begins("geometry: asking");
+    climb.begins("geometry: queries");
     const std::size_t poses = climb.set.poses.size();
     std::vector<Question> questions;
     for (ShapeContender& contender : contenders.all()) {

@@ -81,20 +81,20 @@ void find_worst(const PoseSet& set, const Wrong& wrong, Rung& rung) {
     const auto gap = [&](std::size_t i) { return set.poses[i].gap_upper; };
     if (!wrong.misses.empty()) {
         rung.worst_pose = *std::ranges::max_element(wrong.misses, {}, depth);
-        rung.worst = "called apart";
+        rung.worst = "answers no";
     } else if (!wrong.false_hits.empty()) {
         rung.worst_pose = *std::ranges::max_element(wrong.false_hits, {}, gap);
         rung.worst =
-            rung.answers[*rung.worst_pose] == Answer::unknown ? "not called apart" : "called a hit";
+            rung.answers[*rung.worst_pose] == Answer::unknown ? "answers unknown" : "answers yes";
     }
 }
 
 void assert_none(const std::string& ladder, const PoseSet& set, const Rung& rung,
                  const std::vector<std::size_t>& poses, const char* what, Broken& broken) {
     if (poses.empty()) return;
-    broken.push_back(ladder + ", " + rung.name + ": promises that it never does, but " + what +
-                     " " + pose_name(set, poses.front()) + " and " +
-                     std::to_string(poses.size() - 1) + " more.");
+    broken.push_back(ladder + ", " + rung.name + ": breaks its promise: it " + what + " " +
+                     pose_name(set, poses.front()) + " and " + std::to_string(poses.size() - 1) +
+                     " more.");
 }
 
 }  // namespace
@@ -131,9 +131,9 @@ void judge_answers(const std::string& ladder, const PoseSet& set, Rung& rung, Br
     if (is_exact || is_both || promise == Promise::no_misses) {
         assert_none(ladder, set, rung, wrong.misses, "misses", broken);
     }
-    if (is_exact) assert_none(ladder, set, rung, wrong.false_hits, "hits in", broken);
+    if (is_exact) assert_none(ladder, set, rung, wrong.false_hits, "reports a hit at", broken);
     if (is_both || promise == Promise::no_false_hits) {
-        assert_none(ladder, set, rung, wrong.false_promise, "hits in", broken);
+        assert_none(ladder, set, rung, wrong.false_promise, "reports a hit at", broken);
     }
 }
 
@@ -143,13 +143,13 @@ void judge_pairs(const std::string& ladder, const Rung& rung, Broken& broken) {
     const bool is_exact = rung.promise == Promise::exact;
     const auto tell = [&](std::size_t pairs, const char* what) {
         broken.push_back(ladder + ", " + rung.name + ": " + std::to_string(pairs) +
-                         " pairs of triangles " + what + ", against its promise.");
+                         " pairs of triangles " + what + ", which breaks its promise.");
     };
     if ((is_exact || rung.promise == Promise::no_misses) && all.both < all.wanted) {
         tell(all.wanted - all.both, "are missing");
     }
     if ((is_exact || rung.promise == Promise::no_false_hits) && all.both < all.found) {
-        tell(all.found - all.both, "are too many");
+        tell(all.found - all.both, "are wrong");
     }
 }
 

@@ -19,7 +19,7 @@ namespace cdprep::study {
 [[nodiscard]] Ladder climb_coherence(const Climb& climb, std::uint64_t last_cache, Broken& broken);
 
 /// The test whether the models touch, with tighter and tighter shapes around them. The shapes are a
-/// sphere, boxes, the hull, convex pieces, and levels of a tetra-tree and of an octree. The last
+/// sphere, boxes, the hull, enclosing parts, and levels of a tetra-tree and of an octree. The last
 /// rungs are the BVH in float without its exact stage, and with it. All shapes enclose the models,
 /// so they promise no misses.
 [[nodiscard]] Ladder climb_geometry(const Climb& climb, Broken& broken);

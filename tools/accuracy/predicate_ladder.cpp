@@ -84,13 +84,13 @@ std::vector<PredicateContender> all_contenders(bool has_float) {
         contenders.push_back(std::move(contender));
     };
     if (has_float) {
-        add("float, 1e-6", "signs in float; what is below 1e-6 counts as 0", Promise::none,
+        add("float, 1e-6", "signs in float; magnitudes below 1e-6 count as 0", Promise::none,
             naive<float>(1e-6F));
-        add("float", "signs in float as they come out", Promise::none, naive<float>(0));
+        add("float", "signs in float, without a threshold", Promise::none, naive<float>(0));
     }
-    add("double, 1e-12", "signs in double; what is below 1e-12 counts as 0", Promise::none,
+    add("double, 1e-12", "signs in double; magnitudes below 1e-12 count as 0", Promise::none,
         naive<double>(1e-12));
-    add("double", "signs in double as they come out", Promise::none, naive<double>(0));
+    add("double", "signs in double, without a threshold", Promise::none, naive<double>(0));
     add("filter, then exact", "signs in double if certain, else integers", Promise::exact,
         [](const Candidate& pair) { return exact::triangles_touch(pair.a, pair.b); });
     add("always exact", "integers or expansions for every pair", Promise::exact,
@@ -139,7 +139,7 @@ void judge(const Climb& climb, const std::vector<Candidate>& pairs, PredicateCon
     rung.worst_pose = static_cast<std::size_t>(worst - right.begin());
     rung.worst = std::to_string(wrong(*worst)) + " pairs wrong";
     if (rung.promise == Promise::exact) {
-        broken.push_back("predicates, " + rung.name + ": wrong about a pair in " +
+        broken.push_back("predicates, " + rung.name + ": wrong for a pair at " +
                          pose_name(climb.set, *rung.worst_pose) + ".");
     }
 }
@@ -152,7 +152,7 @@ Ladder climb_predicates(const Climb& climb, Broken& broken) {
     ladder.question = "do two triangles touch, for pairs at most 1e-4 diagonals apart";
     ladder.error = "wrong answers, as a share of the pairs";
     ladder.cases = "64 pairs of triangles; seconds per pair";
-    climb.begins("predicates: asking");
+    climb.begins("predicates: queries");
     const std::vector<Candidate> pairs = find_candidates(climb);
     const std::size_t cases = std::min<std::size_t>(400, pairs.size() / kPairsACase);
     if (cases == 0) {
@@ -160,7 +160,8 @@ Ladder climb_predicates(const Climb& climb, Broken& broken) {
         return ladder;
     }
     const bool has_float = fits_float(climb.mesh_a) && fits_float(climb.mesh_b);
-    if (!has_float) ladder.left_out.emplace_back("float: coordinates are beyond its range.");
+    if (!has_float)
+        ladder.left_out.emplace_back("float: coordinates are outside the range of float.");
     std::vector<PredicateContender> contenders = all_contenders(has_float);
     std::vector<Question> questions;
     // The cases are spread over all poses.

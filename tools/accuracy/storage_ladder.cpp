@@ -24,11 +24,12 @@ struct Way {
 };
 
 constexpr std::array<Way, 5> kWays = {{
-    {"16-bit grid", "6 bytes a vertex, on a grid of 2^16 planes over the model's cube", 16, 6},
-    {"21-bit grid", "8 bytes a vertex", 21, 8},
-    {"24-bit grid", "9 bytes a vertex", 24, 9},
-    {"float", "12 bytes a vertex", 0, 12},
-    {"double", "24 bytes a vertex", 0, 24},
+    {"16-bit grid",
+     "6 bytes per vertex, on a grid of 2^16 planes per axis in the model's bounding cube", 16, 6},
+    {"21-bit grid", "8 bytes per vertex", 21, 8},
+    {"24-bit grid", "9 bytes per vertex", 24, 9},
+    {"float", "12 bytes per vertex", 0, 12},
+    {"double", "24 bytes per vertex", 0, 24},
 }};
 
 mesh::Mesh in_floats(mesh::Mesh mesh) {
@@ -195,13 +196,13 @@ Ladder climb_storage(const Climb& climb, Broken& broken) {
     for (const Way& way : kWays) {
         climb.begins(std::string("storage: ") + way.name);
         if (way.bytes == 12 && !(fits_float(climb.mesh_a) && fits_float(climb.mesh_b))) {
-            ladder.left_out.emplace_back("float: coordinates are beyond its range.");
+            ladder.left_out.emplace_back("float: coordinates are outside the range of float.");
             continue;
         }
         ways.add(way);
         if (climb.must_stop()) return ladder;
     }
-    climb.begins("storage: asking");
+    climb.begins("storage: queries");
     std::vector<Question> questions;
     for (Stored& way : ways.all()) {
         ways.judge(way, broken);

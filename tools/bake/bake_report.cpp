@@ -23,7 +23,7 @@ nlohmann::ordered_json to_json(const BakeReport& report) {
     json["components"] = report.components;
     json["merged_vertices"] = report.merged_vertices;
     json["degenerate_triangles"] = report.degenerate_triangles;
-    json["closed"] = report.closed;
+    json["balanced"] = report.balanced;
     if (!report.repaired.empty()) json["repaired"] = report.repaired;
     json["promises"] = report.promises;
     json["warnings"] = report.warnings;
@@ -48,10 +48,12 @@ nlohmann::ordered_json to_json(const BakeReport& report) {
 }  // namespace
 
 std::string bake_text(const BakeReport& report, Timings timings) {
-    const char* const closed = report.triangles == 0 ? "empty" : report.closed ? "closed" : "open";
+    const char* const balance = report.triangles == 0 ? "empty"
+                                : report.balanced     ? "balanced"
+                                                      : "unbalanced";
     std::string text =
         printable(report.output) + ": " + counted(report.triangles, "triangle", "triangles") +
-        ", " + counted(report.vertices, "vertex", "vertices") + ", " + closed + ", " +
+        ", " + counted(report.vertices, "vertex", "vertices") + ", " + balance + ", " +
         (report.single_precision ? "f32" : "f64") + ", " + counted(report.bytes, "byte", "bytes") +
         ", " + fixed(report.seconds, 3) + " s\n";
     if (report.warnings > 0) {
@@ -63,7 +65,7 @@ std::string bake_text(const BakeReport& report, Timings timings) {
     text += structures_text(report.structures);
     if (report.parts) {
         text += "  " + std::to_string(report.parts->count) +
-                " convex parts enclose it and stick out by at most " +
+                " convex parts enclose the mesh and stick out by at most " +
                 in_six_digits(report.parts->outer_error) +
                 (report.parts->is_as_asked ? "\n" : ", so the request is not met\n");
     }

@@ -30,7 +30,7 @@ struct BakeReport {
     std::uint64_t components = 0;
     std::uint64_t merged_vertices = 0;
     std::uint64_t degenerate_triangles = 0;
-    bool closed = false;
+    bool balanced = false;
     std::string repaired;               ///< the preset, or empty
     std::vector<std::string> promises;  ///< the guarantees of queries on it, as promise_words()
     bool crossings_complete = true;     ///< all pairs of triangles were examined
@@ -50,7 +50,7 @@ struct BakeReport {
 /// `timings`, a line for each stage follows.
 [[nodiscard]] std::string bake_text(const BakeReport& report, Timings timings);
 
-/// Returns {"models": [...]} with one object per file.
+/// Returns {"models": [...]} with one object per file, which bake.schema.json describes.
 [[nodiscard]] std::string bake_json(const std::vector<BakeReport>& reports);
 
 }  // namespace cdprep::report

@@ -43,7 +43,7 @@ std::string unfinished_refusal(std::uint64_t pairs, std::uint64_t max_pairs) {
                                           : std::string("the limit of its work");
     return "the search for crossing triangles ended early, at " + limit + ", after " +
            report::counted(pairs, "pair that meets", "pairs that meet") +
-           ", and --strict allows only a mesh that was fully examined: " +
+           ". --strict requires a complete search: " +
            (is_of_pairs ? "raise --max-pairs, or bake without --strict."
                         : "bake without --strict.");
 }
@@ -89,9 +89,9 @@ std::string strict_refusal(const report::ValidationReport& found, std::uint64_t 
     }
     if (rules > 1) {
         sentence += "; " + std::to_string(rules - 1) + " more " +
-                    (rules == 2 ? "rule finds" : "rules find") + " something";
+                    (rules == 2 ? "rule has findings" : "rules have findings");
     }
-    return sentence + ". --strict allows none: repair the mesh, or bake without it.";
+    return sentence + ". --strict refuses this mesh: repair it, or bake without --strict.";
 }
 
 std::string kept_findings(const report::ValidationReport& found,

@@ -51,14 +51,14 @@ Result<BuiltHulls> build_hulls(const std::filesystem::path& input, const mesh::T
     const MeshNodes nodes = find_nodes(soup, mesh);
     convex::ApproximateOptions how;
     how.max_error = choice.max_error;
-    how.parts = choice.parts;
+    how.max_parts = choice.parts;
     how.max_vertices = choice.max_vertices;
     how.node_of = nodes.node_of;
     how.convex_node = nodes.is_convex;
-    const auto found = search_pieces(mesh, how, threads);
+    const auto found = search_parts(mesh, how, threads);
     if (!found) return interrupted(input);
-    convex::add_parts(built.sections, found->pieces);
-    built.parts = {found->pieces.size(), found->outer_error, found->is_as_asked,
+    convex::add_parts(built.sections, found->parts);
+    built.parts = {found->parts.size(), found->outer_error, found->is_as_asked,
                    found->proof.fragments, found->proof.outside};
     return built;
 }

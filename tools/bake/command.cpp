@@ -16,6 +16,7 @@
 #include "cli/signals.h"
 #include "command_line/command_line.h"
 #include "command_line/command_page.h"
+#include "repair/repair.h"
 #include "text/bounds_name.h"
 #include "text/printable.h"
 
@@ -28,7 +29,7 @@ struct Arguments {
     std::vector<fs::path> inputs;
     fs::path output;
     fs::path output_folder;
-    std::string effects;
+    std::string effects = kDefaultEffects;
     std::string format = "text";
     std::string progress = "auto";
     std::string bounds = "auto";
@@ -60,7 +61,7 @@ Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
     if (arguments.output == "-") {
         return Error{
             ErrorCode::bad_argument,
-            "-o -: a baked model is binary and does not go to standard output. Give a file "
+            "-o -: a baked model is binary and is not written to standard output. Give a file "
             "name."};
     }
     for (const fs::path& input : arguments.inputs) {
@@ -68,8 +69,9 @@ Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
         const auto [at, is_new] = input_of.try_emplace(named_file(output), input);
         if (!is_new) {
             return Error{ErrorCode::bad_argument,
-                         at->second.string() + " and " + input.string() + " would both become " +
-                             output.string() + ". Bake them in two calls, into different folders."};
+                         at->second.string() + " and " + input.string() +
+                             " would both be written to " + output.string() +
+                             ". Bake them in two calls, into different folders."};
         }
         if (const Result<Done> added = used.add_output(output); !added) return added.error();
         outputs.push_back(output);
@@ -190,8 +192,6 @@ Exit run(const Command& command, Arguments& arguments) {
     const Result<StructureChoice> structures =
         choose_structures(arguments.structures, effects.value());
     if (!structures) return fail("bake", structures.error());
-    const Result<ProgressStyle> style = parse_progress(arguments.progress);
-    if (!style) return fail("bake", style.error());
     const Result<std::vector<fs::path>> outputs = outputs_for(arguments);
     if (!outputs) return fail("bake", outputs.error());
     if (arguments.dry_run) {
@@ -214,7 +214,7 @@ Exit run(const Command& command, Arguments& arguments) {
     arguments.options.structures = structures.value();
     arguments.options.bounds = bounds_named(arguments.bounds, effects.value());
     arguments.options.import = arguments.import.options();
-    return bake_all(arguments, outputs.value(), style.value());
+    return bake_all(arguments, outputs.value(), parse_progress(arguments.progress));
 }
 
 /// Adds the options for the content and the path of the baked file.
@@ -231,15 +231,15 @@ void add_output_options(const Command& command, Arguments& arguments) {
         .group("Output");
     command
         .add_option("--effects", arguments.effects,
-                    "Comma-separated effects to bake for: " + effect_list() +
-                        "; or all, which adds every structure. "
-                        "Default: collide,overlap,distance,within,ray,closest")
+                    "Comma-separated effects to bake for. all: every effect, and every structure")
         .type_name("LIST")
+        .check(list_of(effect_words()))
+        .show_default()
         .group("Output");
     command
         .add_flag("--strict", arguments.options.strict,
-                  "Refuse a mesh with warnings or errors of 'cdprep validate' (exit 1), or one "
-                  "whose search for crossing triangles ended early")
+                  "Refuse a mesh with warnings or errors of 'cdprep validate', or with an "
+                  "unfinished search for crossing triangles (exit 1)")
         .group("Output");
     command.add_flag("--dry-run", arguments.dry_run, "Print the names of the outputs and exit")
         .group("Output");
@@ -253,12 +253,12 @@ void add_mesh_options(const Command& command, BakeOptions& options) {
                     "Repair first, as 'cdprep repair --preset' does. Source numbers are then those "
                     "of the repaired mesh; the file maps them to the input's")
         .type_name("PRESET")
-        .check(one_of({"safe", "closed", "solid"}))
+        .check(one_of({mesh::kRepairPresets.begin(), mesh::kRepairPresets.end()}))
         .group("Mesh");
     command
         .add_option("--piece-tolerance", options.piece_tolerance,
-                    "For --effects pieces, contacts and response: largest permitted height of a "
-                    "piece's vertices above the planes of its triangles, in model units; 0: exact")
+                    "For --effects pieces, contacts and response: maximum height of a piece's "
+                    "vertices above the planes of its triangles. In model units; 0: exact")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .show_default()

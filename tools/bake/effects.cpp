@@ -13,6 +13,9 @@ namespace {
 using format::SectionId;
 using format::SectionSet;
 
+/// The word for every effect.
+constexpr const char* kAll = "all";
+
 /// The sections of every baked file, whatever its effects.
 constexpr SectionSet kAlways = {SectionId::bounds, SectionId::provenance, SectionId::verdicts,
                                 SectionId::findings};
@@ -68,9 +71,10 @@ SectionSet common(SectionSet a, SectionSet b) {
 }
 
 Error unknown_effect(const std::string& name) {
+    std::string list;
+    for (const std::string& known : all_names()) list += known + ", ";
     return {ErrorCode::bad_argument, "--effects: unknown effect '" + name + "'. Choose from " +
-                                         effect_list() + ", or all." +
-                                         report::suggestion(name, all_names())};
+                                         list + "or all." + report::suggestion(name, all_names())};
 }
 
 std::vector<std::string> split(const std::string& list) {
@@ -82,18 +86,17 @@ std::vector<std::string> split(const std::string& list) {
 
 }  // namespace
 
-std::string effect_list() {
-    std::string list;
-    for (const std::string& name : all_names()) list += (list.empty() ? "" : ", ") + name;
-    return list;
+std::vector<std::string> effect_words() {
+    std::vector<std::string> words = all_names();
+    words.emplace_back(kAll);
+    return words;
 }
 
 Result<Effects> parse_effects(const std::string& list) {
-    std::vector<std::string> names = split(list);
-    if (names.empty()) names = {"collide", "overlap", "distance", "within", "ray", "closest"};
-    const bool all = std::find(names.begin(), names.end(), "all") != names.end();
+    std::vector<std::string> names = split(list.empty() ? kDefaultEffects : list);
+    const bool all = std::find(names.begin(), names.end(), kAll) != names.end();
     if (all) {
-        std::erase(names, "all");
+        std::erase(names, kAll);
         for (const std::string& name : all_names()) names.push_back(name);
     }
     std::sort(names.begin(), names.end());

@@ -18,13 +18,15 @@ struct Effects {
     bool all = false;             ///< the list contains "all"
 };
 
-/// Returns the names of all effects, sorted and separated by ", ".
-[[nodiscard]] std::string effect_list();
+/// The effects that a file is baked for if none are named.
+inline constexpr const char* kDefaultEffects = "collide,overlap,distance,within,ray,closest";
+
+/// Returns the words that a list of effects may hold: the names of all effects, sorted, and "all".
+[[nodiscard]] std::vector<std::string> effect_words();
 
 /// Parses a comma-separated list of effects. An effect is a row of needs() whose option is
-/// `--effects`. "all" selects every effect. An empty list selects the default: collide, overlap,
-/// distance, within, ray, closest. Fails with bad_argument on an unknown name, and lists the known
-/// ones.
+/// `--effects`. "all" selects every effect. An empty list selects kDefaultEffects. Fails with
+/// bad_argument on an unknown name, and lists the known ones.
 [[nodiscard]] Result<Effects> parse_effects(const std::string& list);
 
 /// Returns the options of `cdprep bake` for a file that serves `needed`, for example "--effects

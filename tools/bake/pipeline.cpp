@@ -297,7 +297,7 @@ private:
         report_.components = arrays_->component_count();
         report_.merged_vertices = welded_.report.merged_vertices;
         report_.degenerate_triangles = arrays_->degenerate_count();
-        report_.closed = found_.topology.balanced;
+        report_.balanced = found_.topology.balanced;
         report_.repaired = options_.repair;
         report_.promises = report::promise_words(found_.defects.defects.verdicts[0]);
         report_.warnings = count_warnings(found_.defects);

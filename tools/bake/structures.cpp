@@ -15,9 +15,6 @@
 namespace cdprep::cli {
 namespace {
 
-/// Convex hulls are no tree, but --structures chooses them too.
-constexpr const char* kHull = "hull";
-
 const report::StructureName* find_baked(const std::string& name) {
     const auto* at = std::find_if(
         report::kStructureNames.begin(), report::kStructureNames.end(),
@@ -35,12 +32,19 @@ std::vector<std::string> baked_names() {
     for (const report::StructureName& known : report::kStructureNames) {
         if (known.is_baked) names.emplace_back(known.name);
     }
-    names.emplace_back(kHull);
+    names.emplace_back(report::kHullName);
     return names;
 }
 
+/// Returns the words that --structures may hold.
+std::vector<std::string> listed_words() {
+    std::vector<std::string> words = baked_names();
+    words.insert(words.end(), {"all", "none"});
+    return words;
+}
+
 Error unknown_structure(const std::string& name) {
-    std::string message = "--structures: '" + name + "' cannot be baked; these can: ";
+    std::string message = "--structures: unknown structure '" + name + "'. Choose from ";
     for (const std::string& known : baked_names()) message += known + ", ";
     return {ErrorCode::bad_argument,
             message + "all or none." + report::suggestion(name, baked_names())};
@@ -57,7 +61,8 @@ Result<std::vector<std::string>> parse_list(const std::string& list) {
         for (const std::string& name : baked_names()) names.push_back(name);
     }
     for (const std::string& name : names) {
-        if (name != kHull && find_baked(name) == nullptr) return unknown_structure(name);
+        const bool is_known = name == report::kHullName || find_baked(name) != nullptr;
+        if (!is_known) return unknown_structure(name);
     }
     return names;
 }
@@ -111,7 +116,7 @@ void limit(Options& options, const build::TreeLimits& preset,
 std::vector<report::StructureSettings> settings_of(const StructureChoice& choice) {
     std::vector<report::StructureSettings> settings;
     for (const std::string& name : choice.names) {
-        if (name == kHull) continue;  // nothing about it is chosen
+        if (name == report::kHullName) continue;  // nothing about it is chosen
         const Structure structure = find_baked(name)->structure;
         if (structure == Structure::adaptive_octree) {
             settings.push_back(
@@ -157,7 +162,7 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
             choice.names.emplace_back(known.name);
         }
     }
-    if (choice.has_hulls()) choice.names.emplace_back(kHull);
+    if (choice.has_hulls()) choice.names.emplace_back(report::kHullName);
     choice.hulls = arguments.hulls;
     if (const auto error = find_idle_option(arguments, choice)) return *error;
 
@@ -198,11 +203,10 @@ constexpr const char* kGroup = "Structures";
 /// Adds the options for splitting and bounding cells.
 void add_cell_rules(const Command& command, StructureArguments& arguments) {
     command
-        .add_option(
-            "--split", arguments.split,
-            "Split planes of octree-adaptive. median: at the median of the centres of the "
-            "triangles' boxes; area: the one of 15 planes where area times number of triangles, "
-            "summed over both sides, is least. Default: set by the preset")
+        .add_option("--split", arguments.split,
+                    "Split planes of octree-adaptive. median: at the median of the centres of the "
+                    "triangles' boxes. area: the one of 15 planes with the least sum, over both "
+                    "sides, of surface area times number of triangles. Default: set by the preset")
         .type_name("RULE")
         .check(one_of({"median", "area"}))
         .group(kGroup);
@@ -214,11 +218,10 @@ void add_cell_rules(const Command& command, StructureArguments& arguments) {
         .check(one_of({"boxes", "cells"}))
         .group(kGroup);
     command
-        .add_option(
-            "--bounding", arguments.bounding,
-            "Bounds of a tetra-tree cone's triangles. boxes: bounding boxes, the fastest; caps: "
-            "from the nearest to the farthest point; tetra: from the centre to the farthest point. "
-            "Default: set by the preset")
+        .add_option("--bounding", arguments.bounding,
+                    "Bounds of a tetra-tree cone's triangles. boxes: bounding boxes, the fastest. "
+                    "caps: from the nearest to the farthest point. tetra: from the centre to the "
+                    "farthest point. Default: set by the preset")
         .type_name("BOUNDS")
         .check(one_of({"boxes", "caps", "tetra"}))
         .group(kGroup);
@@ -251,11 +254,10 @@ void add_hull_options(const Command& command, HullChoice& hulls) {
 void add_structure_options(const Command& command, StructureArguments& arguments) {
     command
         .add_option("--structures", arguments.list,
-                    "Comma-separated structures for 'cdprep query --structure': octree, "
-                    "octree-adaptive, hashed-octree, tetra-tree, hull; or all, or none. Default: "
-                    "all if --effects includes all, else none. --effects inaccessible adds "
-                    "tetra-tree")
+                    "Comma-separated structures for 'cdprep query --structure'. Default: all if "
+                    "--effects includes all, else none. --effects inaccessible adds tetra-tree")
         .type_name("LIST")
+        .check(list_of(listed_words()))
         .group(kGroup);
     command
         .add_option("--structure-preset", arguments.preset,

@@ -24,7 +24,7 @@ Row timed_row(const std::string& label, const std::vector<search::Contender>& co
     const auto ns = search::time_all(contenders, set.points, state, rounds);
     for (const std::vector<double>& taken : ns) {
         Cell cell = found.other.empty() ? number(quantile(taken, 0.5) * kNanosecond)
-                                        : without(found.other + " finds other leaves");
+                                        : without(found.other + " finds different leaves");
         if (cell.is_filled()) {
             const double spread = quantile(taken, 0.75) - quantile(taken, 0.25);
             cell.details = {{"spread", spread * kNanosecond},
@@ -68,18 +68,19 @@ Saving saving_against(const Table& table, std::size_t baseline) {
 }  // namespace
 
 Table cell_search_table(std::span<const StudyMesh> meshes, const CellSearchOptions& options) {
-    Table table = {"talk.search",
-                   "The search for the leaf cell of a point, from its coordinates on: time of one",
-                   "model, depth, points, caches",
-                   {},
-                   {},
-                   {"H0 descends recursively, testing the children's boxes; H1 compares with "
-                    "centres; H2 follows the bits of the point's key, by pointers; H3 the same "
-                    "without pointers. K0 looks its key up in the talk's chained table, by the "
-                    "key's last bits, from the deepest level up; K1 with mixed keys; K2 bisects "
-                    "the levels. L1 bisects the sorted leaves, L2 from a top table on.",
-                    "The same leaves for all: cells of fewer than 8 triangles are not divided. "
-                    "Points: uniform in the root, on the surface, along a walk on it."}};
+    Table table = {
+        "talk.search",
+        "Time to find the leaf cell of a point, starting from its coordinates",
+        "model, depth, points, caches",
+        {},
+        {},
+        {"H0 descends recursively and tests the boxes of the children. H1 compares with centres. "
+         "H2 follows the bits of the point's key with pointers, H3 without pointers. K0 looks up "
+         "the key in Ponce Atencio's chained table by its last bits, from the deepest level up. K1 "
+         "uses mixed keys. K2 bisects the levels. L1 bisects the sorted leaves; L2 does so too, "
+         "starting from a table of the top levels.",
+         "All searches use the same leaves: cells of fewer than 8 triangles are not divided. The "
+         "points are uniform in the root cell, on the surface, or along a walk on the surface."}};
     for (const char* key : kKeys) table.columns.push_back({key, key, Unit::seconds});
     for (const StudyMesh& mesh : meshes) {
         for (const std::uint32_t depth : options.depths) {
@@ -107,23 +108,23 @@ Table cell_search_table(std::span<const StudyMesh> meshes, const CellSearchOptio
 std::vector<Check> cell_search_checks(const Table& table) {
     constexpr std::array<const char*, 4> kMeanings = {
         "recursion that tests boxes (H0)", "descent by comparing with centres (H1)",
-        "descent by the bits of one key (H2)", "the same without pointers (H3)"};
+        "descent by the bits of one key (H2)", "descent by the bits without pointers (H3)"};
     std::vector<Check> checks;
     for (std::size_t baseline = 0; baseline < kMeanings.size(); ++baseline) {
         const Saving saving = saving_against(table, baseline);
         Check check;
         check.claim = std::string(
-                          "The talk's hashed octree reduces a query by up to 80 %: "
-                          "against ") +
+                          "Ponce Atencio's hashed octree reduces the time of a query by up to 80 "
+                          "%: against ") +
                       kMeanings[baseline];
         if (saving.cases > 0) {
             check.verdict = verdict_of(saving.reached > 0);
             check.evidence = "reached in " + std::to_string(saving.reached) + " of " +
-                             std::to_string(saving.cases) + " cases; the most that hashing saves " +
-                             (saving.most > 0 ? formatted("is %.0f %%", 100 * saving.most)
-                                              : std::string("is nothing")) +
-                             " (" + saving.where + "), and in " + std::to_string(saving.slower) +
-                             " it is slower";
+                             std::to_string(saving.cases) + " cases; hashing saves " +
+                             (saving.most > 0 ? formatted("at most %.0f %%", 100 * saving.most)
+                                              : std::string("nothing")) +
+                             " (" + saving.where + "), and is slower in " +
+                             std::to_string(saving.slower) + " cases";
         }
         checks.push_back(std::move(check));
     }

@@ -57,8 +57,9 @@ Check order_of_builds(const SpatialMesh& mesh) {
         const double all = octree->all.median_s / tetra->all.median_s;
         if (std::string(setting) == "paper") holds = one > 1;
         check.evidence += std::string(check.evidence.empty() ? "" : "; ") + setting +
-                          ": seconds of the octree by the tetra-tree's " + formatted("%.2f", one) +
-                          " on one thread, " + formatted("%.2f", all) + " on all";
+                          ": the octree takes " + formatted("%.2f", one) +
+                          " times as long on one thread, " + formatted("%.2f", all) +
+                          " times on all threads";
     }
     const auto& likeness = mesh.mesh->likeness;
     if (likeness.model) {
@@ -70,10 +71,10 @@ Check order_of_builds(const SpatialMesh& mesh) {
         const SpatialBuild* tetra = find_build(mesh, "paper", SpatialKind::tetra_tree);
         const SpatialBuild* octree = find_build(mesh, "paper", SpatialKind::octree);
         check.evidence +=
-            ". Cells of the octree come from keys, a pass a level; triangles are "
-            "held against cones exactly: " +
-            std::to_string(octree->figures.references) + " references against " +
-            std::to_string(tetra->figures.references);
+            ". Octree cells follow from keys, in one pass per level, but triangles are tested "
+            "against cones exactly. References: " +
+            std::to_string(octree->figures.references) + " in the octree, " +
+            std::to_string(tetra->figures.references) + " in the tetra-tree";
     }
     check.verdict = verdict_of(holds);
     return check;
@@ -87,19 +88,21 @@ Check bound_of_nodes(const SpatialMesh& mesh, const PublishedModel& model) {
     const SpatialBuild* paper = find_build(mesh, "paper", SpatialKind::tetra_tree);
     const SpatialBuild* nearest = find_build(mesh, "nearest", SpatialKind::tetra_tree);
     const SpatialBuild* asked = nearest != nullptr ? nearest : paper;
-    check.evidence = "paper setting: " + std::to_string(paper->figures.nodes_all);
+    check.evidence = "setting 'paper': " + std::to_string(paper->figures.nodes_all);
     if (nearest != nullptr) {
-        check.evidence += "; nearest in size: " + std::to_string(nearest->figures.nodes_all) +
-                          " (level " + std::to_string(nearest->limits.level) + ", threshold " +
-                          std::to_string(nearest->limits.threshold) + ")";
+        check.evidence +=
+            "; setting nearest in size: " + std::to_string(nearest->figures.nodes_all) +
+            " (level " + std::to_string(nearest->limits.level) + ", threshold " +
+            std::to_string(nearest->limits.threshold) + ")";
     }
     const double nodes = static_cast<double>(asked->figures.nodes_all);
     check.verdict = verdict_of(nodes <= bound);
     if (nodes > bound) {
         const double listed = static_cast<double>(asked->figures.references) /
                               static_cast<double>(mesh.mesh->mesh.triangles.size());
-        check.evidence += ". The bound lists every triangle once; here each is listed " +
-                          formatted("%.3f", listed) + " times, and empty cones count";
+        check.evidence +=
+            ". The bound assumes that each triangle is listed once; here it is listed " +
+            formatted("%.3f", listed) + " times on average, and empty cones count too";
     }
     return check;
 }
@@ -167,8 +170,8 @@ Table spatial_table(const std::vector<SpatialMesh>& meshes) {
         }
         table.rows.push_back(std::move(row));
         if (!of.likeness.version_of) {
-            table.notes.push_back(
-                of.name + ": no published figures stand beside it: " + of.likeness.sentence + ".");
+            table.notes.push_back(of.name + " has no published figures: " + of.likeness.sentence +
+                                  ".");
         }
     }
     return table;
@@ -181,21 +184,22 @@ Table spatial_details(const SpatialMesh& mesh) {
         "Spatial decompositions of " + of.name + ": " + of.likeness.sentence,
         "setting, structure",
         {{"level", "level", Unit::count},
-         {"threshold", "least to divide", Unit::count},
+         {"threshold", "threshold", Unit::count},
          {"seconds_1", "1 thread", Unit::seconds},
          {"seconds_all", "all threads", Unit::seconds},
          {"nodes", "nodes", Unit::count},
-         {"nodes_stored", "not empty", Unit::count},
+         {"nodes_stored", "non-empty nodes", Unit::count},
          {"leaves", "leaves", Unit::count},
-         {"references", "listed a triangle", Unit::none},
+         {"references", "references per triangle", Unit::none},
          {"largest_leaf", "largest leaf", Unit::count},
          {"formula_mib", "formula, MiB", Unit::mebibytes},
-         {"formula_stored_mib", "of not empty", Unit::mebibytes},
-         {"real_mib", "real, MiB", Unit::mebibytes}},
+         {"formula_stored_mib", "formula, non-empty", Unit::mebibytes},
+         {"real_mib", "actual, MiB", Unit::mebibytes}},
         {},
         {"Built from " + std::to_string(of.mesh.positions.size()) + " vertices and " +
          std::to_string(of.mesh.triangles.size()) + " triangles, hash " + hash_text(of.built_hash) +
-         ". A tetra-tree's level counts splits: the published code counts one more."}};
+         ". Threshold: cells of fewer triangles are not divided. The level of a tetra-tree is its "
+         "number of splits; the published code counts one more."}};
     for (const SpatialBuild& build : mesh.builds) {
         const SpatialFigures& f = build.figures;
         Cell seconds = seconds_cell(build.one);

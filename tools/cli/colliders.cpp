@@ -186,13 +186,13 @@ std::vector<std::string> find_colliders(const mesh::TriangleSoup& soup) {
 std::string left_out_text(std::span<const std::string> paths) {
     return report::counted(paths.size(), "collider was", "colliders were") +
            " left out: " + first_names(paths) + ". Keep " + (paths.size() == 1 ? "it" : "them") +
-           " by --with-colliders.";
+           " with --with-colliders.";
 }
 
 std::string kept_text(std::span<const std::string> paths, const std::string& way) {
     return report::counted(paths.size(), "collider is", "colliders are") +
            " a part of the mesh: " + first_names(paths) + ". Leave " +
-           (paths.size() == 1 ? "it" : "them") + " out by " + way + ".";
+           (paths.size() == 1 ? "it" : "them") + " out with " + way + ".";
 }
 
 void add_with_colliders(const Command& command, bool& with_colliders) {

@@ -16,20 +16,7 @@ constexpr std::uint64_t kMostPairs = 1'000'000'000'000;  ///< a week of work
 }  // namespace
 
 Exit exit_for(ErrorCode code) {
-    switch (code) {
-        case ErrorCode::bad_argument:
-            return Exit::usage;
-        case ErrorCode::unreadable:
-            return Exit::unreadable;
-        case ErrorCode::unwritable:
-            return Exit::unwritable;
-        case ErrorCode::over_budget:
-            return Exit::over_budget;
-        case ErrorCode::interrupted:
-            return Exit::interrupted;
-        default:
-            return Exit::internal;
-    }
+    return static_cast<Exit>(code);
 }
 
 Exit fail(const char* command, const Error& error) {
@@ -106,9 +93,10 @@ void add_timings(const Command& command, bool& timings) {
 void add_progress(const Command& command, std::string& progress) {
     command
         .add_option("--progress", progress,
-                    "Progress on stderr. auto: a bar on a terminal, otherwise none; bar; plain: "
-                    "lines of text; none")
+                    "Progress on stderr. auto: a bar on a terminal, otherwise none. bar: a bar. "
+                    "plain: lines of text. none: no progress")
         .type_name("STYLE")
+        .check(one_of({"auto", "bar", "plain", "none"}))
         .show_default()
         .group("General");
 }

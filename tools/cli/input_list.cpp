@@ -98,7 +98,8 @@ Result<std::vector<std::string>> read_file_list(const std::string& name, ListEnd
     }
     std::vector<std::string> paths = paths_of(file, end);
     if (file.bad()) {
-        return Error{ErrorCode::unreadable, name + ": the list of files cannot be read whole."};
+        return Error{ErrorCode::unreadable,
+                     name + ": the list of files cannot be read completely."};
     }
     return paths;
 }

@@ -22,7 +22,7 @@ Error refused(const std::filesystem::path& input, const mesh::TriangleSoup& soup
     std::string message = input.string() + ": ";
     if (bad.kind == mesh::BadNumber::Kind::not_finite) {
         message += "vertex " + std::to_string(bad.vertex) +
-                   " has a coordinate that is not finite; every one must be";
+                   " has a coordinate that is not finite; all must be finite";
     } else if (bad.found >= 0 && bad.found < bad.first) {
         message += "triangle " + std::to_string(bad.triangle) + " uses vertex " +
                    std::to_string(bad.found) + ", but the file numbers its vertices from " +

@@ -49,8 +49,8 @@ Result<Done> parse_row(std::string_view text, const std::string& place, std::spa
     }
     if (count != row.size()) {
         return Error{ErrorCode::unreadable, place + ": found " + std::to_string(count) +
-                                                " numbers, but needs " +
-                                                std::to_string(row.size()) + "."};
+                                                " numbers; expected " + std::to_string(row.size()) +
+                                                "."};
     }
     return Done{};
 }

@@ -51,9 +51,7 @@ Result<write::MeshFormat> mesh_output(const std::filesystem::path& input,
     if (output == "-") return write::MeshFormat::obj;
     if (const auto format = write::mesh_format_of(output)) return *format;
     return Error{ErrorCode::bad_argument,
-                 output.string() +
-                     ": the extension names no format that can be written; it must be .obj, "
-                     ".ply, .stl or .off."};
+                 output.string() + ": a mesh can be written as .obj, .ply, .stl or .off only."};
 }
 
 Result<Done> write_mesh(const std::filesystem::path& output, write::MeshFormat format,

@@ -169,7 +169,7 @@ void Threads::run_in_order(std::size_t count,
         counter.end_task();
         return i;
     };
-    // Isolated: a thread that waits within one piece of work starts no other piece.
+    // Isolated: a thread that waits within one task starts no other.
     const auto run = [&](std::size_t i) {
         const format::FloatEnvironment environment;
         edges.begin_task();

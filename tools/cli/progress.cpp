@@ -40,15 +40,11 @@ void LoopPace::advance(const Mark& now) {
     next_ = now;
 }
 
-Result<ProgressStyle> parse_progress(const std::string& word) {
+ProgressStyle parse_progress(const std::string& word) {
     if (is_quiet() || word == "none") return ProgressStyle::none;
     if (word == "plain") return ProgressStyle::plain;
-    if (word == "bar") return ProgressStyle::bar;
-    if (word == "auto") {
-        return ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::bar : ProgressStyle::none;
-    }
-    return Error{ErrorCode::bad_argument,
-                 "--progress is '" + word + "'; it must be auto, bar, plain or none."};
+    const bool shows_bar = word == "bar" || ::isatty(STDERR_FILENO) != 0;
+    return shows_bar ? ProgressStyle::bar : ProgressStyle::none;
 }
 
 Progress::Progress(ProgressStyle style, std::size_t total)

@@ -14,9 +14,9 @@ namespace cdprep::cli {
 
 enum class ProgressStyle { none, plain, bar };
 
-/// Returns the style that a word names: auto, bar, plain or none. "auto" is a bar if stderr is a
-/// terminal, and none otherwise. Fails with bad_argument on another word.
-[[nodiscard]] Result<ProgressStyle> parse_progress(const std::string& word);
+/// Returns the style that a word of --progress names: bar, plain or none. "auto" is a bar if stderr
+/// is a terminal, and none otherwise.
+[[nodiscard]] ProgressStyle parse_progress(const std::string& word);
 
 /// Returns ", 2 min left": how long the rest of a loop takes at the pace of `done` steps of `total`
 /// in the time that passed. Empty at first.

@@ -11,7 +11,7 @@
 
 namespace cdprep::cli {
 
-/// The destination of a report that is written piece by piece: a file or standard output. The
+/// The destination of a report that is written step by step: a file or standard output. The
 /// file appears only when it is complete.
 class ReportOutput {
 public:
@@ -24,7 +24,7 @@ public:
 
     [[nodiscard]] Result<Done> append(std::string_view text);
 
-    /// Completes the report. Call once, after the last piece; without the call no file appears.
+    /// Completes the report. Call once, after the last append(); without the call no file appears.
     [[nodiscard]] Result<Done> finish();
 
 private:

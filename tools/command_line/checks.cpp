@@ -38,6 +38,10 @@ Check one_of(const std::vector<std::string>& words) {
             "{" + joined(words, "|") + "}"};
 }
 
+Check list_of(const std::vector<std::string>& words) {
+    return {[](std::string&) { return std::string(); }, "[" + joined(words, "|") + "]"};
+}
+
 Check whole_from(std::uint64_t least, std::uint64_t most) {
     const bool is_open = most == std::numeric_limits<std::uint64_t>::max();
     const std::string wanted =

@@ -24,8 +24,8 @@ class Option;
 namespace cdprep::cli {
 
 /// A condition on the word of an option. `test` returns an error message for the word, or "" if it
-/// is valid; it may replace the word. `words` names the allowed values: "{text|json}" or
-/// "1 to 4096".
+/// is valid; it may replace the word. `words` names the allowed values: "{text|json}",
+/// "[weld|orient]" for a list, or "1 to 4096".
 struct Check {
     std::function<std::string(std::string& word)> test;
     std::string words;
@@ -33,6 +33,9 @@ struct Check {
 
 /// Accepts one of the given words. The error for another word suggests the nearest.
 [[nodiscard]] Check one_of(const std::vector<std::string>& words);
+
+/// Accepts a comma-separated list. Help and completion show its words; the command parses it.
+[[nodiscard]] Check list_of(const std::vector<std::string>& words);
 
 /// Accepts a whole number from `least` to `most`.
 [[nodiscard]] Check whole_from(std::uint64_t least,

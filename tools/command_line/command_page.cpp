@@ -50,7 +50,8 @@ OptionEntry entry_of(const CLI::Option& option) {
     const std::size_t colon = type.find(':');
     if (option.get_type_size_max() > 0) entry.value = placeholder(type.substr(0, colon));
     const std::string allowed = colon == std::string::npos ? "" : type.substr(colon + 1);
-    if (allowed.starts_with('{')) {
+    entry.is_list = allowed.starts_with('[');
+    if (allowed.starts_with('{') || entry.is_list) {
         entry.words = split(allowed.substr(1, allowed.size() - 2), '|');
     } else if (allowed != "DIR") {  // CLI::ExistingDirectory
         entry.range = allowed;
@@ -69,11 +70,12 @@ bool explains_all(const OptionEntry& option) {
     });
 }
 
-/// Returns "a, b or c".
-std::string words_text(const std::vector<std::string>& words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+/// Returns "a, b or c" for a choice and "a list of a, b, c" for a list.
+std::string words_text(const OptionEntry& option) {
+    std::string text = option.is_list ? "a list of " : "";
+    const std::string last = option.is_list ? ", " : " or ";
+    for (std::size_t i = 0; i < option.words.size(); ++i) {
+        text += (i == 0 ? "" : i + 1 == option.words.size() ? last : ", ") + option.words[i];
     }
     return text;
 }
@@ -163,7 +165,7 @@ std::string full_text(const OptionEntry& option) {
     if (!text.empty() && !text.ends_with('.')) text += '.';
     const bool is_input = !option.names.front().starts_with('-');
     std::vector<std::string> limits;
-    if (!explains_all(option)) limits.push_back(words_text(option.words));
+    if (!explains_all(option)) limits.push_back(words_text(option));
     if (!option.range.empty()) limits.push_back(option.range);
     if (!option.preset.empty()) limits.push_back("default " + option.preset);
     if (option.is_required && !is_input) limits.emplace_back("required");

@@ -12,7 +12,8 @@ namespace cdprep::cli {
 struct OptionEntry {
     std::vector<std::string> names;  ///< "-o", "--output"; for an input only its name: "INPUT"
     std::string value;               ///< "FILE"; empty for a flag
-    std::vector<std::string> words;  ///< the allowed values of a choice; empty for others
+    std::vector<std::string> words;  ///< the allowed values of a choice or list; else empty
+    bool is_list = false;            ///< several words may be given, separated by commas
     std::string range;               ///< "1 to 4096"; empty if no value is excluded
     std::string text;                ///< a sentence without its period
     std::string preset;              ///< the default as typed; empty if there is none

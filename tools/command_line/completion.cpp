@@ -10,7 +10,8 @@ namespace {
 
 /// Returns true for values that a shell completes as paths.
 bool is_path(const std::string& value) {
-    return value == "FILE" || value == "FOLDER" || value == "FILES" || value == "PATTERN";
+    return value == "FILE" || value == "FOLDER" || value == "FILES" || value == "PATTERN" ||
+           value == "SCENE";
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -83,6 +84,8 @@ std::string bash_completion(const std::vector<CommandPage>& pages) {
     text +=
         "        esac\n"
         "    done\n"
+        "    local begun=\"\"\n"
+        "    [[ $word == *,* ]] && begun=\"${word%,*},\"\n"
         "    COMPREPLY=()\n"
         "    case \"$path $before\" in\n";
     for (const CommandPage& page : pages) {
@@ -92,8 +95,10 @@ std::string bash_completion(const std::vector<CommandPage>& pages) {
             for (const std::string& name : option->names) {
                 names += (names.empty() ? "" : "|") + shell_quoted(page.name + " " + name);
             }
+            const std::string_view last =
+                option->is_list ? "-P \"$begun\" -- \"${word##*,}\"" : "-- \"$word\"";
             text += concat({"        ", names, ")\n            COMPREPLY=($(compgen -W ",
-                            shell_quoted(joined(option->words)), " -- \"$word\")); return ;;\n"});
+                            shell_quoted(joined(option->words)), " ", last, ")); return ;;\n"});
         }
     }
     text +=
@@ -131,7 +136,9 @@ std::string zsh_completion(const std::vector<CommandPage>& pages) {
             for (const std::string& name : option->names) {
                 std::string spec = (option->is_repeatable ? "*" : "") + name;
                 spec += "[" + for_zsh(option->text) + "]";
-                if (!option->words.empty()) {
+                if (option->is_list) {
+                    spec += ":value:_values -s , value " + joined(option->words);
+                } else if (!option->words.empty()) {
                     spec += ":value:(" + joined(option->words) + ")";
                 } else if (is_path(option->value)) {
                     spec += option->value == "FOLDER" ? ":folder:_files -/" : ":file:_files";
@@ -187,7 +194,12 @@ std::string fish_completion(const std::vector<CommandPage>& pages) {
                 text += name.substr(name.starts_with("--") ? 2 : 1);
             }
             if (!option->value.empty()) text += is_path(option->value) ? " -r -F" : " -x";
-            if (!option->words.empty()) text += " -a " + shell_quoted(joined(option->words));
+            if (!option->words.empty()) {
+                const std::string words = joined(option->words);
+                text += " -a " + shell_quoted(option->is_list
+                                                  ? concat({"(__fish_append , ", words, ")"})
+                                                  : words);
+            }
             text += " -d " + shell_quoted(option->text) + "\n";
         }
     }

@@ -3,18 +3,20 @@
 
 #include <array>
 
+#include "cdprep/result.h"
+
 namespace cdprep::cli {
 
-/// The result of the process. Scripts rely on the numbers.
+/// The result of the process. Scripts rely on the numbers; those of errors are the codes of errors.
 enum class Exit : int {
     success = 0,
     findings = 1,
-    usage = 2,
-    unreadable = 3,
-    unwritable = 4,
-    over_budget = 5,
-    internal = 6,
-    interrupted = 130,
+    usage = static_cast<int>(ErrorCode::bad_argument),
+    unreadable = static_cast<int>(ErrorCode::unreadable),
+    unwritable = static_cast<int>(ErrorCode::unwritable),
+    over_budget = static_cast<int>(ErrorCode::over_budget),
+    internal = static_cast<int>(ErrorCode::internal),
+    interrupted = static_cast<int>(ErrorCode::interrupted),
 };
 
 struct ExitText {

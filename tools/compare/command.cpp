@@ -79,8 +79,6 @@ Exit failed_with(const Arguments& arguments, const Error& error) {
 }
 
 Exit run(Arguments& arguments) {
-    const Result<ProgressStyle> style = parse_progress(arguments.progress);
-    if (!style) return fail("compare", style.error());
     UsedFiles used;
     for (const fs::path& input : arguments.inputs) used.add_input(input);
     std::error_code unreadable;
@@ -97,8 +95,8 @@ Exit run(Arguments& arguments) {
     options.pairs = kPairs.at(arguments.pairs);
     options.import = arguments.import.options();
     const Threads threads(options.threads);
-    Result<study::Comparison> compared =
-        compare_models(arguments.inputs, settled(options), threads, style.value());
+    Result<study::Comparison> compared = compare_models(arguments.inputs, settled(options), threads,
+                                                        parse_progress(arguments.progress));
     if (!compared) return failed_with(arguments, compared.error());
 
     report::ComparisonReport report;
@@ -121,20 +119,19 @@ Exit run(Arguments& arguments) {
 void add_study_options(const Command& command, Arguments& arguments) {
     ComparisonOptions& options = arguments.options;
     command
-        .add_option(
-            "--pairs", arguments.pairs,
-            "Pairs of models in Table 4. paper: the published ones; all: every pair of models; "
-            "fitting: paper when every model is a published one, else all. One model alone is "
-            "paired with itself")
+        .add_option("--pairs", arguments.pairs,
+                    "Pairs of models in Table 4. paper: the pairs of the comparative study. all: "
+                    "every pair of models. fitting: paper if all models are the study's, else all. "
+                    "A single model is paired with itself")
         .type_name("PAIRS")
         .check(one_of({"fitting", "paper", "all"}))
         .show_default()
         .group("Study");
     command
         .add_flag("--quick", options.quick,
-                  "Use few poses, one round, and each model in one pair unless --pairs says "
-                  "paper or all. Leave 'hashed octree, literal', a published search that misses "
-                  "pairs, out of Table 4")
+                  "Use few poses and one round. Unless --pairs is paper or all, also use few "
+                  "pairs, with each model in at least one. Table 4 lacks 'hashed octree, literal', "
+                  "a published search that misses pairs")
         .group("Study");
     command
         .add_option("--rounds", options.rounds,
@@ -184,13 +181,16 @@ void add_compare(const Command& app, Exit& exit) {
     const Command command =
         app.add_command("compare", "Reproduce the tables of two published studies for mesh files");
     command.set_notes(
-        "Table 1 shows what each strategy can answer. Table 2 shows the cost of spatial "
-        "decompositions, Table 3 that of hulls, hierarchies and convex pieces. Table 4 shows the "
-        "times of collisions, overlapping triangles, distances, tolerances and contacts of each "
-        "pair. Published figures are shown beside ours if a model has the published numbers of "
-        "vertices and triangles. The table 'talk' shows what each step of pruning leaves. All "
-        "models are scaled to a diagonal of 1. The exit code is 6 when an exact strategy is wrong, "
-        "a step of pruning loses a pair, or Table 1 lacks a published feature.",
+        "Tables 1 to 4 are those of 'A comparative study of implemented collision detection "
+        "strategies' (authors and year unknown). Table 1 shows what each strategy can answer. "
+        "Table 2 shows the cost of spatial decompositions, Table 3 that of hulls, hierarchies and "
+        "convex pieces. Table 4 shows the times of collisions, overlapping triangles, distances, "
+        "tolerances and contacts of each pair. Published figures are shown beside ours if a model "
+        "has the published numbers of vertices and triangles. The table 'talk' shows the triangles "
+        "that each step of pruning leaves. The search is that of 'Some techniques to speed up "
+        "collision detection', a talk by Yalmar Ponce Atencio. All models are scaled to a diagonal "
+        "of 1. The exit code is 6 when an exact strategy is wrong or a step of pruning loses a "
+        "pair. It is also 6 when Table 1 lacks a published feature.",
         {"cdprep compare bunny.ply horse.ply --quick",
          "cdprep compare scans/*.ply --format html -o tables.html"});
     command

@@ -191,19 +191,20 @@ std::string chart_of(const Table& table) {
         }
         if (marks.paper_collide) {
             svg += cross(axis.at(*marks.paper_collide), y,
-                         hint("collide in the paper", *marks.paper_collide));
+                         hint("collide, published", *marks.paper_collide));
         }
         if (marks.paper_overlap) {
             svg += cross(axis.at(*marks.paper_overlap), y,
-                         hint("overlap in the paper", *marks.paper_overlap));
+                         hint("overlap, published", *marks.paper_overlap));
         }
         svg += '\n';
     }
     const double y = bottom + 18;
     svg += circle("collide", 306, y - 4, "collide") + "<text x=\"316\" y=\"" + fixed(y, 0) +
            "\">collide</text>" + circle("overlap", 386, y - 4, "overlap") + "<text x=\"396\" y=\"" +
-           fixed(y, 0) + "\">overlap</text>" + cross(476, y - 4, "paper") + "<text x=\"486\" y=\"" +
-           fixed(y, 0) + "\">the paper, other poses; deep poses here</text>";
+           fixed(y, 0) + "\">overlap</text>" + cross(476, y - 4, "published") +
+           "<text x=\"486\" y=\"" + fixed(y, 0) +
+           "\">published, for other poses (ours: deep poses)</text>";
     return svg + "</svg>\n";
 }
 
@@ -258,11 +259,12 @@ std::string table_html(const Table& table) {
 
 std::string checks_html(const std::vector<study::Check>& checks) {
     std::string html =
-        "<section id=\"checks\">\n<h2>What was published, and what must hold</h2>\n"
+        "<section id=\"checks\">\n<h2>Published claims, and promises of this library</h2>\n"
         "<ul class=\"checks\">\n";
     for (const study::Check& check : checks) {
-        const std::string name = verdict_name(check.verdict);
-        html += "<li class=\"" + (name == "not asked" ? "open" : name) + "\"><b>" + name + "</b> " +
+        const bool is_open = check.verdict == study::Verdict::not_asked;
+        const std::string kind = is_open ? "open" : verdict_name(check.verdict);
+        html += "<li class=\"" + kind + "\"><b>" + verdict_text(check.verdict) + "</b> " +
                 text_of(check.claim) + " <span>" + text_of(check.evidence) + "</span></li>\n";
     }
     return html + "</ul>\n</section>\n";
@@ -296,7 +298,7 @@ std::string comparison_page(const study::Comparison& comparison) {
         text_of(names) + "</h1>\n" + provenance_html(comparison) + contents_html(comparison);
     for (const Table& table : comparison.tables) html += table_html(table);
     if (!comparison.checks.empty()) html += checks_html(comparison.checks);
-    return html + "<section id=\"errata\">\n<h2>Errata of the papers</h2>\n" +
+    return html + "<section id=\"errata\">\n<h2>Errata of the published figures</h2>\n" +
            list_html("notes", comparison.errata) + "</section>\n</body>\n</html>\n";
 }
 

@@ -112,7 +112,7 @@ std::vector<TextColumn> text_columns(const Table& table, Reasons& reasons) {
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
         const study::Column& column = table.columns[c];
         TextColumn ours = {two_lines(column.title), {}};
-        TextColumn theirs = {{"", "paper"}, {}};
+        TextColumn theirs = {{"", "published"}, {}};
         bool has_published = false;
         for (const study::Row& row : table.rows) {
             const Cell& cell = row.cells[c];
@@ -193,9 +193,9 @@ std::string spread_line(const Table& table) {
     if (rounds == 0) return "";
     if (rounds == 1) return "  Measured once: no spread is known.\n";
     std::ranges::sort(shares);
-    return "  Spread: the middle half of " + fixed(rounds, 0) + " rounds lies within " +
-           fixed(100 * shares[shares.size() / 2], 1) + " % of the median, in the worst cell " +
-           fixed(100 * shares.back(), 1) + " %.\n";
+    return "  Spread: the middle half of " + fixed(rounds, 0) + " rounds is within " +
+           fixed(100 * shares[shares.size() / 2], 1) +
+           " % of the median; in the worst cell, within " + fixed(100 * shares.back(), 1) + " %.\n";
 }
 
 std::string table_text(const Table& table) {
@@ -212,7 +212,7 @@ std::string table_text(const Table& table) {
         while (last < columns.size()) {
             const std::size_t more = 2 + columns[last].width();
             // A published figure stays beside ours.
-            const bool follows = last > first && columns[last].heading[1] == "paper";
+            const bool follows = last > first && columns[last].heading[1] == "published";
             if (last > first && !follows && width + more > kWidth) break;
             width += more;
             ++last;
@@ -234,24 +234,24 @@ std::string summary_text(const Comparison& comparison) {
         }));
     };
     using enum study::Verdict;
-    return "\nIn short: of what was published " + count(holds, false) + " claims hold here, " +
-           count(fails, false) + " do not and " + count(not_asked, false) +
-           " were not asked; of what this library promises " + count(holds, true) + " hold and " +
-           count(fails, true) + " fail.\n";
+    return "\nIn short: " + count(holds, false) + " published claims hold here, " +
+           count(fails, false) + " do not, and " + count(not_asked, false) +
+           " were not tested. Of the promises of this library, " + count(holds, true) +
+           " hold and " + count(fails, true) + " fail.\n";
 }
 
 std::string checks_text(const Comparison& comparison) {
-    std::string text = "\nWhat was published of the order of strategies, and what must hold\n";
+    std::string text = "\nPublished claims, and promises of this library\n";
     std::size_t failed = 0;
     std::size_t held = 0;
     for (const study::Check& check : comparison.checks) {
         if (check.verdict == study::Verdict::fails) ++failed;
         if (check.verdict == study::Verdict::holds) ++held;
-        text += std::string("  ") + padded_right(verdict_name(check.verdict), 11) +
+        text += std::string("  ") + padded_right(verdict_text(check.verdict), 11) +
                 printable(check.claim) + ": " + printable(check.evidence) + '\n';
     }
-    return text + "  " + std::to_string(held) + " hold, " + std::to_string(failed) +
-           " do not here.\n";
+    return text + "  " + std::to_string(held) + " hold here, " + std::to_string(failed) +
+           " do not.\n";
 }
 
 Json published_json(const study::Published& published) {
@@ -365,7 +365,7 @@ std::string csv_cell(const Cell& cell) {
 
 std::string medians_of(std::size_t rounds) {
     return rounds == 1 ? "measured once"
-                       : "medians of " + std::to_string(rounds) + " rounds in turns";
+                       : "medians of " + std::to_string(rounds) + " alternating rounds";
 }
 
 }  // namespace
@@ -373,6 +373,10 @@ std::string medians_of(std::size_t rounds) {
 const char* verdict_name(study::Verdict verdict) noexcept {
     if (verdict == study::Verdict::not_asked) return "not asked";
     return verdict == study::Verdict::holds ? "holds" : "fails";
+}
+
+const char* verdict_text(study::Verdict verdict) noexcept {
+    return verdict == study::Verdict::not_asked ? "not tested" : verdict_name(verdict);
 }
 
 const char* unit_name(study::Unit unit) noexcept {
@@ -430,14 +434,14 @@ std::vector<std::string> provenance_lines(const Comparison& comparison) {
         machine.processor + ", " + std::to_string(machine.processors) + " processors, " +
             std::to_string(machine.memory >> 30U) + " GiB; " + machine.system,
         (settings.poses.empty() ? "Seed " + std::to_string(settings.seed) + ", " +
-                                      std::to_string(settings.per_stratum) + " poses a stratum"
-                                : "Poses of " + settings.poses) +
-            "; " + medians_of(settings.rounds) + "; one thread unless it says all, which are " +
+                                      std::to_string(settings.per_stratum) + " poses per stratum"
+                                : "Poses from " + settings.poses) +
+            "; " + medians_of(settings.rounds) + "; one thread; all threads: " +
             std::to_string(settings.threads) + (settings.quick ? "; --quick" : "")};
     lines.emplace_back(
-        "Published: tables 1 to 4 of 'A comparative study of implemented collision detection "
-        "strategies'; the talk 'Some techniques to speed up collision detection' (Y. Ponce "
-        "Atencio)");
+        "Published figures: tables 1 to 4 of 'A comparative study of implemented collision "
+        "detection strategies' (authors and year unknown), and the talk 'Some techniques to speed "
+        "up collision detection' by Yalmar Ponce Atencio");
     for (const study::ComparedModel& model : comparison.models) {
         lines.push_back(
             model.name + " (" + model.file + "): " + std::to_string(model.read_vertices) +
@@ -455,12 +459,14 @@ std::vector<std::string> provenance_lines(const Comparison& comparison) {
                         ", hash " + study::hash_text(study::hash_of(poses)));
     }
     if (settings.pairs_left_out > 0) {
-        lines.push_back("--quick asks " + std::to_string(comparison.pairs.size()) + " of " +
-                        std::to_string(comparison.pairs.size() + settings.pairs_left_out) +
-                        " pairs, so that each model is in one; --pairs paper or all asks more.");
+        lines.push_back(
+            "--quick measures " + std::to_string(comparison.pairs.size()) + " of " +
+            std::to_string(comparison.pairs.size() + settings.pairs_left_out) +
+            " pairs, with each model in at least one; --pairs paper or all measures more.");
     }
     if (!comparison.pairs.empty()) {
-        lines.emplace_back("The poses stand in the JSON; --save-poses writes them as files.");
+        lines.emplace_back(
+            "The JSON report contains the poses; --save-poses writes them to files.");
     }
     lines.insert(lines.end(), comparison.peers.begin(), comparison.peers.end());
     return lines;
@@ -471,7 +477,7 @@ std::string comparison_text(const Comparison& comparison) {
     for (const std::string& line : provenance_lines(comparison)) text += printable(line) + '\n';
     for (const Table& table : comparison.tables) text += table_text(table);
     if (!comparison.checks.empty()) text += checks_text(comparison);
-    text += "\nErrata of the papers\n";
+    text += "\nErrata of the published figures\n";
     for (const std::string& erratum : comparison.errata) text += "  " + erratum + '\n';
     return text + summary_text(comparison);
 }

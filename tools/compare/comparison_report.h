@@ -39,7 +39,10 @@ struct ComparisonReport {
 /// Returns all settings of the measurements, a sentence each.
 [[nodiscard]] std::vector<std::string> provenance_lines(const study::Comparison& comparison);
 
+/// Returns the name of a verdict in JSON and CSV.
 [[nodiscard]] const char* verdict_name(study::Verdict verdict) noexcept;
+/// Returns the verdict for readers.
+[[nodiscard]] const char* verdict_text(study::Verdict verdict) noexcept;
 [[nodiscard]] const char* unit_name(study::Unit unit) noexcept;
 [[nodiscard]] const char* mark_name(study::Mark mark) noexcept;
 

@@ -134,7 +134,8 @@ std::string probe_within(const Strategy& strategy, const Probed& probed) {
     StrategyPair pair(strategy, probed.box, probed.box);
     const Placement apart = moved_by(1.5, 0.25, 0);
     if (!pair.is_within(apart, 0.5)) return "boxes 0.5 apart are not within 0.5";
-    if (pair.is_within(apart, std::nextafter(0.5, 0.0))) return "boxes 0.5 apart are within less";
+    if (pair.is_within(apart, std::nextafter(0.5, 0.0)))
+        return "boxes 0.5 apart are within less than 0.5";
     if (!pair.is_within(moved_by(1, 0.25, 0.5), 0)) return "boxes that touch are not within 0";
     return "";
 }
@@ -148,9 +149,9 @@ std::string probe_contacts(const Strategy& strategy, const Probed& probed) {
     const std::size_t count = pair.contacts(apart, 2 * kGap, room);
     if (count == 0) return "faces within the tolerance have no contact";
     const Contact& first = room[0];
-    if (std::fabs(first.normal.x - 1) > 1e-9) return "the normal of facing faces is askew";
+    if (std::fabs(first.normal.x - 1) > 1e-9) return "the normal between parallel faces is wrong";
     if (first.lower > kGap || first.upper < kGap) return "the distance of a contact is wrong";
-    if (first.feature_a.triangle >= 12) return "a contact names no triangle";
+    if (first.feature_a.triangle >= 12) return "a contact has no triangle";
     if (pair.contacts(apart, kGap / 2) != 0) return "faces beyond the tolerance have a contact";
     return "";
 }
@@ -213,16 +214,16 @@ Cell probed_cell(const Feature& feature, const Strategy& strategy, const Probed&
 Result<Table> feature_table() {
     const Result<Probed> probed = make_probed();
     if (!probed) return probed.error();
-    Table table = {"1",
-                   "Features of each strategy: X where a probe passed",
-                   "feature",
-                   {},
-                   {},
-                   {"Probes ask about boxes and triangles whose answers are known by hand. Cells "
-                    "of octrees and tetra-trees are asked with the segment test of Feito and "
-                    "Torres.",
-                    "Hulls and distances: X is right about the hulls, which fit concave models "
-                    "badly."}};
+    Table table = {
+        "1",
+        "Features of each strategy: X where a probe passed",
+        "feature",
+        {},
+        {},
+        {"Probes query boxes and triangles whose answers are known by hand. Triangles in cells of "
+         "octrees and tetra-trees are compared by the segment test of Feito and Torres (1997).",
+         "GJK on hulls: X means that the answer for the convex hulls is right. Hulls fit concave "
+         "models badly."}};
     for (const Probing& probing : kProbings) {
         table.columns.push_back({probing.key, probing.title, Unit::none});
     }
@@ -243,7 +244,7 @@ Result<Table> feature_table() {
 
 Check feature_check(const Table& table) {
     Check check;
-    check.claim = "Nothing that the paper's Table 1 has is missing";
+    check.claim = "No feature of Table 1 of the comparative study is missing";
     check.verdict = Verdict::holds;
     check.is_promise = true;
     std::size_t passed = 0;
@@ -263,7 +264,7 @@ Check feature_check(const Table& table) {
         }
     }
     check.evidence += std::to_string(passed) + " probes passed, " + std::to_string(more) +
-                      " of them for features that the paper does not have";
+                      " of them for features that the comparative study does not have";
     return check;
 }
 

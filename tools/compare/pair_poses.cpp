@@ -82,7 +82,7 @@ Result<std::vector<study::GivenPose>> read_pair_poses(const fs::path& path) {
             if (const auto named = study::find_stratum(note)) stratum = named;
         });
     if (!read) return Error{ErrorCode::unreadable, read.error().message};
-    if (poses.empty()) return Error{ErrorCode::unreadable, path.string() + ": holds no pose."};
+    if (poses.empty()) return Error{ErrorCode::unreadable, path.string() + ": contains no pose."};
     return poses;
 }
 

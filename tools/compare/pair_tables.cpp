@@ -45,7 +45,7 @@ Cell time_cell(const PairStudy& study, const Contender& contender, Asked asked, 
 Cell cold_cell(const Contender& contender, Asked asked) {
     const std::string& reason = contender.reasons[static_cast<std::size_t>(asked)];
     if (!reason.empty()) return without(reason);
-    if (contender.is_peer) return without("peers are asked with warm caches");
+    if (contender.is_peer) return without("peers are measured with warm caches only");
     const Timing timing = timing_of(contender.cold[static_cast<std::size_t>(asked)]);
     return timing.cases > 0 ? seconds_cell(timing) : without("no pose is deep");
 }
@@ -109,7 +109,7 @@ std::string no_figures(const std::vector<StudyMesh>& meshes, const PairStudy& st
             return meshes[i].name + ": " + meshes[i].likeness.sentence;
         }
     }
-    return "the paper does not have this pair";
+    return "the comparative study does not have this pair";
 }
 
 void add_column(Table& table, const char* key, std::string title, Unit unit) {
@@ -141,7 +141,7 @@ Cell found_cell(const Contender& contender) {
 }
 
 Cell counted_cell(const Contender& contender, std::uint64_t QueryCounts::*member, Stratum stratum) {
-    if (contender.is_peer) return without("a peer does not count");
+    if (contender.is_peer) return without("peers report no counts");
     const std::string& reason = contender.reasons[static_cast<std::size_t>(Asked::collide)];
     if (!reason.empty()) return without(reason);
     return count_cell(contender.counts[0][static_cast<std::size_t>(stratum)].*member);
@@ -162,27 +162,28 @@ std::string why_slower(const Contender& quick, const Contender& late, Asked aske
     const auto s = static_cast<std::size_t>(stratum);
     const QueryCounts& of_quick = quick.counts[a][s];
     const QueryCounts& of_late = late.counts[a][s];
-    std::string text = std::string(". Tested in the mean: by ") + title_of(quick) + " " +
-                       kind_of_counts(of_quick) + ", by " + title_of(late) + " " +
+    std::string text = ". Mean tests of a query: " + title_of(quick) + ", " +
+                       kind_of_counts(of_quick) + "; " + title_of(late) + ", " +
                        kind_of_counts(of_late);
     if (quick.name != "tetra-tree" || late.name != "octree") {
         return text +
-               ": here both end in the same exact test of triangles, where the paper's cells had "
-               "Feito's";
+               ". Both use the same exact test of triangles here; the comparative study used "
+               "Feito's test in cells";
     }
     if (of_quick.box_pairs == 0 || of_late.box_pairs == 0) return text;
     const double more =
         static_cast<double>(of_quick.box_pairs) / static_cast<double>(of_late.box_pairs);
     if (more > 2) {
         text +=
-            ": long truncated cones bound loosely, so more of them have to be met before the first "
+            ". Long truncated cones are loose bounds, so more of them are tested before the first "
             "hit";
     }
     constexpr double kDearer = 1.2;
     const double dearer = 1 / (ratio * more);
     if (dearer > kDearer) {
-        text += formatted(": a pair of cones takes %.1f times as long as one of boxes, ", dearer) +
-                "with all that follows from it";
+        text +=
+            formatted(". A pair of cones takes %.1f times as long as a pair of boxes, ", dearer) +
+            "including the tests that follow";
     }
     return text;
 }
@@ -242,7 +243,7 @@ Check overlap_takes_longer(const std::vector<StudyMesh>& meshes, const PairStudy
                               (is_noise ? ", within the spread" : "");
         }
     }
-    if (check.evidence.empty()) check.evidence = "by every strategy, deep and shallow";
+    if (check.evidence.empty()) check.evidence = "for every strategy, at deep and shallow poses";
     return check;
 }
 
@@ -285,7 +286,7 @@ void add_detail_columns(Table& table) {
     }
     add_column(table, "collide_deep_cold", "collide, deep, cold", Unit::seconds);
     add_column(table, "overlap_deep_cold", "overlap, deep, cold", Unit::seconds);
-    add_column(table, "agreement", "answers as the exact", Unit::share);
+    add_column(table, "agreement", "correct answers", Unit::share);
     add_column(table, "found", "pairs found", Unit::share);
     add_column(table, "boxes_deep", "boxes tested, deep", Unit::count);
     add_column(table, "cells_deep", "cells met, deep", Unit::count);
@@ -325,7 +326,7 @@ std::string poses_note(const PairStudy& study) {
             poses += " (" + std::to_string(study.poses.missing[s]) + " not found)";
         }
         if (stratum == Stratum::deep || stratum == Stratum::shallow) {
-            poses += formatted(" (%.0f pairs overlap in the mean)", mean_pairs(study, stratum));
+            poses += formatted(" (%.0f overlapping pairs on average)", mean_pairs(study, stratum));
         }
     }
     return poses + ".";
@@ -361,8 +362,8 @@ Table pair_table(const std::vector<StudyMesh>& meshes, const std::vector<PairStu
                    "pair",
                    {},
                    {},
-                   {"The paper does not say where its models were placed: its figures stand "
-                    "beside ours to compare orders, not values.",
+                   {"The comparative study does not state its poses. So compare the order of its "
+                    "figures with the order of ours, not the values.",
                     "PQP-style: this library's hierarchy of eight children with PQP's volumes, "
                     "not PQP's binary tree."}};
     for (const Printed& printed : kPrinted) {
@@ -381,8 +382,8 @@ Table pair_table(const std::vector<StudyMesh>& meshes, const std::vector<PairStu
         table.rows.push_back(std::move(row));
         const std::string reason = no_figures(meshes, study);
         if (!reason.empty()) {
-            table.notes.push_back(name_of(meshes, study) +
-                                  ": no published figures stand beside it: " + reason + ".");
+            table.notes.push_back(name_of(meshes, study) + " has no published figures: " + reason +
+                                  ".");
         }
     }
     return table;
@@ -390,7 +391,7 @@ Table pair_table(const std::vector<StudyMesh>& meshes, const std::vector<PairStu
 
 Table pair_details(const std::vector<StudyMesh>& meshes, const PairStudy& study) {
     Table table = {"4." + meshes[study.a].name + "-" + meshes[study.b].name,
-                   name_of(meshes, study) + ": what each strategy takes, median over the poses",
+                   name_of(meshes, study) + ": time of each strategy, median over the poses",
                    "strategy",
                    {},
                    {},
@@ -403,8 +404,8 @@ Table pair_details(const std::vector<StudyMesh>& meshes, const PairStudy& study)
     }
     table.notes.push_back(poses_note(study));
     table.notes.emplace_back(
-        "Cold: all structures that the query reads, of both models, were "
-        "dropped from the caches before each query.");
+        "Cold: all structures that the query reads, of both models, were dropped from the caches "
+        "before each query.");
     const std::string reason = no_figures(meshes, study);
     if (!reason.empty()) table.notes.push_back("No published figures: " + reason + ".");
     return table;

@@ -44,7 +44,7 @@ std::string add_peer(const PeerAnswers& answers, PairStudy& study) {
     contender.peer = answers.key;
     contender.is_peer = true;
     contender.reasons = answers.reasons;
-    contender.reasons[static_cast<std::size_t>(Asked::contacts)] = "peers are not asked that";
+    contender.reasons[static_cast<std::size_t>(Asked::contacts)] = "not measured for peers";
     for (const auto& [asked, letter] : kLetters) {
         const auto a = static_cast<std::size_t>(asked);
         if (!contender.reasons[a].empty()) continue;

@@ -18,7 +18,7 @@ study::PeerAnswers answers_of(const json& peer) {
         const char* const name = study::kAskedNames[a];
         answers.reasons[a] = peer.at("reasons").value(name, "");
         if (!peer.contains(name)) {
-            if (answers.reasons[a].empty()) answers.reasons[a] = "it gave no answer";
+            if (answers.reasons[a].empty()) answers.reasons[a] = "it returned no answer";
             continue;
         }
         answers.asked[a].seconds =
@@ -56,7 +56,7 @@ Result<study::PeerRun> read_peers(std::string_view text) {
         return run;
     } catch (const json::exception& error) {
         return Error{ErrorCode::unreadable,
-                     std::string("its answer is not the JSON it should be: ") + error.what()};
+                     std::string("its output is not the expected JSON: ") + error.what()};
     }
 }
 

@@ -62,7 +62,7 @@ private:
 };
 
 Error failure(const std::filesystem::path& program, const std::string& what) {
-    return {ErrorCode::unreadable, program.string() + ", which asks peers, " + what};
+    return {ErrorCode::unreadable, program.string() + ": the peer program " + what};
 }
 
 /// Returns the process's status; ends the process if the user stops us.
@@ -89,8 +89,8 @@ Result<std::string> run_peers(const std::filesystem::path& program,
     std::vector<std::string> words = {program.string(), questions.what};
     for (const std::span<const std::byte> bytes : questions.files) {
         if (!files.emplace_back().write(bytes)) {
-            return failure(
-                program, "cannot be handed the models: " + std::generic_category().message(errno));
+            return failure(program,
+                           "cannot receive the models: " + std::generic_category().message(errno));
         }
     }
     for (std::size_t i = 0; i < files.size(); ++i) {
@@ -125,9 +125,10 @@ Result<std::string> run_peers(const std::filesystem::path& program,
     if (is_interrupted()) return interrupted(program);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
         const bool crashed = WIFSIGNALED(status);
-        return failure(program, (crashed ? "ended by signal " + std::to_string(WTERMSIG(status))
-                                         : "ended with " + std::to_string(WEXITSTATUS(status))) +
-                                    ".");
+        return failure(program,
+                       (crashed ? "was ended by signal " + std::to_string(WTERMSIG(status))
+                                : "ended with exit code " + std::to_string(WEXITSTATUS(status))) +
+                           ".");
     }
     return answer.read();
 }

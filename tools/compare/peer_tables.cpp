@@ -62,7 +62,7 @@ const char* title_of(const std::string& library) {
 
 std::string reason_of(const PeerReasons& reasons, const std::string& library) {
     const auto at = reasons.find(library);
-    return at == reasons.end() ? "the program of peers does not know it" : at->second;
+    return at == reasons.end() ? "the peer program does not support it" : at->second;
 }
 
 const PeerBuild* find_build(const PeerRun* run, const std::string& key) {
@@ -72,7 +72,7 @@ const PeerBuild* find_build(const PeerRun* run, const std::string& key) {
 }
 
 Cell build_cell(const PeerBuild& build) {
-    if (build.seconds.empty()) return without("it built nothing");
+    if (build.seconds.empty()) return without("it built no structure");
     return seconds_cell(timing_of({.seconds = {build.seconds}, .times = {1}}));
 }
 
@@ -91,9 +91,9 @@ Table peer_build_table(const std::vector<StudyMesh>& meshes, const std::vector<P
                    "model",
                    {},
                    {},
-                   {"One thread, in a program of its own; FCL's swept rectangles are those of PQP, "
-                    "of which it descends.",
-                    "qhull: a hull in floating point, with triangles; ours is exact (Table 3)."}};
+                   {"One thread, in a separate program. FCL is derived from PQP, and uses its "
+                    "swept rectangles.",
+                    "qhull: a triangulated hull in floating point; ours is exact (Table 3)."}};
     for (const PeerStructure& structure : kPeerStructures) {
         table.columns.push_back(
             {std::string(structure.key) + "_s", structure.title, Unit::seconds});
@@ -120,14 +120,13 @@ Table peer_build_table(const std::vector<StudyMesh>& meshes, const std::vector<P
 
 Table peer_pair_table(const std::vector<StudyMesh>& meshes, const std::vector<PairStudy>& studies,
                       const PeerReasons& reasons) {
-    Table table = {
-        "4.peers",
-        "Collision detection (CD) and overlapping triangles (OT) by other libraries, "
-        "median over the deep poses",
-        "pair",
-        {},
-        {},
-        {"Each pair's own table has all strata, and how many answers are the exact ones."}};
+    Table table = {"4.peers",
+                   "Collision detection (CD) and overlapping triangles (OT) by other libraries, "
+                   "median over the deep poses",
+                   "pair",
+                   {},
+                   {},
+                   {"The table of each pair has all strata, and the share of correct answers."}};
     const auto add_column = [&](const std::string& key, const std::string& title) {
         table.columns.push_back({key, title, Unit::seconds});
     };

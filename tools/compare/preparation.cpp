@@ -146,11 +146,12 @@ Table preparation_table(const std::vector<StudyMesh>& meshes,
                     {"pieces_s", "pieces", Unit::seconds},
                     {"pieces_mib", "pieces, MiB", Unit::mebibytes}},
                    {},
-                   {"One thread. Hull: 24 bytes a vertex and 12 a facet; the paper gives no "
-                    "formula.",
-                    "PQP's size is its formula with doubles aligned to 4, as in the paper, over "
-                    "the triangles as read: 2n - 1 nodes of 172 bytes, n triangles of 76, 36 more.",
-                    "Where SWIFT++ refused a model, pieces end at its defects instead."}};
+                   {"One thread. Hull: 24 bytes per vertex and 12 per facet; the comparative study "
+                    "gives no formula.",
+                    "PQP's size is that of its formula for n triangles as read: 2n - 1 nodes of "
+                    "172 bytes, n triangles of 76 bytes, and 36 bytes. Doubles are aligned to 4 "
+                    "bytes, as in the comparative study.",
+                    "SWIFT++ refuses models with defects; here, pieces end at the defects."}};
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const StudyMesh& mesh = meshes[i];
         const auto& [hull, bvh, pieces] = prepared[i];
@@ -160,7 +161,7 @@ Table preparation_table(const std::vector<StudyMesh>& meshes,
         Cell bvh_s = seconds_cell(bvh.swept);
         Cell pqp_mib = size_cell(pqp_bytes_32(static_cast<double>(mesh.read_triangles)));
         Cell pieces_s = pieces.seconds_one ? seconds_cell(*pieces.seconds_one)
-                                           : without("one thread is left out by --quick");
+                                           : without("--quick leaves out the time on one thread");
         Cell pieces_mib = size_cell(static_cast<double>(pieces.bytes));
         if (mesh.likeness.model) {
             const PublishedModel& model = kPublished[*mesh.likeness.model];
@@ -184,8 +185,8 @@ Table preparation_table(const std::vector<StudyMesh>& meshes,
         }
         table.rows.push_back({mesh.name, {hull_s, hull_mib, bvh_s, pqp_mib, pieces_s, pieces_mib}});
         if (!mesh.likeness.version_of) {
-            table.notes.push_back(mesh.name + ": no published figures stand beside it: " +
-                                  mesh.likeness.sentence + ".");
+            table.notes.push_back(mesh.name +
+                                  " has no published figures: " + mesh.likeness.sentence + ".");
         }
     }
     return table;
@@ -193,32 +194,33 @@ Table preparation_table(const std::vector<StudyMesh>& meshes,
 
 Table preparation_details(const std::vector<StudyMesh>& meshes,
                           const std::vector<Preparation>& prepared) {
-    Table table = {"3.details",
-                   "Hull, hierarchy and pieces in detail",
-                   "model",
-                   {{"hull_vertices", "hull: vertices", Unit::count},
-                    {"hull_facets", "facets", Unit::count},
-                    {"hull_groups", "faces", Unit::count},
-                    {"enclosing_vertices", "enclosing: vertices", Unit::count},
-                    {"enclosing_distance", "farther out by at most", Unit::share},
-                    {"bvh_s_1", "BVH, 1 thread", Unit::seconds},
-                    {"bvh_s_all", "all threads", Unit::seconds},
-                    {"bvh_mib", "real, MiB", Unit::mebibytes},
-                    {"swept_mib", "PQP-style, MiB", Unit::mebibytes},
-                    {"pqp_mib_64", "PQP today, MiB", Unit::mebibytes},
-                    {"pieces_s_all", "pieces, all threads", Unit::seconds},
-                    {"pieces", "pieces", Unit::count},
-                    {"virtual_faces", "virtual faces", Unit::count},
-                    {"border_edges", "border edges", Unit::count},
-                    {"non_manifold_edges", "not manifold", Unit::count},
-                    {"inconsistent_edges", "wound apart", Unit::count},
-                    {"flat_edges", "folds, no area", Unit::count},
-                    {"guarantee", "guarantee", Unit::none}},
-                   {},
-                   {"Enclosing: a hull of at most 64 vertices around the exact one; distances "
-                    "are shares of the mesh's diagonal.",
-                    "PQP today: doubles aligned to 8, nodes of 176 bytes, triangles of 80.",
-                    "Edges are those of the welded mesh."}};
+    Table table = {
+        "3.details",
+        "Hull, hierarchy and pieces in detail",
+        "model",
+        {{"hull_vertices", "hull: vertices", Unit::count},
+         {"hull_facets", "facets", Unit::count},
+         {"hull_groups", "faces", Unit::count},
+         {"enclosing_vertices", "enclosing: vertices", Unit::count},
+         {"enclosing_distance", "enclosing: distance", Unit::share},
+         {"bvh_s_1", "BVH, 1 thread", Unit::seconds},
+         {"bvh_s_all", "all threads", Unit::seconds},
+         {"bvh_mib", "actual, MiB", Unit::mebibytes},
+         {"swept_mib", "PQP-style, MiB", Unit::mebibytes},
+         {"pqp_mib_64", "PQP today, MiB", Unit::mebibytes},
+         {"pieces_s_all", "pieces, all threads", Unit::seconds},
+         {"pieces", "pieces", Unit::count},
+         {"virtual_faces", "virtual faces", Unit::count},
+         {"border_edges", "border edges", Unit::count},
+         {"non_manifold_edges", "non-manifold edges", Unit::count},
+         {"inconsistent_edges", "inconsistent edges", Unit::count},
+         {"flat_edges", "folds, zero area", Unit::count},
+         {"guarantee", "guarantee", Unit::none}},
+        {},
+        {"Enclosing: a hull of at most 64 vertices around the exact one. Distance: the largest one "
+         "between the two hulls, as a share of the mesh's diagonal.",
+         "PQP today: doubles aligned to 8 bytes, nodes of 176 bytes, triangles of 80 bytes.",
+         "Edges are those of the welded mesh."}};
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const auto& [hull, bvh, pieces] = prepared[i];
         const bool encloses = hull.enclosing_vertices > 0;
@@ -252,8 +254,9 @@ std::vector<Check> preparation_checks(const std::vector<StudyMesh>& meshes,
                 pqp_bytes_32(static_cast<double>(mesh.read_triangles)) / (1 << 20);
             const bool has_erratum = *model.pqp.erratum != '\0';
             Check check;
-            check.claim =
-                mesh.name + ": PQP's size follows from its triangles to the printed digit";
+            check.claim = mesh.name +
+                          ": PQP's published size follows from the number of triangles, to the "
+                          "last printed digit";
             check.evidence = formatted("%.4f MiB by the formula, ", formula) +
                              formatted("%.4f printed", model.pqp.mebibytes) +
                              (has_erratum ? std::string(": ") + model.pqp.erratum : "");
@@ -265,7 +268,7 @@ std::vector<Check> preparation_checks(const std::vector<StudyMesh>& meshes,
         if (!pieces.seconds_one) continue;
         Check check;
         check.claim =
-            mesh.name + ": the hierarchy takes less pre-processing than the pieces (Table 3)";
+            mesh.name + ": the hierarchy takes less pre-processing time than the pieces (Table 3)";
         check.evidence = seconds_text(bvh.swept.median_s) + " against " +
                          seconds_text(*pieces.seconds_one) + " on one thread";
         check.verdict = verdict_of(bvh.swept.median_s < *pieces.seconds_one);

@@ -143,7 +143,7 @@ constexpr std::array<PruningColumn, 15> kColumns = {{
     {"slab_b", "clusters in slabs", &Pruning::slab_b},
     {"leaf_b", "leaves not clipped", &Pruning::leaf_b},
     {"pcs_b", "PCS of B", &Pruning::pcs_b},
-    {"held_b", "kept by repaired", &Pruning::held_b},
+    {"held_b", "kept, repaired", &Pruning::held_b},
     {"cs_a", "CS of A", &Pruning::cs_a},
     {"cs_b", "CS of B", &Pruning::cs_b},
     {"literal_cs_a", "literal CS of A", &Pruning::literal_cs_a},
@@ -273,19 +273,21 @@ Table pruning_table(const std::vector<StudyMesh>& meshes, const std::vector<Pair
                     std::span<const ModelForms* const> forms) {
     Table table = {
         "talk",
-        "What each step of the talk's algorithm leaves, means over the poses",
+        "Triangles that each step of Ponce Atencio's search leaves, means over the poses",
         "pair, poses",
         {},
         {},
-        {"Boxes, oriented boxes and hulls are of whole models: the share of poses at which "
-         "they meet. PCS: the potentially colliding set, triangles of B that A's "
-         "oriented box does not clip. Leaves have up to 8 triangles, clusters up to 64. "
-         "In slabs: along each of 13 directions, a cluster's extent meets that of some "
-         "cluster of A. CS: triangles in overlapping pairs. Literal: cells are sought "
-         "at the corners of B's triangles alone, so that pairs are missed. Lost: pairs "
-         "with a triangle that a step rules out.",
-         "Hashed octrees as tuned: 6 levels, cells of fewer than 32 triangles whole; "
-         "cells found by the key's last bits, as the talk has it."}};
+        {"Boxes, oriented boxes and hulls are those of whole models: the share of poses at which "
+         "they meet. PCS: the potentially colliding set, the triangles of B that A's oriented box "
+         "does not clip. Leaves have up to 8 triangles, clusters up to 64. In slabs: along each of "
+         "13 directions, a cluster's extent meets that of some cluster of A. CS: the colliding "
+         "set, the triangles in overlapping pairs. Literal: the search looks up cells only at the "
+         "corners of B's triangles, so it misses pairs. Repaired: it looks up all cells that a "
+         "triangle overlaps. Listed: triangles in the lists of these cells. Lost: pairs with a "
+         "triangle that a step excludes.",
+         "Hashed octrees have the setting 'tuned': 6 levels, and cells of fewer than 32 triangles "
+         "are not divided. Cells are found by the last bits of the key, as Ponce Atencio "
+         "describes."}};
     for (const ObjectColumn& column : kObjectColumns) {
         table.columns.push_back({column.key, column.title, Unit::share});
     }
@@ -314,7 +316,7 @@ namespace {
 
 Check check_recall(const Table& table) {
     Check check;
-    check.claim = "The talk's search at the corners of triangles finds every overlapping pair";
+    check.claim = "Ponce Atencio's search at the corners of triangles finds every overlapping pair";
     double least = 1;
     std::string where;
     std::size_t asked = 0;
@@ -330,12 +332,12 @@ Check check_recall(const Table& table) {
     if (asked == 0) return check;
     check.verdict = verdict_of(least == 1);
     check.evidence =
-        "of " + std::to_string(asked) + " sets of poses, " +
-        (where.empty() ? "all are found"
-                       : "the least found is " + formatted("%.4f", least) + " (" + where +
-                             "): a triangle may cross cells in which it has no "
-                             "corner. The repaired form, which asks all cells "
-                             "that it overlaps, finds all");
+        "in " + std::to_string(asked) + " sets of poses, " +
+        (where.empty()
+             ? "all pairs are found"
+             : "the smallest share of pairs found is " + formatted("%.4f", least) + " (" + where +
+                   "): a triangle may cross cells in which it has no corner. The repaired search "
+                   "looks up all cells that a triangle overlaps, and finds all pairs");
     return check;
 }
 
@@ -360,10 +362,10 @@ Check check_groups(const Table& table) {
     }
     if (asked == 0) return check;
     check.verdict = verdict_of(most == 0);
-    check.evidence = "of " + std::to_string(asked) + " sets of poses, " +
-                     (where.empty() ? "none loses a pair"
+    check.evidence = "in " + std::to_string(asked) + " sets of poses, " +
+                     (where.empty() ? "no pair is lost"
                                     : "the worst loses " + formatted("%.4g", most) +
-                                          " pairs a pose (" + where + ")");
+                                          " pairs per pose (" + where + ")");
     return check;
 }
 

@@ -49,7 +49,8 @@ public:
         : options_(options), threads_(threads), style_(style) {
         progress_.emplace(style, models);
         if (options_.peers.empty()) {
-            not_asked_ = study::all_absent("peers were not asked: name a program with --peers");
+            not_asked_ =
+                study::all_absent("peers were not measured: give a peer program with --peers");
         }
     }
 
@@ -78,7 +79,7 @@ public:
         if (options_.peers.empty()) {
             comparison_.peers.emplace_back(
                 "Peers (FCL, ODE, Bullet, CGAL, Embree, qhull; PQP and SWIFT++ have no package) "
-                "were not asked: name a program with --peers.");
+                "were not measured: give a peer program with --peers.");
         }
         if (is_interrupted()) return interrupted(files.front());
         for (const char* erratum : study::published_errata()) {
@@ -243,7 +244,7 @@ private:
         if (!run) return unusable(run.error().message);
         for (const study::AbsentPeer& absent : run.value().absent) {
             not_asked_[absent.key] = absent.reason;
-            keep_line(absent.name + " was not asked: " + absent.reason + ".");
+            keep_line(absent.name + " was not measured: " + absent.reason + ".");
         }
         return run;
     }
@@ -264,7 +265,7 @@ private:
         for (const study::PeerAnswers& peer : run.value().peers) {
             const std::string wrong = study::add_peer(peer, study);
             if (!wrong.empty()) return unusable(wrong);
-            keep_line(peer.name + ": " + peer.note + "; timed in a program of its own.");
+            keep_line(peer.name + ": " + peer.note + "; timed in a separate program.");
         }
         return std::nullopt;
     }
@@ -274,7 +275,7 @@ private:
     std::optional<Error> ask_builds(std::vector<study::PeerRun>& runs) {
         if (options_.peers.empty()) return std::nullopt;
         for (std::size_t i = 0; i < meshes_.size(); ++i) {
-            step(meshes_[i].name + ": what peers build");
+            step(meshes_[i].name + ": structures of peers");
             Result<study::PeerRun> run = ask(
                 {.what = "build",
                  .files = {std::as_const(forms_[i].plain.image).span()},
@@ -290,7 +291,7 @@ private:
 
     [[nodiscard]] Error unusable(const std::string& what) const {
         return {ErrorCode::unreadable,
-                options_.peers.string() + ", which asks peers, cannot be used: " + what};
+                options_.peers.string() + ": the peer program cannot be used: " + what};
     }
 
     void keep_line(const std::string& line) {
@@ -319,7 +320,7 @@ private:
             add(study::pair_checks(meshes_, studies));
         }
         if (!options_.tables.talk) return std::nullopt;
-        step("the talk's figures");
+        step("pruning and cell searches");
         std::vector<const study::ModelForms*> forms;
         for (const study::ModelForms& form : forms_) forms.push_back(&form);
         study::Table table = study::pruning_table(meshes_, studies, forms);

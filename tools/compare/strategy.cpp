@@ -56,11 +56,12 @@ StrategyPair::StrategyPair(const Strategy& strategy, const ModelForms& a, const 
 std::string StrategyPair::find_reason(Asked asked) const {
     const Structure structure = strategy_.through.structure;
     if (strategy_.of_hulls) {
-        if (asked == Asked::overlap) return "a hull does not know the triangles";
-        if (asked == Asked::contacts) return "of pieces only";
+        if (asked == Asked::overlap) return "a hull has no triangles of the mesh";
+        if (asked == Asked::contacts) return "supported by pieces only";
         return hull_a_ && hull_b_ ? "" : "a model has no hull";
     }
-    if (asked == Asked::contacts && structure != Structure::pieces) return "of pieces only";
+    if (asked == Asked::contacts && structure != Structure::pieces)
+        return "supported by pieces only";
     const bool measures = structure == Structure::bvh || structure == Structure::pieces;
     if ((asked == Asked::distance || asked == Asked::within) && !measures) {
         return "cells do not bound distances";

@@ -108,7 +108,7 @@ Result<report::SurfacePiecesReport> decompose(const Arguments& arguments, Progre
     return report;
 }
 
-/// Encloses the mesh in pieces, within an error or up to a number of pieces.
+/// Encloses the mesh in parts, within an error or up to a number of parts.
 Exit run_enclose(const Arguments& arguments, Progress& progress) {
     const Threads threads(arguments.threads);
     EncloseOptions options = arguments.enclose;
@@ -160,17 +160,15 @@ std::optional<Error> find_idle_option(const Command& command, const Arguments& a
     if (idle == nullptr) return std::nullopt;
     return Error{
         ErrorCode::bad_argument,
-        idle + std::string(encloses ? " is of pieces of the surface: leave it out, or leave "
-                                      "out --max-error, --parts and --max-parts."
-                                    : " is of pieces that enclose the mesh: add "
+        idle + std::string(encloses ? " applies to pieces of the surface: remove it, or remove "
+                                      "--max-error, --parts and --max-parts."
+                                    : " applies to parts that enclose the mesh: add "
                                       "--max-error, --parts or --max-parts.")};
 }
 
 Exit run(const Command& command, const Arguments& arguments) {
     if (const auto error = find_idle_option(command, arguments)) return fail("decompose", *error);
-    const Result<ProgressStyle> style = parse_progress(arguments.progress);
-    if (!style) return fail("decompose", style.error());
-    Progress progress(style.value(), 1);
+    Progress progress(parse_progress(arguments.progress), 1);
     if (is_enclosing(arguments)) return run_enclose(arguments, progress);
     const Result<report::SurfacePiecesReport> found = decompose(arguments, progress);
     progress.clear();
@@ -187,7 +185,7 @@ Exit run(const Command& command, const Arguments& arguments) {
     return Exit::success;
 }
 
-/// Returns --exact, which excludes the enclosing pieces.
+/// Returns --exact, which excludes the enclosing parts.
 const Option add_surface_options(const Command& command, Arguments& arguments) {
     const char* const surface = "Pieces of the surface";
     const Option exact =
@@ -217,10 +215,10 @@ const Option add_surface_options(const Command& command, Arguments& arguments) {
 }
 
 void add_enclosing_options(const Command& command, EncloseOptions& enclosed, const Option exact) {
-    const char* const enclosing = "Enclosing pieces";
+    const char* const enclosing = "Enclosing parts";
     command
         .add_option("--max-error", enclosed.max_error,
-                    "Use as few pieces as the search can find, which stick out of the solid by at "
+                    "Use as few parts as the search can find. They stick out of the solid by at "
                     "most this distance, in model units")
         .type_name("DISTANCE")
         .check(zero_or_more())
@@ -228,35 +226,35 @@ void add_enclosing_options(const Command& command, EncloseOptions& enclosed, con
         .group(enclosing);
     command
         .add_option("--parts", enclosed.parts,
-                    "Use at most N pieces, which stick out as little as the search can achieve")
+                    "Use at most N parts, and minimize the distance by which they stick out")
         .check(whole_from(1))
         .excludes(exact)
         .group(enclosing);
     command
         .add_option("--max-parts", enclosed.max_parts,
-                    "Maximum number of pieces, such as an engine's limit; takes precedence over "
+                    "Maximum number of parts, such as an engine's limit; takes precedence over "
                     "--max-error")
         .check(whole_from(1))
         .excludes(exact)
         .group(enclosing);
     command
         .add_option("--max-vertices", enclosed.max_vertices,
-                    "Maximum number of vertices per piece, such as an engine's limit")
+                    "Maximum number of vertices per part, such as an engine's limit")
         .check(whole_from(convex::kFewestEnclosingVertices, 1U << 30U))
         .group(enclosing);
     command
         .add_option("--work", enclosed.work,
-                    "Search budget, in steps of about 10 ns; a smaller one gives a looser result")
+                    "Search budget, in steps of about 10 ns; a smaller budget gives a looser fit")
         .show_default()
         .group(enclosing);
     command
         .add_flag("--to-surface", enclosed.to_surface,
-                  "Measure how far pieces stick out of the surface, not of the solid: for sheets "
+                  "Measure how far parts stick out of the surface, not of the solid: for sheets "
                   "and hollow bodies")
         .group(enclosing);
     command
         .add_flag("--merge-components", enclosed.merge_components,
-                  "Let a piece enclose several components and nodes")
+                  "Let a part enclose several components and nodes")
         .group(enclosing);
 }
 
@@ -280,18 +278,19 @@ void add_physics_options(const Command& command, EncloseOptions& enclosed) {
 
 void add_decompose(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    const Command command = app.add_command("decompose", "Decompose a mesh into convex pieces");
+    const Command command =
+        app.add_command("decompose", "Decompose a mesh into convex pieces or parts");
     command.set_notes(
         "By default, the command cuts the surface into pieces that lie on their own convex hulls: "
-        "exactly, or within --tolerance. It works for every mesh; no piece crosses a boundary, a "
-        "non-manifold edge or an edge whose triangles have opposite windings. Names of nodes have "
-        "no effect.\n\n"
+        "exactly, or within --tolerance. This works for every mesh. No piece crosses a boundary, a "
+        "non-manifold edge, or an edge with triangles of opposite windings. Names of nodes have no "
+        "effect.\n\n"
         "With --max-error, --parts or --max-parts, the command encloses the solid in few convex "
-        "pieces instead. A proven bound on the distance by which they stick out is reported. "
+        "parts instead. A proven bound on the distance by which they stick out is reported. "
         "Components and nodes stay separate, unless --merge-components is given. A node named "
         "UCX_..., ...-convcolonly, ...-convcol, ...-convex or ..._convex is replaced by its convex "
         "hull. Other groups that 'cdprep bake' would leave out stay separate even if they are "
-        "open.\n\n"
+        "unbalanced.\n\n"
         "If the request cannot be met, the best result is written and the exit code is 1.",
         {"cdprep decompose part.obj -o pieces.ply",
          "cdprep decompose robot.obj -o robot.urdf --max-error 0.5 --unit mm",
@@ -300,8 +299,8 @@ void add_decompose(const Command& app, Exit& exit) {
     command
         .add_option("-o,--output", arguments->output,
                     "The pieces: .obj with a group for each, or .ply with colours. Enclosing "
-                    "pieces: .obj, .glb, .mjcf, .xml, or .urdf or .sdf with one mesh file per "
-                    "piece")
+                    "parts: .obj, .glb, .mjcf, .xml, or .urdf or .sdf with one mesh file per "
+                    "part")
         .type_name("FILE")
         .group("Output");
     const Option exact = add_surface_options(command, *arguments);
@@ -309,7 +308,7 @@ void add_decompose(const Command& app, Exit& exit) {
     add_physics_options(command, arguments->enclose);
     command
         .add_flag("--table", arguments->table,
-                  "Report every piece. Enclosing pieces are listed with their nodes")
+                  "Report every piece or part. Parts are listed with their nodes")
         .group("Report");
     add_report_format(command, arguments->format);
     add_normalize(command, arguments->load.normalize);

@@ -25,8 +25,8 @@ double volume_of(const ConvexHull& hull) {
     return sum / 6;
 }
 
-Json piece_json(const NamedHull& piece) {
-    const ConvexHull& hull = *piece.hull;
+Json part_json(const NamedHull& part) {
+    const ConvexHull& hull = *part.hull;
     Json points = Json::array();
     for (const Double3& p : hull.points) {
         for (const double value : {p.x, p.y, p.z}) points.push_back(value);
@@ -35,7 +35,7 @@ Json piece_json(const NamedHull& piece) {
     for (const auto& facet : hull.facets) {
         for (const std::uint32_t point : facet) triangles.push_back(point);
     }
-    return {{"name", piece.name},
+    return {{"name", part.name},
             {"points", std::move(points)},
             {"triangles", std::move(triangles)},
             {"volume", volume_of(hull)}};
@@ -51,7 +51,7 @@ Json mass_json(const Colliders& colliders) {
             {"inertia", {{xx, xy, zx}, {xy, yy, yz}, {zx, yz, zz}}},
             {"moments", moments},
             {"axes", axes},
-            {"closed", colliders.is_closed}};
+            {"of_solid", colliders.is_of_solid}};
 }
 
 }  // namespace
@@ -64,10 +64,10 @@ std::string colliders_json(const Colliders& colliders) {
                        member("name", colliders.name);
     text += member("metres_per_unit",
                    colliders.metres_per_unit > 0 ? Json(colliders.metres_per_unit) : Json(nullptr));
-    text += member("mass", mass_json(colliders)) + "\"pieces\": [";
+    text += member("mass", mass_json(colliders)) + "\"parts\": [";
     const char* separator = "\n ";
-    for (const NamedHull& piece : colliders.pieces) {
-        text += separator + compact(piece_json(piece));
+    for (const NamedHull& part : colliders.parts) {
+        text += separator + compact(part_json(part));
         separator = ",\n ";
     }
     return text + "],\n\"error\": " + compact(colliders.error) + "}\n";

@@ -15,14 +15,14 @@ struct NamedHull {
     const convex::ConvexHull* hull;  ///< of dimension 3
 };
 
-/// Convex pieces for the loaders of physics engines, in model units.
+/// Convex parts for the loaders of physics engines, in model units.
 struct Colliders {
     std::string name;
     double metres_per_unit = 0;           ///< 0: unknown
     std::optional<write::BodyMass> mass;  ///< of density 1 in model units
-    bool is_closed = false;               ///< the mass is that of the solid, not of the pieces
-    double error = 0;                     ///< how far pieces stand out at most
-    std::vector<NamedHull> pieces;
+    bool is_of_solid = false;             ///< the mass is that of the solid, not of the parts
+    double error = 0;                     ///< how far parts stand out at most
+    std::vector<NamedHull> parts;
 };
 
 /// Returns the text of a JSON file, which colliders.schema.json describes. Numbers are written in

@@ -40,21 +40,22 @@ bool is_package(const std::string& text) {
 /// Returns an error for an option without effect: the user expected one.
 std::optional<Error> find_idle_option(const Command& command, const EngineForm& form) {
     const auto idle = [&](const char* option, const std::string& why) {
-        return Error{ErrorCode::bad_argument, std::string(option) + ": " + why + " Leave it out."};
+        return Error{ErrorCode::bad_argument,
+                     std::string(option) + ": " + why + " Remove the option."};
     };
     const std::string name = form.name;
     if (command.count("--floating") > 0 && form.engine != Engine::mujoco) {
-        return idle("--floating", "only MJCF, for mujoco, has a joint to the world.");
+        return idle("--floating", "only MJCF files (--for mujoco) have a joint to the world.");
     }
     if (command.count("--package") > 0 && form.engine != Engine::urdf) {
-        return idle("--package", "only a URDF, for urdf, names meshes in a package.");
+        return idle("--package", "only URDF files (--for urdf) name meshes in a package.");
     }
     if (command.count("--density") > 0 && !form.has_mass) {
         return idle("--density", "the file for " + name + " has no mass in kilograms.");
     }
     if (command.count("--no-visual") > 0 && !form.can_omit_visual) {
         return idle("--no-visual", form.engine == Engine::unreal
-                                       ? "Unreal attaches parts to the mesh that is shown."
+                                       ? "Unreal attaches parts to the visual mesh."
                                        : "the file for " + name + " never has a visual mesh.");
     }
     if (command.count("--strict") > 0 && !is_in_metres(form)) {
@@ -70,7 +71,7 @@ Result<report::ExportReport> export_file(const Command& command, const Arguments
     if (command.count("--package") > 0 && !is_package(package)) {
         return Error{ErrorCode::bad_argument,
                      "--package '" + package +
-                         "': is no name of a package, such as my_robot, or of a folder in it, such "
+                         "' is neither a package such as my_robot nor a folder in a package, such "
                          "as my_robot/meshes."};
     }
     const auto output = output_for(form, arguments.file, arguments.options.output);
@@ -142,19 +143,18 @@ void add_export(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     const Command command = app.add_command("export", "Write colliders for a physics engine");
     command.set_notes(
-        "The command reads a file that was baked with --structures hull, and --parts or "
-        "--max-error for convex parts. Without parts, the convex hull of the whole is the "
-        "collider.\n\n"
+        "The file must be baked with --structures hull, and with --parts or --max-error for convex "
+        "parts. Without parts, the collider is the convex hull of the model.\n\n"
         "godot: a GLB with nodes NAME_00-convcolonly. unreal: a GLB with nodes UCX_NAME_00. unity: "
         "a GLB with the parts below a node named colliders. mujoco: MJCF. gazebo: SDF. urdf: URDF. "
-        "All have the mesh itself too; MJCF has it only if it encloses a volume. json: points, "
+        "All these also have the mesh itself, MJCF only if it encloses a volume. json: points, "
         "triangles and mass, for loaders of other engines.\n\n"
         "Unity reads GLB by a package such as glTFast. Unity makes no colliders by itself: add a "
         "convex MeshCollider to each node below colliders. A URDF names its meshes by paths "
         "relative to itself. ROS tools expect --package, or file:// before the paths.\n\n"
-        "All but json are in metres. They are turned to the up axis of the engine if the model "
-        "states its own. Points that hull builders of engines ignore are dropped. Other points "
-        "move out by at most the reported error, so that the colliders still enclose the mesh.",
+        "All but json are in metres. They are rotated to the engine's up axis if the model states "
+        "its up axis. Points that hull builders of engines ignore are dropped. Other points move "
+        "out by at most the reported error, so that the colliders still enclose the mesh.",
         {"cdprep bake chair.glb --structures hull --parts 16",
          "cdprep export chair.cdp.h5 --for godot -o game/chair.glb",
          "cdprep export robot.cdp.h5 --for mujoco --floating -o robot.xml"});
@@ -166,8 +166,8 @@ void add_export(const Command& app, Exit& exit) {
         .group("Output");
     command
         .add_option("-o,--output", arguments->options.output,
-                    "The output, or a folder for it. Meshes of a URDF, SDF or MJCF are written "
-                    "beside it. Default: NAME.glb, .xml, .sdf, .urdf or .json beside NAME.cdp.h5; "
+                    "The output, or a folder for it. Meshes of URDF, SDF and MJCF go beside the "
+                    "output. Default: NAME.glb, .xml, .sdf, .urdf or .json beside NAME.cdp.h5; "
                     "such a file is not replaced if it exists")
         .type_name("PATH")
         .group("Output");

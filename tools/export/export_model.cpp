@@ -38,7 +38,7 @@ struct Body {
     std::vector<ConvexHull> parts;
     std::vector<double> errors;  ///< of the parts, as stored
     mesh::Mesh mesh;             ///< in source order
-    bool is_closed = false;
+    bool is_balanced = false;
 };
 
 ConvexHull stored_hull(const Model& model, std::uint32_t number) {
@@ -151,7 +151,7 @@ void scale(std::vector<Double3>& points, double factor) {
 
 /// Returns true if MuJoCo can read the mesh as a geom, for which it needs a volume.
 bool is_for_mujoco(const Body& body) {
-    if (!body.is_closed) return false;
+    if (!body.is_balanced) return false;
     const auto found = convex::find_mass_properties(body.mesh);
     return found && found->volume > 0;
 }
@@ -166,11 +166,11 @@ Result<Done> write_for_engine(Body& body, const EngineForm& form, const ExportOp
     how.stores_hulls_large = form.stores_parts_large;
     if (form.has_mass) {
         const auto weighed =
-            weigh(body.mesh, body.is_closed, body.parts, options.density, report.metres_per_unit);
+            weigh(body.mesh, body.is_balanced, body.parts, options.density, report.metres_per_unit);
         if (weighed) {
             how.mass = weighed->body;
             report.mass = weighed->body.mass;
-            report.is_mass_of_parts = weighed->is_of_pieces;
+            report.is_mass_of_parts = weighed->is_of_parts;
         }
     }
     report.has_visual = options.has_visual;
@@ -203,12 +203,12 @@ Result<Done> write_json(const Body& body, const EngineForm& form, const ExportOp
     colliders.name = name;
     colliders.metres_per_unit = report.metres_per_unit;
     colliders.error = report.outer_error;
-    if (const auto weighed = weigh(body.mesh, body.is_closed, body.parts, 1, 1)) {
+    if (const auto weighed = weigh(body.mesh, body.is_balanced, body.parts, 1, 1)) {
         colliders.mass = weighed->body;
-        colliders.is_closed = !weighed->is_of_pieces;
+        colliders.is_of_solid = !weighed->is_of_parts;
     }
     for (std::size_t i = 0; i < body.parts.size(); ++i) {
-        colliders.pieces.push_back({part_name(form, name, i, body.parts.size()), &body.parts[i]});
+        colliders.parts.push_back({part_name(form, name, i, body.parts.size()), &body.parts[i]});
     }
     return write_bytes(options.output, report::colliders_json(colliders));
 }
@@ -245,7 +245,7 @@ Result<report::ExportReport> export_model(const fs::path& input, const EngineFor
     add_parts(model, body, report);
     if (const auto lack = find_lack(body, form, report)) return *lack;
     body.mesh = source_mesh(model);
-    body.is_closed = model.is_balanced();
+    body.is_balanced = model.is_balanced();
     report.parts = body.parts.size();
     if (options.strict && report.is_in_metres && !(report.metres_per_unit > 0)) {
         report.exit = static_cast<int>(Exit::findings);

@@ -21,7 +21,7 @@ std::string points_text(const ExportReport& report) {
     if (report.growth > 0) text += "; parts grew by at most " + in_six_digits(report.growth);
     text += "\n";
     if (report.low_points > 0) {
-        text += "  " + counted(report.low_points, "point stands", "points stand") +
+        text += "  " + counted(report.low_points, "point sticks", "points stick") +
                 " out so little that engines may ignore " +
                 (report.low_points == 1 ? "it\n" : "them\n");
     }
@@ -35,7 +35,7 @@ std::string points_text(const ExportReport& report) {
 
 std::string visual_text(const ExportReport& report) {
     if (report.is_visual_refused) {
-        return "  without the mesh itself: it is not closed and wound outwards, which MuJoCo "
+        return "  without the mesh itself: it is not balanced and wound outwards, which MuJoCo "
                "needs\n";
     }
     return report.has_visual ? "  with the mesh itself, without normals and materials\n" : "";
@@ -69,10 +69,11 @@ std::string unit_warning(const ExportReport& report) {
 }
 
 std::string export_text(const ExportReport& report) {
-    std::string text = printable(report.input) + ": " +
-                       (report.is_of_whole ? "the convex hull of the whole, for lack of parts"
-                                           : counted(report.parts, "convex part", "convex parts")) +
-                       " for " + report.engine + " (" + in_six_digits(report.seconds) + " s)\n";
+    std::string text =
+        printable(report.input) + ": " +
+        (report.is_of_whole ? "the convex hull of the whole, because the file has no parts,"
+                            : counted(report.parts, "convex part", "convex parts")) +
+        " for " + report.engine + " (" + in_six_digits(report.seconds) + " s)\n";
     text += points_text(report);
     text += "  " + std::string(report.is_of_whole ? "it sticks" : "they stick") +
             " out by at most " + in_six_digits(report.outer_error) + "\n";

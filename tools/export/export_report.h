@@ -26,7 +26,7 @@ struct ExportReport {
     double outer_error = 0;         ///< how far parts stick out of the solid at most; model units
     bool is_in_metres = false;
     bool has_visual = false;
-    bool is_visual_refused = false;  ///< the mesh is not closed, which MuJoCo requires
+    bool is_visual_refused = false;  ///< the mesh is unbalanced or inverted, which MuJoCo refuses
     double metres_per_unit = 0;      ///< 0: unknown
     bool is_normalized = false;      ///< then there is no unit
     format::UpAxis up_axis = format::UpAxis::unknown;  ///< of the model

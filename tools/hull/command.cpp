@@ -147,9 +147,9 @@ void add_hull(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     const Command command = app.add_command("hull", "Compute the convex hull of a mesh");
     command.set_notes(
-        "The hull is exact: its points are vertices of the mesh, and no vertex lies outside. "
-        "With --max-vertices, the hull encloses the exact one. A proven bound on their distance "
-        "is reported. Points, segments and polygons have hulls too.",
+        "The hull is exact: its points are vertices of the mesh, and no vertex lies outside. With "
+        "--max-vertices, it encloses the exact hull. A proven bound on the distance is reported. "
+        "Points, segments and polygons have hulls too.",
         {"cdprep hull scan.ply -o hull.obj",
          "cdprep hull robot.glb -o hulls.obj --per node --max-vertices 64"});
     add_input(command, arguments->input);

@@ -31,13 +31,20 @@
 namespace cdprep::convex {
 namespace {
 
-constexpr double kMargin = 0x1p-19;
+constexpr double kMargin = 0x1p-19;       ///< in the unit box: derived above
 constexpr double kNormalError = 0x1p-47;  ///< error of a coordinate of N: see plane_of()
-constexpr std::size_t kLanes = 8;
-constexpr std::size_t kChunk = 1024;  ///< points per task: 16 KiB
-constexpr std::size_t kFewPoints = 512;
-constexpr std::size_t kSample = 1 << 14;
-constexpr std::size_t kSampleFacets = 64, kMostFacets = 256;
+/// The largest e of a plane that is used: terms of the second order stay far below 2 e.
+constexpr double kReliable = 0.01;
+constexpr std::size_t kLanes = 8;  ///< floats of an AVX2 register
+// The sizes and limits below trade the time of passes against that of the exact hull of the points
+// that are left. They change no hull, and were chosen by trial.
+constexpr std::size_t kChunk = 1024;       ///< points per task: 16 KiB
+constexpr std::size_t kFewPoints = 512;    ///< fewer are not culled
+constexpr std::size_t kSample = 1 << 14;   ///< most points in the sample
+constexpr std::size_t kSampleFacets = 64;  ///< beyond it, a polytope takes in no more of the sample
+constexpr std::size_t kMostFacets = 256;   ///< the same of all points
+/// With fewer corners, the polytope still grows much by each pass, even if it drops few points.
+constexpr std::size_t kFirstCorners = 50;
 /// A pass that drops fewer than one point in this many is the last.
 constexpr std::size_t kWorthwhile = 10;
 /// Sizes whose squares and quotients are far from the limits of double.
@@ -255,7 +262,7 @@ Plane plane_of(const Double3& a, const Double3& b, const Double3& c) {
     const double most = std::max({std::fabs(nx), std::fabs(ny), std::fabs(nz)});
     const double error = kNormalError / most;
     // Also if `most` is 0 and the error infinite: such a plane has everything in front.
-    if (!(error < 0.01)) return {0, 0, 0, -1};
+    if (!(error < kReliable)) return {0, 0, 0, -1};
     const double height = (nx * a.x + ny * a.y + nz * a.z) / most;
     return {static_cast<float>(nx / most), static_cast<float>(ny / most),
             static_cast<float>(nz / most), static_cast<float>(height - kMargin - 8 * error)};
@@ -323,7 +330,7 @@ void grow(Chunks& chunks, Grown& grown, std::span<const Double3> points, const U
         const std::size_t dropped = before - count_of(chunks);
         add_farthest(pass, grown.planes, grown.corners);
         if (grown.corners.size() == corner_count) return;
-        const bool last = corner_count > 50 && dropped * kWorthwhile < before;
+        const bool last = corner_count > kFirstCorners && dropped * kWorthwhile < before;
         if (last) return;
         grown.before = std::move(grown.planes);
         grown.planes = planes_of(points, grown.corners, unit);

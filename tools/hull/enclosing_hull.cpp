@@ -32,9 +32,11 @@ using mesh::scaled;
 
 /// The first distance of planes from the hull, in units of half the largest side. It is the
 /// rounding error of the corners of well-shaped intersections.
-constexpr double kFirstSlack = 0x1p-48, kSlackGrowth = 8;
-constexpr int kSlackSteps = 20;
-/// Corners closer than this do not justify a plane.
+constexpr double kFirstSlack = 0x1p-48;
+constexpr double kSlackGrowth = 8;
+constexpr int kSlackSteps = 20;  ///< the last slack is 2^9: far beyond the hull
+constexpr std::uint32_t kBoxCorners = 8;
+/// Corners closer to the hull than this do not justify a plane; in the same units.
 constexpr double kClose = 0x1p-40;
 /// The error of a height above a facet's plane is less than this times its edges' lengths.
 constexpr double kHeightError = 0x1p-45;
@@ -296,7 +298,7 @@ std::optional<EnclosingHull> enclosing_hull(const ConvexHull& exact, std::uint32
     if (exact.points.size() <= max_vertices) return EnclosingHull{exact, 0};
     const Inner inner(exact);
     std::optional<EnclosingHull> best = enclosing_from(inner, exact, kTetrahedron, max_vertices);
-    if (max_vertices < 8) return best;
+    if (max_vertices < kBoxCorners) return best;
     std::optional<EnclosingHull> boxed = enclosing_from(inner, exact, kBox, max_vertices);
     if (boxed && (!best || boxed->distance <= best->distance)) return boxed;
     return best;

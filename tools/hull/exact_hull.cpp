@@ -6,10 +6,10 @@
 #include <numeric>
 #include <tuple>
 
+#include "cdprep/advanced/disjoint_sets.h"
 #include "cdprep/exact/predicates.h"
 #include "cdprep/exact/triangles.h"
 #include "hull/quickhull.h"
-#include "mesh/disjoint_sets.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {
@@ -250,7 +250,7 @@ private:
 
     std::span<const HullFace> faces_;
     const DistinctPoints* points_;
-    mesh::DisjointSets sets_;
+    build::DisjointSets sets_;
 };
 
 std::vector<Polygon> polygons_of(const DistinctPoints& points, const Span& span) {

@@ -40,7 +40,7 @@ struct HullReport {
 /// Returns a text for people: at most `most_lines` lines of hulls, and totals.
 [[nodiscard]] std::string hull_text(const HullReport& report, std::size_t most_lines);
 
-/// Returns one JSON object; "hulls" has an object per hull.
+/// Returns one JSON object, which hull.schema.json describes. "hulls" has an object per hull.
 [[nodiscard]] std::string hull_json(const HullReport& report);
 
 }  // namespace cdprep::report

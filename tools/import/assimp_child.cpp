@@ -152,9 +152,9 @@ private:
 };
 
 Error out_of_time(const SourceFile& file, const ImportOptions& options) {
-    return file.over_budget("the import took longer than the " +
+    return file.over_budget("the import took longer than the limit of " +
                             std::to_string(options.time.count()) +
-                            " s that are allowed. Raise --import-time to read it");
+                            " s. Raise --import-time to read it");
 }
 
 Error out_of_memory(const SourceFile& file, std::uint64_t input_bytes,
@@ -162,13 +162,13 @@ Error out_of_memory(const SourceFile& file, std::uint64_t input_bytes,
     const std::uint64_t input = std::max<std::uint64_t>(input_bytes, file.bytes().size());
     const std::uint64_t honest = honest_memory(input);
     if (honest < options.memory_bytes) {
-        return file.unreadable("has " + std::to_string(input) + " bytes but asks for more than " +
+        return file.unreadable("has " + std::to_string(input) + " bytes but needs more than " +
                                std::to_string(honest >> 20) +
-                               " MiB of memory: a count in it is wrong");
+                               " MiB of memory: a count in the file is wrong");
     }
     const std::string limit = std::to_string(options.memory_bytes >> 20) + " MiB";
-    return file.over_budget("the import needs more than the " + limit +
-                            " of memory that are allowed. Raise --import-memory to read it");
+    return file.over_budget("the import needs more than the limit of " + limit +
+                            " of memory. Raise --import-memory to read it");
 }
 
 /// Returns one line without the full stop. The texts of importers have many forms.
@@ -230,7 +230,8 @@ ChildResult::~ChildResult() {
 Result<ChildResult> read_in_child(const SourceFile& file, const std::filesystem::path& path,
                                   const ImportOptions& options) {
     if (const std::string outside = find_outside_reference(file.bytes()); !outside.empty()) {
-        return file.unreadable("refers to " + utf8_name(outside) + ", which is not read");
+        return file.unreadable("refers to " + utf8_name(outside) +
+                               " in another file, which is not supported");
     }
     const auto program = find_child_program();
     if (!program) {

@@ -257,10 +257,9 @@ private:
             bytes += 2 * (place.counts.vertex_count * sizeof(Double3) +
                           place.triangle_count * sizeof(mesh::Triangle));
             if (bytes > options.memory_bytes) {
-                return file_.over_budget(
-                    "its instances need more than the " +
-                    std::to_string(options.memory_bytes >> 20) +
-                    " MiB of memory that are allowed. Raise --import-memory to read it");
+                return file_.over_budget("its instances need more than the limit of " +
+                                         std::to_string(options.memory_bytes >> 20) +
+                                         " MiB of memory. Raise --import-memory to read it");
             }
         }
         return std::nullopt;

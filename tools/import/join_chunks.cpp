@@ -220,8 +220,8 @@ std::optional<Error> find_excess(const SourceFile& file, const Place& total,
     const std::uint64_t bytes =
         2 * (total.first_vertex * sizeof(Double3) + total.first_triangle * (sizeof(Triangle) + 4));
     if (bytes > memory_bytes) {
-        return file.over_budget("needs about " + std::to_string(bytes >> 20) + " MiB of memory; " +
-                                std::to_string(memory_bytes >> 20) +
+        return file.over_budget("needs about " + std::to_string(bytes >> 20) +
+                                " MiB of memory; at most " + std::to_string(memory_bytes >> 20) +
                                 " MiB are allowed. Raise --import-memory to read it");
     }
     return std::nullopt;

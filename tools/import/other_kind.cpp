@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kHdf5Magic = "\x89HDF\r\n\x1a\n";
 constexpr std::string_view kExportInstead =
-    ", which is not read. Export the mesh as glTF, OBJ, STL or PLY";
+    ", which is not supported. Export the mesh as glTF, OBJ, STL or PLY";
 
 struct Kind {
     std::string_view start;   ///< of the bytes; empty: none

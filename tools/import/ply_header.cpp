@@ -71,7 +71,7 @@ std::string assign_role(PlyElement& element) {
         const auto x = place_of(element, "x");
         const auto y = place_of(element, "y");
         const auto z = place_of(element, "z");
-        if (!x || !y || !z) return "the vertices have no x, y and z";
+        if (!x || !y || !z) return "the vertices lack x, y or z";
         element.x = *x, element.y = *y, element.z = *z;
         for (const std::size_t i : {*x, *y, *z}) {
             if (element.properties[i].count_type != PlyType::none) return "a coordinate is a list";
@@ -121,8 +121,8 @@ private:
         if (words[0] == "format" && words.size() >= 2) return set_format(words[1]);
         if (words[0] == "element" && words.size() == 3) return add_element(words[1], words[2]);
         if (words[0] == "property" && words.size() >= 3) return add_property(words);
-        return quoted_word(line.data(), line.data() + line.size()) +
-               " does not begin a line of a PLY header";
+        return "the PLY header has an invalid line that begins with " +
+               quoted_word(line.data(), line.data() + line.size());
     }
 
     std::string set_format(std::string_view name) {
@@ -170,7 +170,7 @@ private:
         if (vertex_elements != 1) {
             return file_.unreadable_line(at, "the PLY header has " +
                                                  std::to_string(vertex_elements) +
-                                                 " elements 'vertex'; 1 is needed");
+                                                 " elements 'vertex'; expected 1");
         }
         return std::move(header_);
     }

@@ -112,7 +112,7 @@ private:
 
     bool fail_vertex(std::size_t axis) {
         if (!ends_statement(at_, end_)) return fail(quoted_word(at_, end_) + " is not a number");
-        return fail("a vertex has " + std::to_string(axis) + " coordinates; 3 are needed");
+        return fail("a vertex has " + std::to_string(axis) + " coordinates; expected 3");
     }
 
     /// Reads the usual face: three numbers from 1 on, perhaps with slashes. Returns false and

@@ -43,7 +43,7 @@ std::optional<Fault> read_header(std::string_view text, Header& header) {
         return Fault{at, "the dimension of the OFF file is not 3"};
     }
     if (std::string_view(at, static_cast<std::size_t>(end - at)).starts_with("BINARY")) {
-        return Fault{at, "binary OFF files are not read. Save it as text"};
+        return Fault{at, "binary OFF files are not supported. Save the file as text"};
     }
     for (std::uint64_t* count : {&header.vertices, &header.faces}) {
         at = next_row(at, end);
@@ -89,8 +89,8 @@ private:
     bool fail(std::string_view needed) {
         at_ = skip_blanks(at_, end_);
         const bool ended = at_ == end_ || *at_ == '\n' || *at_ == '#';
-        fault_ = Fault{at_, (ended ? "the line ends" : quoted_word(at_, end_) + " stands") +
-                                " where " + std::string(needed) + " is needed"};
+        fault_ = Fault{at_, "found " + (ended ? "the end of the line" : quoted_word(at_, end_)) +
+                                "; expected " + std::string(needed)};
         return false;
     }
 
@@ -217,7 +217,7 @@ Error too_short(const SourceFile& file, const Header& header, std::uint64_t rows
     const std::string end = "; the file is cut off, or its header is wrong";
     if (rows < header.vertices) {
         return file.unreadable("the file has " + std::to_string(rows) +
-                               " lines after the header, which counts " +
+                               " lines after the header, which declares " +
                                std::to_string(header.vertices) + " vertices and " +
                                std::to_string(header.faces) + " faces" + end);
     }

@@ -98,7 +98,7 @@ private:
     }
 
     Error too_short(const PlyElement& element) const {
-        return file_.unreadable("the header counts " + std::to_string(element.count) +
+        return file_.unreadable("the header declares " + std::to_string(element.count) +
                                 " of element '" + std::string(element.name) +
                                 "', which take at least " + std::to_string(element.least_bytes()) +
                                 " bytes each, but only " + std::to_string(bytes_left()) +

@@ -40,9 +40,9 @@ private:
     bool fail(const PlyElement& element, std::size_t property) {
         at_ = skip_blanks(at_, end_);
         const bool ended = at_ == end_ || *at_ == '\n';
-        fault_ = Fault{at_, (ended ? "the line ends" : quoted_word(at_, end_) + " stands") +
-                                " where '" + std::string(element.properties[property].name) +
-                                "' of element '" + std::string(element.name) + "' is needed"};
+        fault_ = Fault{at_, "found " + (ended ? "the end of the line" : quoted_word(at_, end_)) +
+                                "; expected '" + std::string(element.properties[property].name) +
+                                "' of element '" + std::string(element.name) + "'"};
         return false;
     }
 
@@ -148,7 +148,7 @@ std::optional<Error> find_missing_rows(const SourceFile& file, const PlyHeader& 
         if (rows < element.count) {
             return file.unreadable("the file ends after " + std::to_string(rows) + " of the " +
                                    std::to_string(element.count) +
-                                   " lines that the header counts for element '" +
+                                   " lines that the header declares for element '" +
                                    std::string(element.name) + "'");
         }
         rows -= element.count;

@@ -169,7 +169,7 @@ private:
         if (!open_facet_) return fail(start, "an endfacet without its facet");
         if (count != 3) {
             return fail(open_facet_,
-                        "a facet has " + std::to_string(count) + " vertices; 3 are needed");
+                        "a facet has " + std::to_string(count) + " vertices; expected 3");
         }
         open_facet_ = nullptr;
         first_vertex_ = chunk_.positions.size();
@@ -264,7 +264,7 @@ Result<mesh::TriangleSoup> read_stl(const SourceFile& file, const ImportOptions&
                                std::to_string(kHeaderBytes));
     }
     const std::uint64_t count = header_count(bytes);
-    return file.unreadable("the header counts " + std::to_string(count) +
+    return file.unreadable("the header declares " + std::to_string(count) +
                            " triangles, which take " +
                            std::to_string(kHeaderBytes + kTriangleBytes * count) +
                            " bytes, but the file has " + std::to_string(bytes.size()));

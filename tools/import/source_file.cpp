@@ -38,7 +38,7 @@ Result<SourceFile> SourceFile::open(const std::filesystem::path& path, std::uint
     if (!S_ISREG(status.st_mode)) return file.unreadable("is not a regular file");
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (size > max_bytes) {
-        return file.over_budget("has " + std::to_string(size) + " bytes; " +
+        return file.over_budget("has " + std::to_string(size) + " bytes; at most " +
                                 std::to_string(max_bytes) +
                                 " are allowed. Raise --import-file-size to read it");
     }

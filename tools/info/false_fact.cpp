@@ -149,12 +149,12 @@ private:
         const double unit = model_.header().metres_per_unit;
         if (unit != 0) {
             return FalseFact{"the user block, field metres_per_unit", text_of(unit),
-                             "0, as the model is normalized"};
+                             "0, because the model is normalized"};
         }
         const double factor = model_.header().normalize_factor;
         if (factor > 0 || model_.triangle_count() == 0) return std::nullopt;
         return FalseFact{"the user block, field normalize_factor", text_of(factor),
-                         "more than 0, as the model is normalized"};
+                         "more than 0, because the model is normalized"};
     }
 
     [[nodiscard]] Found find_false_normalization() const {
@@ -227,10 +227,10 @@ private:
             for (std::size_t k = 0; k <= i; ++k) {
                 const double product = mesh::dot(bounds.axis[i], bounds.axis[k]);
                 if (std::fabs(product - (i == k ? 1 : 0)) <= kTolerance) continue;
-                return FalseFact{
-                    field_of(SectionId::bounds, 0, "axis"),
-                    "axis " + text_of(i) + " times axis " + text_of(k) + " of " + text_of(product),
-                    i == k ? "1" : "0"};
+                return FalseFact{field_of(SectionId::bounds, 0, "axis"),
+                                 "the dot product " + text_of(product) + " of axes " + text_of(i) +
+                                     " and " + text_of(k),
+                                 i == k ? "1" : "0"};
             }
         }
         const double turn = mesh::dot(mesh::cross(bounds.axis[0], bounds.axis[1]), bounds.axis[2]);
@@ -274,9 +274,8 @@ private:
         constexpr double kTolerance = 0x1p-30;
         if (!(oriented > aligned * (1 + kTolerance))) return std::nullopt;
         return FalseFact{field_of(SectionId::bounds, 0, "half_extent"),
-                         "a box of " + text_of(oriented / aligned) +
-                             " times the volume of the box along the axes",
-                         "at most once"};
+                         text_of(oriented / aligned) + " times the volume of the axis-aligned box",
+                         "at most 1 times"};
     }
 
     [[nodiscard]] Found find_false_components() const {
@@ -330,7 +329,7 @@ private:
         if (model_.record().mass == nullptr) return std::nullopt;
         if (!topology_.balanced) {
             return FalseFact{"section mass_properties, number of elements", "1",
-                             "0, as the mesh is not closed"};
+                             "0, because the mesh is not balanced"};
         }
         const format::MassProperties& found = *model_.record().mass;
         const auto field = [](const char* name) {
@@ -505,7 +504,7 @@ std::optional<FalseFact> find_false_fact(const Model& model, ParallelFor paralle
 }
 
 std::string false_fact_sentence(const std::string& file, const FalseFact& fact) {
-    return file + ": " + fact.field + " is not true of the mesh: found " + fact.found +
+    return file + ": " + fact.field + " does not match the mesh: found " + fact.found +
            ", expected " + fact.expected + ". Copy the file again, or bake it again.";
 }
 

@@ -16,6 +16,7 @@
 #include "cdprep/exact/triangles.h"
 #include "cdprep/hulls.h"
 #include "mesh/point_tree.h"
+#include "mesh/vectors.h"
 
 // A triangle is cut in its own coordinates: a point is a weighted sum of the corners, up to a
 // common factor. The height of a point above a plane is linear in the weights. So a plane becomes a
@@ -26,6 +27,10 @@
 namespace cdprep::convex {
 namespace {
 
+using mesh::cross;
+using mesh::dot;
+using mesh::minus;
+
 // CGAL's Exact_rational is the same class, in a header that takes twice as long to compile.
 using Number = CGAL::Lazy_exact_nt<mpq_class>;
 using Row = std::array<Number, 3>;
@@ -35,21 +40,6 @@ constexpr std::array<double Double3::*, 3> kAxes = {&Double3::x, &Double3::y, &D
 Row exact(const Double3& p) {
     return {Number(p.x), Number(p.y), Number(p.z)};
 }
-
-// The analyser does not understand the reference counts of Lazy_exact_nt.
-// NOLINTBEGIN(clang-analyzer-cplusplus.NewDeleteLeaks)
-Row minus(const Row& a, const Row& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Row cross(const Row& a, const Row& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Number dot(const Row& a, const Row& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-// NOLINTEND(clang-analyzer-cplusplus.NewDeleteLeaks)
 
 /// Returns the side of a line on which a point lies: 1 is beyond it.
 int side(const Row& line, const Row& point) {

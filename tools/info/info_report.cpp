@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "info/info_report.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "cdprep/format/sections.h"
-#include "hull/baked_hulls.h"
 #include "text/bounds_name.h"
 #include "text/json_layout.h"
 #include "text/number_text.h"
@@ -82,6 +82,53 @@ std::string mesh_text(const Model& model) {
     return text + findings_text(model);
 }
 
+const char* scope_name(format::HullScope scope) {
+    if (scope == format::HullScope::whole) return "whole";
+    if (scope == format::HullScope::part) return "part";
+    return scope == format::HullScope::component ? "component" : "instance";
+}
+
+bool is_exact(const format::Hull& hull) {
+    return (hull.flags & format::hull_exact) != 0;
+}
+
+/// Returns a JSON array with one object per hull of an open model.
+nlohmann::ordered_json baked_hulls_json(const Model& model) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const format::Hull& hull : model.hulls().hulls) {
+        json.push_back({{"around", scope_name(hull.scope)},
+                        {"number", hull.number},
+                        {"dimension", hull.dimension},
+                        {"points", hull.point_count},
+                        {"facets", hull.facet_count},
+                        {"faces", hull.group_count},
+                        {"exact", is_exact(hull)},
+                        {"distance", hull.distance}});
+    }
+    return json;
+}
+
+/// Returns one indented line per hull for people, at most `most_lines`. Empty without hulls.
+std::string baked_hulls_text(const Model& model, std::size_t most_lines) {
+    std::string text;
+    const auto hulls = model.hulls().hulls;
+    for (const format::Hull& hull : hulls.first(std::min(most_lines, hulls.size()))) {
+        text += std::string("  ") + scope_name(hull.scope);
+        if (hull.scope != format::HullScope::whole)
+            text.append(1, ' ').append(std::to_string(hull.number));
+        text += ": dimension " + std::to_string(hull.dimension) + ", " +
+                std::to_string(hull.point_count) + " points, " + std::to_string(hull.facet_count) +
+                " facets in " + std::to_string(hull.group_count) + " faces" +
+                (is_exact(hull)
+                     ? ", exact\n"
+                     : ", at most " + in_six_digits(hull.distance) + " outside the exact hull\n");
+    }
+    if (hulls.size() > most_lines) {
+        text += "  and " + std::to_string(hulls.size() - most_lines) + " more\n";
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string info_text(const std::string& file, const Model& model,
@@ -94,10 +141,10 @@ std::string info_text(const std::string& file, const Model& model,
             ", up axis: " + axis_name(model.header().up_axis) + "\n";
     text += std::string("surface queries: exact; positions ") + precision(model) + "\n";
     if (model.triangle_count() == 0) {
-        text += "solid queries: nothing is inside, there are no triangles\n";
+        text += "solid queries: nothing is inside, because there are no triangles\n";
     } else {
-        text += model.is_balanced() ? "solid queries: exact, the mesh is closed\n"
-                                    : "solid queries: unknown, the mesh is open\n";
+        text += model.is_balanced() ? "solid queries: exact, because the mesh is balanced\n"
+                                    : "solid queries: unknown, because the mesh is unbalanced\n";
     }
     text += std::string("pair queries: bounded by ") + bounds_name(bounds_of(model)) + "\n";
     text += served_text(model);
@@ -130,7 +177,7 @@ std::string info_json(const std::string& file, const Model& model,
         {"vertices", model.vertex_count()},
         {"components", model.record().components.size()},
         {"precision", precision(model)},
-        {"closed", model.is_balanced()},
+        {"balanced", model.is_balanced()},
         {"normalized", is_normalized(model)},
         {"metres_per_unit", model.header().metres_per_unit},
         {"up_axis", axis_name(model.header().up_axis)},

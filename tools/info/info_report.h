@@ -11,6 +11,8 @@ namespace cdprep::report {
 /// counts, guarantees, provenance. The report names `file`.
 [[nodiscard]] std::string info_text(const std::string& file, const Model& model,
                                     std::span<const format::SectionEntry> sections);
+
+/// Returns the same as one JSON object, which info.schema.json describes.
 [[nodiscard]] std::string info_json(const std::string& file, const Model& model,
                                     std::span<const format::SectionEntry> sections);
 

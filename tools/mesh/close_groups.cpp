@@ -6,7 +6,7 @@
 #include <numeric>
 #include <span>
 
-#include "mesh/disjoint_sets.h"
+#include "cdprep/advanced/disjoint_sets.h"
 #include "mesh/point_table.h"
 
 namespace cdprep::mesh {
@@ -115,7 +115,7 @@ private:
     double distance_;
     double width_ = 0;
     bool cells_are_close_ = false;
-    DisjointSets groups_;
+    build::DisjointSets groups_;
     std::vector<Double3> cells_;  ///< whole numbers
     PointTable table_;            ///< of cells_
     std::vector<std::uint32_t> first_;

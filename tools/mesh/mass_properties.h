@@ -8,9 +8,9 @@
 
 namespace cdprep::convex {
 
-/// Returns the volume, centre and inertia of the solid that a closed mesh encloses. Sums signed
+/// Returns the volume, centre and inertia of the solid that a balanced mesh encloses. Sums signed
 /// tetrahedra around the centre of the box. Returns nothing if the volume is 0 or a result
-/// leaves the range of double. The mesh must be closed (Topology::closed). O(n).
+/// leaves the range of double. The mesh must be balanced (Topology::balanced). O(n).
 [[nodiscard]] std::optional<format::MassProperties> find_mass_properties(const mesh::Mesh& mesh);
 
 /// An inertia tensor along its principal axes.

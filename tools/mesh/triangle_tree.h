@@ -19,7 +19,7 @@ using format::Double3;
 using format::Triangle;
 using Corners = std::array<Double3, 3>;
 
-/// A BVH of triangles for very many point queries during the search for pieces: the nearest
+/// A BVH of triangles for very many point queries during the search for parts: the nearest
 /// triangle, and the triangles along a ray.
 ///
 /// Each node has eight boxes, stored by coordinate as floats. The coordinates are scaled so that

@@ -7,6 +7,8 @@
 
 #include "cdprep/exact/predicates.h"
 
+// Libraries serve fewer outlines: earcut decides by rounded numbers, and CGAL's constrained
+// triangulation makes one corner of those with equal positions.
 namespace cdprep::mesh {
 namespace {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -11,7 +12,8 @@ namespace cdprep::mesh {
 
 using format::Double3;
 
-// Points and directions in double, rounded as written.
+// Points and directions in double, rounded as written. Those of lib/exact are private to lib. In
+// Eigen, the order of a sum depends on the instructions that the compiler may use.
 
 [[nodiscard]] inline Double3 plus(const Double3& a, const Double3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -65,5 +67,29 @@ using format::Double3;
 [[nodiscard]] inline double largest_of(const Double3& a) {
     return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
 }
+
+// The same for arrays of three coordinates, of numbers that are exact or intervals. The analyser
+// does not understand the reference counts of CGAL::Lazy_exact_nt.
+// NOLINTBEGIN(clang-analyzer-cplusplus.NewDeleteLeaks)
+template <class Number>
+[[nodiscard]] std::array<Number, 3> plus(const std::array<Number, 3>& a,
+                                         const std::array<Number, 3>& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+template <class Number>
+[[nodiscard]] std::array<Number, 3> minus(const std::array<Number, 3>& a,
+                                          const std::array<Number, 3>& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class Number>
+[[nodiscard]] Number dot(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class Number>
+[[nodiscard]] std::array<Number, 3> cross(const std::array<Number, 3>& a,
+                                          const std::array<Number, 3>& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+// NOLINTEND(clang-analyzer-cplusplus.NewDeleteLeaks)
 
 }  // namespace cdprep::mesh

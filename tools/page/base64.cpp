@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+// Of the libraries that the tools use, assimp does not export its base64, and that of Boost does
+// not pad.
 namespace cdprep::report {
 namespace {
 

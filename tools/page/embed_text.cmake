@@ -9,18 +9,18 @@ if(SCRIPT)
     foreach(end "</script" "<script" "<!--")
         string(FIND "${lower}" "${end}" at)
         if(NOT at EQUAL -1)
-            message(FATAL_ERROR "${INPUT} holds ${end}, which would break the page.")
+            message(FATAL_ERROR "${INPUT} contains ${end}, which would break the page.")
         endif()
     endforeach()
 endif()
 
-# In pieces, for compilers that limit the length of one literal.
+# In several literals, for compilers that limit the length of one literal.
 string(LENGTH "${text}" length)
 set(literals "\"\"")
 set(at 0)
 while(at LESS length)
-    string(SUBSTRING "${text}" ${at} 8000 piece)
-    string(APPEND literals "\nR\"cdprep(${piece})cdprep\"")
+    string(SUBSTRING "${text}" ${at} 8000 literal)
+    string(APPEND literals "\nR\"cdprep(${literal})cdprep\"")
     math(EXPR at "${at} + 8000")
 endwhile()
 

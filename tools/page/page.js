@@ -61,8 +61,8 @@ function draw_mesh(index) {
   const drawable = mesh.drawn !== null;
   $('nothing').hidden = drawable && state.view !== null;
   $('nothing-text').textContent = mesh.error ? mesh.error : drawable
-      ? 'The mesh cannot be drawn, because this browser offers no WebGL. Everything that was ' +
-        'found is listed beside.'
+      ? 'The mesh cannot be drawn, because this browser has no WebGL. The list still shows all ' +
+        'findings.'
       : 'There is no triangle to draw.';
   $('tools').hidden = !drawable || !state.view;
   $('partial').hidden = !drawable || mesh.drawn.whole || !state.view;
@@ -80,9 +80,9 @@ function draw_mesh(index) {
     ghost_indices: part('ghost-indices', Uint32Array),
     half: mesh.drawn.half, whole: mesh.drawn.whole});
   state.view.canvas.setAttribute('aria-label', 'The mesh ' + mesh.name + ' with its findings marked');
-  $('partial').textContent = 'Too large to draw whole: ' + whole(mesh.drawn.triangles) + ' of ' +
-      whole(mesh.triangles) + ' triangles, those around the findings, are drawn as they are; ' +
-      'the faint surface is a coarse stand-in for the rest.';
+  $('partial').textContent = 'Too large to draw completely: ' + whole(mesh.drawn.triangles) + ' of ' +
+      whole(mesh.triangles) + ' triangles, around the findings, are drawn exactly. ' +
+      'The faint surface is a coarse approximation of the rest.';
   for (const finding of mesh.findings) {
     state.view.set_marks(finding.rule, new Marks(finding.marks), colour_name(finding.rule));
   }
@@ -144,7 +144,7 @@ function paint_row(row, element) {
   element.setAttribute('aria-level', place || row.rest ? '2' : '1');
   if (row.rest) {
     element.classList.add('rest');
-    element.append('and ' + whole(finding.count - finding.places.length) + ' more, without places here');
+    element.append('and ' + whole(finding.count - finding.places.length) + ' more, not listed');
   } else if (place) {
     element.classList.add('place');
     element.append(make('span', {class: 'ordinal'}, String(row.index + 1)),
@@ -314,9 +314,9 @@ const PROMISES = [
   [2, 'Inside is decided exactly, by a winding number.',
    'Inside is not defined everywhere: there are edges whose windings do not cancel.'],
   [4, 'It is a simple solid: the winding number is 0 or 1, and the volume is what it encloses.',
-   'It is not shown to be a simple solid: the volume may count parts twice or miss some.'],
-  [8, 'Convex pieces of its surface can be contained in it.',
-   'Convex pieces cannot be promised to stay inside it.'],
+   'It is not proven to be a simple solid: the volume may count parts twice or miss some.'],
+  [8, 'Convex pieces of its surface can lie inside it.',
+   'It is not guaranteed that convex pieces stay inside it.'],
 ];
 
 function facts_of(verdict) {

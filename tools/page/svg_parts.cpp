@@ -4,6 +4,7 @@
 #include "page/page_parts.h"
 #include "text/number_text.h"
 
+// Text instead of a tree of pugixml: most of these parts go into HTML pages, which are text too.
 namespace cdprep::report {
 
 std::string units(double value) {

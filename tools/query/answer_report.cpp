@@ -140,9 +140,9 @@ std::string as_text(const CoarseAnswer& answer) {
     const CoarseCollision& collision = answer.collision;
     const std::string text = "pose " + number(answer.pose) +
                              ": solids collide: " + word(collision.answer) +
-                             ", approximate: facets are up to ";
+                             ", approximate: the surfaces are at most ";
     return text + number(collision.error_a) + " and " + number(collision.error_b) +
-           " from the surfaces";
+           " away from the facets";
 }
 
 std::string as_json(const HullCollideAnswer& answer) {
@@ -152,7 +152,7 @@ std::string as_json(const HullCollideAnswer& answer) {
 
 std::string as_text(const HullCollideAnswer& answer) {
     return "pose " + number(answer.pose) +
-           (answer.hit ? ": hulls touch, approximate: the models may not" : ": no contact");
+           (answer.hit ? ": hulls touch, approximate: the models may not touch" : ": no contact");
 }
 
 std::string as_json(const HullDistanceAnswer& answer) {
@@ -169,7 +169,7 @@ std::string as_json(const HullDistanceAnswer& answer) {
 
 std::string as_text(const HullDistanceAnswer& answer) {
     const std::string text = "pose " + number(answer.pose) + ": ";
-    if (!answer.distance) return text + "nothing that near";
+    if (!answer.distance) return text + "nothing within the limit";
     const ConvexDistance& d = *answer.distance;
     return text + "distance of hulls " + number(d.lower) + " to " + number(d.upper) + ", at " +
            place(d.witness_a, " ") + " and " + place(d.witness_b, " ") +
@@ -365,7 +365,7 @@ std::string answer_members(const DistanceAnswer& answer) {
 }
 
 std::string answer_words(const DistanceAnswer& answer) {
-    if (!answer.distance) return ": nothing that near";
+    if (!answer.distance) return ": nothing within the limit";
     const Distance& d = *answer.distance;
     return ": distance " + number(d.lower) + " to " + number(d.upper) + ", triangles " +
            number(d.triangle_a) + " and " + number(d.triangle_b) + ", at " +

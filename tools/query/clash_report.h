@@ -8,7 +8,7 @@
 
 namespace cdprep::report {
 
-/// The work on some pairs of parts.
+/// The work on some pairs of objects.
 struct ClashCounts {
     std::uint64_t queried = 0;
     std::uint64_t clashes = 0;
@@ -31,7 +31,7 @@ struct ClashSummary {
 };
 
 /// Words a search for clashes: a line for each, in the members of the single query, then the
-/// summary. The text and JSON are made piece by piece.
+/// summary. The text and JSON are made step by step.
 class ClashReport {
 public:
     /// `effect` is overlap, within or distance.

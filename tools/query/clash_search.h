@@ -11,7 +11,7 @@
 
 namespace cdprep::cli {
 
-/// What is asked of each pair of parts, besides what its layers say.
+/// What is asked of each pair of objects, besides what its layers say.
 struct ClashQuestion {
     Ask effect = Ask::overlap;    ///< overlap, within or distance
     bool counts_pairs = false;    ///< of within: counts the triangle pairs; overlap always does
@@ -24,7 +24,7 @@ struct ClashQuestion {
 
 using ClashAnswer = std::variant<report::PairAnswer, report::WithinAnswer, report::DistanceAnswer>;
 
-/// Asks pairs of parts, one after the other.
+/// Asks pairs of objects, one after the other.
 class ClashAsker {
 public:
     explicit ClashAsker(const ClashQuestion& question) : question_(question) {}

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cdprep/pairs.h"
+#include "cli/command.h"
 #include "query/query_placements.h"
 #include "query/query_scene.h"
 #include "query/query_structure.h"
@@ -15,7 +16,7 @@ namespace cdprep::cli {
 
 enum class PairQuestion : std::uint8_t { collide, overlap, distance, within };
 
-/// The command-line arguments of a query about two models, or about the parts of a scene.
+/// The command-line arguments of a query about two models, or about the objects of a scene.
 struct PairArguments {
     PairQuestion question = PairQuestion::collide;
     std::filesystem::path a;
@@ -37,5 +38,11 @@ struct PairArguments {
     bool counts = false;
     bool skip_degenerate = false;
 };
+
+/// Returns true for a query that the convex hulls of two models can answer.
+[[nodiscard]] bool serves_hulls(PairQuestion question);
+
+/// Queries the convex hulls of the whole models, always as solids.
+Exit run_hulls(const PairArguments& arguments);
 
 }  // namespace cdprep::cli

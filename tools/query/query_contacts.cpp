@@ -53,8 +53,7 @@ std::vector<Contact> find_contacts(const Pair& pair, const ContactOptions& optio
 }
 
 Exit run(const ContactArguments& arguments) {
-    const Result<StructureOptions> options =
-        parse_structure(arguments.structure, "contacts", kServing);
+    const Result<StructureOptions> options = parse_structure(arguments.structure);
     if (!options) return fail("query", options.error());
     const Structure through = options.value().structure;
     const Body body = parse_body(arguments.as);
@@ -88,13 +87,13 @@ constexpr const char* kNotes =
     "counts pairs of pieces within the tolerance, and enclosed components; 'computed' counts those "
     "whose contact was computed. 'work' is what --budget limits. 'searched' is false if --budget "
     "ended the search. 'complete' is false if --budget or --most left contacts out. Each of "
-    "'contacts' has an 'id' of two numbers, which stays the same as long as its two pieces are in "
+    "'contacts' has an 'id' of two numbers. The 'id' stays the same while its two pieces are in "
     "contact. 'piece_a' and 'piece_b' are these pieces. 'normal' has length 1 and points from A to "
-    "B. 'lower' and 'upper' are bounds of the distance. Where the pieces overlap, they are 0 or "
-    "negative, and 'overlap' is true. Moving B by -lower along the normal then separates them. "
+    "B. 'lower' and 'upper' are bounds of the distance. If the pieces overlap, both are 0 or "
+    "negative, and 'overlap' is true. Then moving B by -lower along 'normal' separates the pieces. "
     "'point_a' and 'point_b' are the nearest or deepest points. 'feature_a' and 'feature_b' are "
     "the vertices, edges or triangles there, numbered as in the imported files. 'internal_edge' is "
-    "true if the normal was turned so that nothing catches on an edge inside the surface. "
+    "true if the shortest line or way out snags, so the normal has another direction. "
     "'from_behind' is true if the contact is on the back of a surface. 'members' counts the "
     "contacts that --cluster-deg joined into this one. With --manifold, 'points' lists the deepest "
     "point first. Each entry has a point on each model, a distance, and an 'id' in hexadecimal. "
@@ -143,10 +142,10 @@ void add_contacts(const Command& query, Exit& exit) {
         .check(whole_from(1))
         .group("Query");
     command
-        .add_option("--cluster-deg", arguments->cluster_deg,
-                    "Join contacts that are linked by common pieces, if their normals differ from "
-                    "that of the deepest by at most this angle. A joined contact has at most four "
-                    "points. Needs --most")
+        .add_option(
+            "--cluster-deg", arguments->cluster_deg,
+            "Join contacts linked by common pieces, if their normals differ from that of the "
+            "deepest by at most this angle. A joined contact has at most four points. Needs --most")
         .type_name("DEGREES")
         .check(zero_or_more("degrees"))
         .needs(most)
@@ -156,7 +155,7 @@ void add_contacts(const Command& query, Exit& exit) {
                   "Ignore triangles with collinear corners")
         .group("Query");
     add_structure(
-        command, arguments->structure,
+        command, arguments->structure, names_of(kServing),
         "Structure that finds near pieces: bvh, which is faster, or pieces. Both give the "
         "same answers");
     add_answer_format(command, arguments->format);

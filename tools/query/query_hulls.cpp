@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "query/query_hulls.h"
-
 #include <array>
 #include <iostream>
 #include <string>
@@ -12,6 +10,7 @@
 #include "cli/open_for.h"
 #include "cli/signals.h"
 #include "query/command.h"
+#include "query/pair_arguments.h"
 #include "query/stopwatch.h"
 
 namespace cdprep::cli {
@@ -28,10 +27,10 @@ std::optional<Error> find_idle_for_hulls(const PairArguments& arguments) {
          {"--skip-degenerate", arguments.skip_degenerate}}};
     for (const auto& [option, is_given] : options) {
         if (!is_given) continue;
-        return Error{ErrorCode::bad_argument,
-                     std::string(option) +
-                         " says nothing of convex hulls: leave it out, or ask "
-                         "through another --structure."};
+        return Error{
+            ErrorCode::bad_argument,
+            std::string(option) +
+                " does not apply to convex hulls: leave it out, or use another --structure."};
     }
     return std::nullopt;
 }
@@ -48,17 +47,15 @@ Result<Model> open_hulls(const std::filesystem::path& path) {
 std::string hull_counts(const QueryCounts& counts) {
     std::ostringstream line;
     line << counts.hull_pairs << " hull pairs, " << counts.hull_steps
-         << " steps, each a farthest point of both; decided " << counts.hulls_by_exact
+         << " steps (each finds a farthest point of both hulls); decided " << counts.hulls_by_exact
          << " exactly, in " << counts.exact_steps << " steps\n";
     return line.str();
 }
 
 }  // namespace
 
-bool asks_hulls(const PairArguments& arguments) {
-    return arguments.structure.structure == "hull" &&
-           (arguments.question == PairQuestion::collide ||
-            arguments.question == PairQuestion::distance);
+bool serves_hulls(PairQuestion question) {
+    return question == PairQuestion::collide || question == PairQuestion::distance;
 }
 
 Exit run_hulls(const PairArguments& arguments) {

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "cli/open_for.h"
 #include "cli/program_threads.h"
 #include "command_line/command_page.h"
+#include "query/answer_report.h"
 #include "query/command.h"
 #include "query/inaccessible/inaccessible.h"
-#include "query/inaccessible_report.h"
 #include "write/coloured_file.h"
 
 namespace cdprep::cli {
@@ -44,6 +48,47 @@ Result<Done> write_coloured(const std::filesystem::path& path, const Model& mode
         shade_of);
 }
 
+/// The inaccessible triangles of one model.
+struct InaccessibleAnswer {
+    std::uint64_t count = 0;
+    std::uint64_t edge_on = 0;                              ///< the criterion does not apply
+    std::uint64_t triangles = 0;                            ///< of the model
+    std::optional<std::span<const std::uint32_t>> numbers;  ///< source numbers, ascending
+};
+
+std::string list(std::span<const std::uint32_t> numbers, const char* comma) {
+    std::string text;
+    for (const std::uint32_t number : numbers) {
+        if (!text.empty()) text += comma;
+        text += std::to_string(number);
+    }
+    return text;
+}
+
+std::string sentence(const InaccessibleAnswer& answer) {
+    std::string text = std::to_string(answer.count) + " of " + std::to_string(answer.triangles) +
+                       " triangles are occluded along every ray to the tetra-tree's centre";
+    if (answer.edge_on > 0) {
+        text += "; " + std::to_string(answer.edge_on) + " are edge-on to it and not counted";
+    }
+    return text + ".\n";
+}
+
+/// Returns the answer in a format. Text is a sentence, then the numbers, one per line. JSON and
+/// NDJSON are one object, {"count": 2, "edge_on": 0, "triangles": 12, "inaccessible": [3, 7]}.
+std::string inaccessible_text(const InaccessibleAnswer& answer, report::AnswerFormat format) {
+    if (format == report::AnswerFormat::text) {
+        std::string text = sentence(answer);
+        if (answer.numbers && !answer.numbers->empty()) text += list(*answer.numbers, "\n") + "\n";
+        return text;
+    }
+    std::string text = "{\"count\": " + std::to_string(answer.count) +
+                       ", \"edge_on\": " + std::to_string(answer.edge_on) +
+                       ", \"triangles\": " + std::to_string(answer.triangles);
+    if (answer.numbers) text += ", \"inaccessible\": [" + list(*answer.numbers, ", ") + "]";
+    return text + "}\n";
+}
+
 Exit run(const InaccessibleArguments& arguments) {
     const Result<Model> opened = open_for(arguments.model, Ask::inaccessible);
     if (!opened) return fail("query", opened.error());
@@ -63,10 +108,9 @@ Exit run(const InaccessibleArguments& arguments) {
     }
     for (std::uint32_t& triangle : found.triangles) triangle = model.source().triangle[triangle];
     std::sort(found.triangles.begin(), found.triangles.end());
-    report::InaccessibleAnswer answer{
-        found.triangles.size(), found.edge_on, model.triangle_count(), {}};
+    InaccessibleAnswer answer{found.triangles.size(), found.edge_on, model.triangle_count(), {}};
     if (!arguments.count) answer.numbers = found.triangles;
-    std::cout << report::inaccessible_text(answer, parse_answer_format(arguments.format));
+    std::cout << inaccessible_text(answer, parse_answer_format(arguments.format));
     std::cout.flush();
     return Exit::success;
 }

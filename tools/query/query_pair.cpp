@@ -21,7 +21,7 @@
 #include "command_line/command_line.h"
 #include "command_line/command_page.h"
 #include "query/command.h"
-#include "query/query_hulls.h"
+#include "query/pair_arguments.h"
 #include "query/stopwatch.h"
 #include "query/triangle_lists.h"
 #include "text/structure_name.h"
@@ -39,7 +39,7 @@ constexpr const char* kLiteral = "hashed-octree-literal";
 /// Returns whether the search of Ponce Atencio's talk ("Some techniques to speed up collision
 /// detection") answers. It misses pairs.
 bool asks_literally(const PairArguments& arguments) {
-    return arguments.question == PairQuestion::overlap && arguments.structure.structure == kLiteral;
+    return arguments.structure.structure == kLiteral;
 }
 
 /// Answers one placement after the other and reuses its buffers.
@@ -258,13 +258,12 @@ std::span<const Structure> structures_serving(PairQuestion question) {
 std::optional<Error> find_idle_for_literal(const PairArguments& arguments) {
     if (arguments.as == "solid") {
         return Error{ErrorCode::bad_argument,
-                     "--as solid has to know that no triangles touch, and hashed-octree-literal "
-                     "misses some: ask through hashed-octree."};
+                     "--as solid must find all triangles that touch, but hashed-octree-literal "
+                     "misses some: use hashed-octree."};
     }
     if (arguments.structure.leaf_test.empty()) return std::nullopt;
     return Error{ErrorCode::bad_argument,
-                 "--leaf-test is for every structure but bvh, pieces and hashed-octree-literal, "
-                 "but --structure is hashed-octree-literal."};
+                 "--leaf-test does not apply to --structure hashed-octree-literal."};
 }
 
 /// Returns the structure and its options. Fails if another option is for a different structure.
@@ -274,17 +273,15 @@ Result<StructureOptions> structure_of(const PairArguments& arguments) {
         if (const auto error = find_idle_for_literal(arguments)) return *error;
         words.structure = report::structure_name(Structure::hashed_octree);  // reads that file
     }
-    Result<StructureOptions> through =
-        parse_structure(words, name_of(arguments.question), structures_serving(arguments.question));
+    Result<StructureOptions> through = parse_structure(words);
     if (!through) return through;
     if (arguments.segments && through.value().structure != Structure::bvh) {
         return Error{ErrorCode::bad_argument,
-                     "--segments are found through the bvh alone: leave --structure out, or ask "
-                     "for pairs."};
+                     "--segments requires --structure bvh: leave out --structure or --segments."};
     }
     if (arguments.level_of_detail && through.value().structure != Structure::tetra_tree) {
         return Error{ErrorCode::bad_argument,
-                     "--level-of-detail is for --structure tetra-tree, but that is " +
+                     "--level-of-detail is for --structure tetra-tree, but --structure is " +
                          arguments.structure.structure + "."};
     }
     return through;
@@ -292,7 +289,7 @@ Result<StructureOptions> structure_of(const PairArguments& arguments) {
 
 /// Runs a query about two models.
 Exit run_pair(const PairArguments& arguments) {
-    if (asks_hulls(arguments)) return run_hulls(arguments);
+    if (arguments.structure.structure == report::kHullName) return run_hulls(arguments);
     const Result<StructureOptions> through = structure_of(arguments);
     if (!through) return fail("query", through.error());
     const Ask asks = asks_of(arguments);
@@ -314,7 +311,7 @@ Exit run_pair(const PairArguments& arguments) {
     return Exit::success;
 }
 
-/// Returns the effect that a query computes for the parts of a scene.
+/// Returns the effect that a query computes for the objects of a scene.
 Ask effect_of(PairQuestion question) {
     switch (question) {
         case PairQuestion::distance:
@@ -391,7 +388,8 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
         command
             .add_option("--tolerance", arguments.tolerance,
                         "Largest distance that counts as within, in model units. Required, unless "
-                        "a scene file states tolerances; pairs without one are then not queried")
+                        "a scene file states tolerances; then only pairs of layers with a "
+                        "tolerance are queried")
             .type_name("DISTANCE")
             .check(zero_or_more())
             .group("Query");
@@ -424,8 +422,8 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
     command
         .add_option("--max-distance", arguments.errors.max_distance,
                     "Do not search beyond this distance, in model units; larger distances are not "
-                    "reported. Default: no limit. In a scene: the limit of the pair of layers, or "
-                    "else 1 % of the diagonal of the box around all parts")
+                    "reported. Default: no limit. In a scene: the limit of the pair of layers, "
+                    "else 1 % of the diagonal of the box around all objects")
         .type_name("DISTANCE")
         .check(zero_or_more())
         .group("Query");
@@ -435,48 +433,55 @@ void add_distance_options(const Command& command, PairArguments& arguments) {
 const char* structure_text(PairQuestion question) {
     switch (question) {
         case PairQuestion::collide:
-            return "Structure of both files to search: bvh; octree, octree-adaptive, hashed-octree "
-                   "or tetra-tree (bake --structures); or pieces (bake --effects pieces). All give "
-                   "the same answers. hull: test the convex hulls instead of the meshes";
+            return "Structure of both files to search. pieces must be baked with --effects pieces, "
+                   "all others but bvh with --structures. hull tests the convex hulls instead of "
+                   "the meshes; all others give the same answers";
         case PairQuestion::overlap:
-            return "Structure of both files to search: bvh; octree, octree-adaptive, hashed-octree "
-                   "or tetra-tree (bake --structures); or pieces (bake --effects pieces). All give "
-                   "the same answers. hashed-octree-literal: a published search that misses pairs";
+            return "Structure of both files to search. pieces must be baked with --effects pieces, "
+                   "all others but bvh with --structures. hashed-octree-literal is a published "
+                   "search that misses pairs; all others give the same answers";
         case PairQuestion::distance:
-            return "Structure of both files to search: bvh, or pieces (bake --effects pieces). "
-                   "Both give the same answers. hull: distance of the convex hulls (bake "
-                   "--structures hull)";
+            return "Structure of both files to search. pieces must be baked with --effects pieces, "
+                   "hull with --structures hull. hull measures the distance of the convex hulls; "
+                   "the others give the same answers";
         default:
-            return "Structure of both files to search: bvh, or pieces (bake --effects pieces). "
+            return "Structure of both files to search. pieces must be baked with --effects pieces. "
                    "Both give the same answers";
     }
+}
+
+/// Returns the values of --structure for a query.
+std::vector<std::string> structure_names(PairQuestion question) {
+    std::vector<std::string> names = names_of(structures_serving(question));
+    if (serves_hulls(question)) names.emplace_back(report::kHullName);
+    if (question == PairQuestion::overlap) names.emplace_back(kLiteral);
+    return names;
 }
 
 /// Returns what a query of a scene reads of the file's pairs of layers.
 std::string read_of_pairs(PairQuestion question) {
     switch (question) {
         case PairQuestion::within:
-            return "each with its pair's tolerance. --tolerance replaces it. Touching parts "
-                   "clash. ";
+            return "tolerance. --tolerance replaces it. Touching objects clash. ";
         case PairQuestion::distance:
-            return "each with its pair's max_distance and body. --max-distance and --as replace "
-                   "them. Touching parts clash. ";
+            return "max_distance and body. --max-distance and --as replace both. Touching objects "
+                   "clash. ";
         default:
-            return "each with its pair's overlap and body. --contact and --as replace them. Parts "
-                   "that only touch clash unless the overlap is proper. For solids, a pair is "
-                   "also printed if an open mesh leaves unknown whether one contains the other. ";
+            return "overlap and body. --contact and --as replace both. Touching objects clash, "
+                   "unless the overlap is proper. A pair of solids is also printed if an "
+                   "unbalanced mesh hides whether one contains the other. ";
     }
 }
 
 std::string scene_notes(PairQuestion question) {
-    return "A scene file pairs layers. The command queries the parts of paired layers, " +
+    return "Two objects are queried if the scene file pairs their layers, with that pair's " +
            read_of_pairs(question) +
-           "If the file has no pairs, every part is queried against every other. In a glTF file, "
-           "each node with triangles is a part, named by its path. Later nodes of the same path "
+           "If the file has no pairs, every object is queried against every other. In a glTF file, "
+           "each node with triangles is an object, named by its path. Later nodes of the same path "
            "get #2, #3 and so on. Nodes that use one mesh share its model. A transform that "
            "deviates from a rigid one by at most 1e-5 is rounded to a rigid one. The summary "
            "states the largest deviation as 'rounding'. Other transforms that are not rigid are "
-           "applied to the vertices. The answers are exact for the resulting parts. The lines do "
+           "applied to the vertices. The answers are exact for the resulting objects. The lines do "
            "not depend on the number of threads.";
 }
 
@@ -496,10 +501,8 @@ void add_pair_format(const Command& command, std::string& word, bool serves_scen
 void set_pair_notes(const Command& command, PairQuestion question) {
     const std::string call = "cdprep query " + std::string(name_of(question));
     const std::string tolerance = question == PairQuestion::within ? " --tolerance 0.5" : "";
-    std::vector<std::string> examples = {call +
-                                         " arm.cdp.h5 part.cdp.h5 --pose "
-                                         "'1 0 0 0 1 0 0 0 1 0.1 0 0'" +
-                                         tolerance};
+    std::vector<std::string> examples = {
+        call + " arm.cdp.h5 part.cdp.h5 --pose '1 0 0 0 1 0 0 0 1 0.1 0 0'" + tolerance};
     if (question == PairQuestion::collide) return command.set_notes("", examples);
     examples.push_back(call + " --scene samples/scenes/assembly.json" + tolerance);
     examples.push_back(call + " --scene robot.glb" + tolerance);
@@ -520,7 +523,8 @@ void add_question(const Command& query, PairQuestion question, const char* name,
         b.required();
     }
     add_placements(command, arguments->placement);
-    add_structure(command, arguments->structure, structure_text(question));
+    add_structure(command, arguments->structure, structure_names(question),
+                  structure_text(question));
     if (question == PairQuestion::collide || question == PairQuestion::overlap) {
         add_structure_steps(command, arguments->structure);
     }

@@ -40,14 +40,12 @@ Result<std::vector<Placement>> placements_of(const PlacementWords& words) {
 
 void add_placements(const Command& command, PlacementWords& words) {
     const char* const group = "Placement";
-    const Option poses =
-        command
-            .add_option(
-                "--poses", words.poses,
-                "A file with poses of B in A's frame: 12 numbers per line, the rotation matrix by "
-                "rows, then the translation")
-            .type_name("FILE")
-            .group(group);
+    const Option poses = command
+                             .add_option("--poses", words.poses,
+                                         "Poses of B in A's frame. Each line has 12 numbers: the "
+                                         "rotation matrix by rows, then the translation")
+                             .type_name("FILE")
+                             .group(group);
     const Option pose =
         command
             .add_option("--pose", words.pose, "One pose of B in A's frame, in the form of --poses")

@@ -29,7 +29,7 @@ struct PointArguments {
     std::filesystem::path coloured;  ///< file for the points, coloured by answer; empty: none
 };
 
-/// The answers about a point, by number. `unknown` occurs for open models.
+/// The answers about a point, by number. `unknown` occurs for unbalanced models.
 const std::vector<write::Shade> kShades = {{"outside", {150, 150, 150}},
                                            {"inside", {220, 50, 47}},
                                            {"on_surface", {240, 190, 40}},
@@ -84,9 +84,8 @@ constexpr std::array<Structure, 5> kServingInside = {
 constexpr std::span<const Structure> kBvhAlone = std::span(kServingInside).first(1);
 
 constexpr const char* kThroughInside =
-    "Structure to search: bvh, or octree, octree-adaptive, hashed-octree or tetra-tree (bake "
-    "--structures). All give the same answers";
-constexpr const char* kThroughBvh = "Structure to search: bvh, the only one for this query";
+    "Structure to search. All but bvh must be baked with --structures. All give the same answers";
+constexpr const char* kThroughBvh = "Structure to search";
 
 constexpr PointQuestion<Double3> kInside = {"inside",
                                             Ask::inside,
@@ -139,8 +138,7 @@ Exit export_places(const std::filesystem::path& path, const std::vector<Double3>
 
 template <class Place>
 Exit run(const PointArguments& arguments, const PointQuestion<Place>& question) {
-    const Result<StructureOptions> through =
-        parse_structure(arguments.structure, question.name, question.serving);
+    const Result<StructureOptions> through = parse_structure(arguments.structure);
     if (!through) return fail("query", through.error());
     const Structure structure = through.value().structure;
     const Result<Model> model = open_for(arguments.model, question.ask_of_model, structure);
@@ -176,7 +174,8 @@ void add_question(const Command& query, const PointQuestion<Place>& question, Ex
             .type_name("FILE")
             .group("Report");
     }
-    add_structure(command, arguments->structure, question.structure_description);
+    add_structure(command, arguments->structure, names_of(question.serving),
+                  question.structure_description);
     add_answer_format(command, arguments->format);
     command.callback([arguments, &question, &exit] { exit = run(*arguments, question); });
 }

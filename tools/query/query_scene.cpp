@@ -16,7 +16,7 @@
 #include "cli/signals.h"
 #include "command_line/command_line.h"
 #include "query/clash_report.h"
-#include "query/part_pairs.h"
+#include "query/object_pairs.h"
 #include "scene_file/read_scene.h"
 #include "text/printable.h"
 
@@ -55,9 +55,9 @@ public:
         Plan::Compiled compiled = scenes::compile_scene(scene(), {});
         if (!compiled.plan) return fail_all("query", compiled.refusals, ErrorCode::bad_argument);
         if (const auto exit = load(*compiled.plan)) return *exit;
-        Result<std::vector<Part>> parts = parts_of(scene(), *compiled.plan, models_);
-        if (!parts) return fail("query", parts.error());
-        parts_ = std::move(parts).value();
+        Result<std::vector<PlacedObject>> objects = objects_of(scene(), *compiled.plan, models_);
+        if (!objects) return fail("query", objects.error());
+        objects_ = std::move(objects).value();
         set_default_reach();
         compiled = scenes::compile_scene(scene(), {});
         for (std::string& refusal : scenes::model_refusals(scene(), models_)) {
@@ -95,13 +95,13 @@ private:
             if (object.change == scenes::kUnchanged) continue;
             return fail("query", {ErrorCode::bad_argument,
                                   scene_.name + ": object '" + object.name +
-                                      "' deforms or tears, and query --scene asks about models at "
-                                      "rest. Use cdprep simulate."});
+                                      "' deforms or tears, but query --scene supports only rigid "
+                                      "objects. Use cdprep simulate."});
         }
         return std::nullopt;
     }
 
-    // --- What the layers ask ---------------------------------------------------------
+    // --- What the layers request ---------------------------------------------------------
 
     /// Makes every pair of layers that states what is asked ask for the effect of the command, and
     /// nothing else. Without pairs in the file, every layer asks about every other and itself.
@@ -178,7 +178,7 @@ private:
 
     void set_default_reach() {
         if (by_default_.empty()) return;
-        const double reach = kDefaultReach * size_of(parts_);
+        const double reach = kDefaultReach * size_of(objects_);
         for (const std::size_t number : by_default_)
             scene().pairs[number].asked.max_distance = reach;
     }
@@ -204,7 +204,7 @@ private:
     // --- The search --------------------------------------------------------------------
 
     Result<Done> search(const Plan& plan) {
-        const Result<PartPairs> pairs = PartPairs::find(parts_, plan);
+        const Result<ObjectPairs> pairs = ObjectPairs::find(objects_, plan);
         if (!pairs) return Error{pairs.error().code, scene().name + ": " + pairs.error().message};
         const std::size_t count = pairs->candidates().size();
         Progress progress(style_, count);
@@ -232,7 +232,7 @@ private:
         return written ? output_.finish() : written;
     }
 
-    [[nodiscard]] Chunk ask(const PartPairs& pairs, std::span<const BoxPair> candidates) const {
+    [[nodiscard]] Chunk ask(const ObjectPairs& pairs, std::span<const BoxPair> candidates) const {
         Chunk chunk;
         ClashAsker asker(question_.question);
         for (const BoxPair& candidate : candidates) {
@@ -252,9 +252,9 @@ private:
         return chunk;
     }
 
-    [[nodiscard]] const std::string& name(std::uint32_t part) const {
+    [[nodiscard]] const std::string& name(std::uint32_t object) const {
         const SceneFile& scene = assembly_ ? assembly_->scene : scene_;
-        return scene.objects[parts_[part].object].name;
+        return scene.objects[objects_[object].number].name;
     }
 
     [[nodiscard]] Error stopped(std::size_t asked, std::size_t count) {
@@ -263,11 +263,11 @@ private:
                                             " candidates; the output is incomplete."};
     }
 
-    [[nodiscard]] report::ClashSummary summary(const Plan& plan, const PartPairs& pairs,
+    [[nodiscard]] report::ClashSummary summary(const Plan& plan, const ObjectPairs& pairs,
                                                const report::ClashCounts& counts) {
         report::ClashSummary summary;
         summary.scene = scene().name;
-        summary.objects = parts_.size();
+        summary.objects = objects_.size();
         for (const scenes::SceneModel& model : models_) summary.models += model.model ? 1 : 0;
         summary.possible = pairs.possible();
         summary.candidates = pairs.candidates().size();
@@ -289,7 +289,7 @@ private:
     std::optional<scenes::AssemblyScene> assembly_;  ///< instead of scene_
     std::vector<std::size_t> by_default_;            ///< pairs without a stated max_distance
     std::vector<scenes::SceneModel> models_;
-    std::vector<Part> parts_;
+    std::vector<PlacedObject> objects_;
 };
 
 }  // namespace
@@ -297,7 +297,7 @@ private:
 void add_scene(const Command& command, SceneArguments& arguments) {
     command
         .add_option("--scene", arguments.scene,
-                    "Instead of two models, query the pairs of parts of a scene file (JSON) or "
+                    "Instead of two models, query the pairs of objects of a scene file (JSON) or "
                     "glTF file, at time 0. Prints a line for each clash, then a summary")
         .type_name("SCENE")
         .group("Scene");
@@ -333,11 +333,9 @@ std::optional<Error> find_idle_for_scene(const Command& command, bool has_scene)
 }
 
 Exit run_scene(const SceneArguments& arguments, const SceneQuestion& question) {
-    const Result<ProgressStyle> style = parse_progress(arguments.progress);
-    if (!style) return fail("query", style.error());
     Result<ReportOutput> output = ReportOutput::open({});
     if (!output) return fail("query", output.error());
-    return Run(arguments, question, *output, *style).run();
+    return Run(arguments, question, *output, parse_progress(arguments.progress)).run();
 }
 
 }  // namespace cdprep::cli

@@ -11,7 +11,7 @@
 
 namespace cdprep::cli {
 
-/// The command-line arguments of a query about all pairs of a scene's parts.
+/// The command-line arguments of a query about all pairs of a scene's objects.
 struct SceneArguments {
     std::filesystem::path scene;  ///< empty: the query is about two models
     std::filesystem::path cache;
@@ -41,7 +41,7 @@ void add_scene(const Command& command, SceneArguments& arguments);
 /// models. Without it, it is an option only for a scene.
 [[nodiscard]] std::optional<Error> find_idle_for_scene(const Command& command, bool has_scene);
 
-/// Asks all pairs of parts whose layers are paired, and writes the clashes and a summary.
+/// Asks all pairs of objects whose layers are paired, and writes the clashes and a summary.
 Exit run_scene(const SceneArguments& arguments, const SceneQuestion& question);
 
 }  // namespace cdprep::cli

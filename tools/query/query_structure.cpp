@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "query/query_structure.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "cdprep/cells/overlap_through.h"
@@ -10,17 +11,11 @@
 namespace cdprep::cli {
 namespace {
 
-/// Returns the structure with this name, among those that serve the query.
-Result<Structure> find_structure(const std::string& name, const char* question,
-                                 std::span<const Structure> serving) {
-    std::string names;
-    for (const Structure structure : serving) {
-        if (name == report::structure_name(structure)) return structure;
-        names += (names.empty() ? "" : ", ") + std::string(report::structure_name(structure));
-    }
-    return Error{ErrorCode::bad_argument, "--structure is '" + name + "', which does not serve " +
-                                              question + " in this version; what does: " + names +
-                                              "."};
+Structure structure_named(const std::string& name) {
+    return std::ranges::find_if(
+               report::kStructureNames,
+               [&](const report::StructureName& known) { return known.name == name; })
+        ->structure;
 }
 
 /// Returns an error if an option is given that has no effect: the user expects it to have one.
@@ -32,7 +27,7 @@ std::optional<Error> find_idle_option(const StructureWords& words, Structure str
     };
     const bool is_hierarchy = structure == Structure::bvh || structure == Structure::pieces;
     if (!words.leaf_test.empty() && is_hierarchy) {
-        return idle("--leaf-test", "every structure but bvh and pieces");
+        return idle("--leaf-test", "all structures except bvh and pieces");
     }
     if (!words.descent.empty() && (is_hierarchy || structure == Structure::hashed_octree)) {
         return idle("--descent", "octree, octree-adaptive and tetra-tree");
@@ -60,13 +55,10 @@ Body parse_body(const std::string& word) noexcept {
     return word == "solid" ? Body::solid : Body::surface;
 }
 
-Result<StructureOptions> parse_structure(const StructureWords& words, const char* question,
-                                         std::span<const Structure> serving) {
-    const Result<Structure> structure = find_structure(words.structure, question, serving);
-    if (!structure) return structure.error();
-    if (const auto error = find_idle_option(words, structure.value())) return *error;
+Result<StructureOptions> parse_structure(const StructureWords& words) {
     StructureOptions options;
-    options.structure = structure.value();
+    options.structure = structure_named(words.structure);
+    if (const auto error = find_idle_option(words, options.structure)) return *error;
     if (words.leaf_test == "feito") options.leaf_test = LeafTest::feito_torres;
     if (words.descent == "a-first") options.descent = Descent::a_first;
     if (words.descent == "b-first") options.descent = Descent::b_first;
@@ -76,9 +68,19 @@ Result<StructureOptions> parse_structure(const StructureWords& words, const char
     return options;
 }
 
-void add_structure(const Command& command, StructureWords& words, const char* description) {
+std::vector<std::string> names_of(std::span<const Structure> structures) {
+    std::vector<std::string> names;
+    for (const Structure structure : structures) {
+        names.emplace_back(report::structure_name(structure));
+    }
+    return names;
+}
+
+void add_structure(const Command& command, StructureWords& words,
+                   const std::vector<std::string>& names, const char* description) {
     command.add_option("--structure", words.structure, description)
         .type_name("STRUCTURE")
+        .check(one_of(names))
         .show_default()
         .group("Structure");
 }
@@ -87,7 +89,7 @@ void add_structure_steps(const Command& command, StructureWords& words) {
     command
         .add_option("--leaf-test", words.leaf_test,
                     "Exact test of two triangles, for octree, octree-adaptive, hashed-octree and "
-                    "tetra-tree. guigue-devillers: signs against planes (default); feito: six "
+                    "tetra-tree. guigue-devillers: signs against planes (default). feito: six "
                     "edges against triangles. Both give the same answers")
         .type_name("TEST")
         .check(one_of({"guigue-devillers", "feito"}))
@@ -101,11 +103,10 @@ void add_structure_steps(const Command& command, StructureWords& words) {
         .check(one_of({"larger", "a-first", "b-first", "both"}))
         .group("Structure");
     command
-        .add_option(
-            "--search", words.search,
-            "Method to find a cell of hashed-octree. sorted: binary search of sorted leaves; "
-            "modulus: hash by the key's remainder; mixed: hash by a mixed key (default). "
-            "Answers do not change")
+        .add_option("--search", words.search,
+                    "Method to find a cell of hashed-octree. sorted: binary search of sorted "
+                    "leaves. modulus: hash by the key's remainder. mixed: hash by a mixed key "
+                    "(default). Answers do not change")
         .type_name("SEARCH")
         .check(one_of({"sorted", "modulus", "mixed"}))
         .group("Structure");

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cdprep/advanced/structure.h"
 #include "cdprep/cells/overlap_through.h"
@@ -20,9 +21,14 @@ struct StructureWords {
     std::string search;
 };
 
-/// Adds --structure. add_structure_steps() adds --leaf-test, --descent and --search, for queries
-/// about two models.
-void add_structure(const Command& command, StructureWords& words, const char* description);
+/// Returns the names of structures, as --structure spells them.
+[[nodiscard]] std::vector<std::string> names_of(std::span<const Structure> structures);
+
+/// Adds --structure, which accepts the given names.
+void add_structure(const Command& command, StructureWords& words,
+                   const std::vector<std::string>& names, const char* description);
+
+/// Adds --leaf-test, --descent and --search, for queries about two models.
 void add_structure_steps(const Command& command, StructureWords& words);
 
 /// Adds --as, the meaning of a model: "surface" or "solid".
@@ -31,11 +37,8 @@ void add_body(const Command& command, std::string& word);
 /// Returns the body that a word of --as names.
 [[nodiscard]] Body parse_body(const std::string& word) noexcept;
 
-/// Returns the structure and its options. Fails with bad_argument if the structure does not serve
-/// the query, or if an option does not apply to the structure. `question` is the query's name in
-/// messages.
-[[nodiscard]] Result<StructureOptions> parse_structure(const StructureWords& words,
-                                                       const char* question,
-                                                       std::span<const Structure> serving);
+/// Returns the structure and its options. Fails with bad_argument if an option does not apply to
+/// the structure. Requires a name of a Structure.
+[[nodiscard]] Result<StructureOptions> parse_structure(const StructureWords& words);
 
 }  // namespace cdprep::cli

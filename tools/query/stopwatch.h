@@ -35,8 +35,8 @@ public:
                 share * static_cast<double>(microseconds_.size() - 1))];
         };
         std::ostringstream line;
-        line << microseconds_.size() << " questions: median " << std::fixed << std::setprecision(2)
-             << at(0.5) << " us, 95 % below " << at(0.95) << " us, most " << at(1) << " us\n";
+        line << microseconds_.size() << " queries: median " << std::fixed << std::setprecision(2)
+             << at(0.5) << " us, 95 % below " << at(0.95) << " us, maximum " << at(1) << " us\n";
         return line.str();
     }
 

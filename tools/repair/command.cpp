@@ -54,16 +54,11 @@ std::vector<std::string> step_names() {
     return names;
 }
 
-std::string step_list() {
-    std::string list;
-    for (const std::string& name : step_names()) list += (list.empty() ? "" : ", ") + name;
-    return list;
-}
-
 Error unknown_step(const std::string& name) {
-    return {ErrorCode::bad_argument, "--steps: there is no step '" + name + "'; there are " +
-                                         step_list() + "." +
-                                         report::suggestion(name, step_names())};
+    std::string list;
+    for (const std::string& known : step_names()) list += (list.empty() ? "" : ", ") + known;
+    return {ErrorCode::bad_argument, "--steps: unknown step '" + name + "'. Choose from " + list +
+                                         "." + report::suggestion(name, step_names())};
 }
 
 /// Parses a list such as "weld,orient" into exactly those steps.
@@ -147,8 +142,8 @@ void judge(const Arguments& arguments, const mesh::TriangleSoup& input,
         report.missed = mesh::worse_crossing(*report.crossing_before, *report.crossing_after);
     }
     if (repaired.mesh.triangles.empty() && !input.triangles.empty()) {
-        report.missed = "no triangle is left of the " + std::to_string(input.triangles.size()) +
-                        " of the input";
+        report.missed = "the output has no triangles, but the input has " +
+                        std::to_string(input.triangles.size());
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         report.repair.input_to_output = {kInfinity, kInfinity};
     }
@@ -226,14 +221,15 @@ void add_goal_options(const Command& command, Arguments& arguments) {
                         "Goal. safe: 2-manifold and oriented, no vertex moves; closed: also "
                         "without holes; solid: also without crossings")
             .type_name("PRESET")
-            .check(one_of({"safe", "closed", "solid"}))
+            .check(one_of({mesh::kRepairPresets.begin(), mesh::kRepairPresets.end()}))
             .show_default()
             .group(group);
     command
         .add_option("--steps", arguments.steps,
-                    "Comma-separated steps, instead of a preset: " + step_list() +
-                        ". They run in this order, until nothing changes")
+                    "Comma-separated steps, instead of a preset. They run in the listed order, "
+                    "until nothing changes")
         .type_name("LIST")
+        .check(list_of(step_names()))
         .excludes(preset)
         .group(group);
     command
@@ -255,9 +251,10 @@ void add_goal_options(const Command& command, Arguments& arguments) {
                     "Drop components with fewer than N triangles")
         .group(group);
     command
-        .add_option("--time", arguments.options.seconds,
-                    "For the preset solid: give up removing crossings this long after the repair "
-                    "began. The report counts those that remain")
+        .add_option(
+            "--time", arguments.options.seconds,
+            "For the preset solid: time limit for removing crossings, from the start of the "
+            "repair. The report counts those that remain")
         .type_name("SECONDS")
         .check(zero_or_more("seconds"))
         .show_default()

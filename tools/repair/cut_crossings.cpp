@@ -134,21 +134,21 @@ public:
         cut(*least, *greatest);
     }
 
-    /// Returns the pieces, with the winding of the triangle.
-    std::vector<Triangle> pieces() {
+    /// Returns the fragments, with the winding of the triangle.
+    std::vector<Triangle> fragments() {
         for (auto v = flat_.finite_vertices_begin(); v != flat_.finite_vertices_end(); ++v) {
             if (v->info().value == kNone) v->info().value = points_.number_of(lifted(v->point()));
         }
         const bool turned = CGAL::orientation(flat(shape_[0], axis_), flat(shape_[1], axis_),
                                               flat(shape_[2], axis_)) == CGAL::RIGHT_TURN;
-        std::vector<Triangle> pieces;
+        std::vector<Triangle> fragments;
         for (auto f = flat_.finite_faces_begin(); f != flat_.finite_faces_end(); ++f) {
-            Triangle piece{{f->vertex(0)->info().value, f->vertex(1)->info().value,
-                            f->vertex(2)->info().value}};
-            if (turned) std::swap(piece.vertex[1], piece.vertex[2]);
-            pieces.push_back(piece);
+            Triangle fragment{{f->vertex(0)->info().value, f->vertex(1)->info().value,
+                               f->vertex(2)->info().value}};
+            if (turned) std::swap(fragment.vertex[1], fragment.vertex[2]);
+            fragments.push_back(fragment);
         }
-        return pieces;
+        return fragments;
     }
 
 private:
@@ -224,7 +224,7 @@ RepairMesh joined(RepairMesh mesh) {
     return mesh;
 }
 
-/// Replaces each triangle of a meeting by its pieces, in place. Returns nothing if stopped.
+/// Replaces each triangle of a meeting by its fragments, in place. Returns nothing if stopped.
 std::optional<RepairMesh> cut_once(RepairMesh mesh, const std::vector<TriangleMeeting>& meetings,
                                    const StopCheck& stop) {
     std::vector<std::vector<std::uint32_t>> others(mesh.triangles.size());
@@ -251,11 +251,11 @@ std::optional<RepairMesh> cut_once(RepairMesh mesh, const std::vector<TriangleMe
             if (is_stopped(stop)) return std::nullopt;
             cut.cut_along(CutTriangle::corners_of(mesh, other));
         }
-        const std::vector<Triangle> pieces = cut.pieces();
+        const std::vector<Triangle> fragments = cut.fragments();
         Origin origin = mesh.triangle_origin[t];
-        if (pieces.size() > 1) origin.step = RepairStep::resolve_self_intersections;
-        triangles.insert(triangles.end(), pieces.begin(), pieces.end());
-        origins.insert(origins.end(), pieces.size(), origin);
+        if (fragments.size() > 1) origin.step = RepairStep::resolve_self_intersections;
+        triangles.insert(triangles.end(), fragments.begin(), fragments.end());
+        origins.insert(origins.end(), fragments.size(), origin);
     }
     for (const Point& p : points.added()) {
         const auto& q = p.exact();  // so that the double does not depend on the history of p
@@ -279,7 +279,7 @@ CutMesh cut_crossings(RepairMesh mesh, const SearchOptions& search, const StopCh
         for (int round = 0; round <= kMostCuts; ++round) {
             const auto [meetings, is_complete] = find_meetings(mesh, search);
             if (!is_complete) {
-                cut.failed = "a limit ended the search for what their cuts cross";
+                cut.failed = "a limit ended the search for crossings of their cuts";
                 return cut;
             }
             const auto worst = std::find_if_not(meetings.begin(), meetings.end(), is_allowed);
@@ -289,12 +289,12 @@ CutMesh cut_crossings(RepairMesh mesh, const SearchOptions& search, const StopCh
             // Rounded cuts that create as many meetings as they remove would continue forever.
             if (round == kMostCuts || meetings.size() >= before) break;
             before = meetings.size();
-            std::optional<RepairMesh> pieces = cut_once(std::move(mesh), meetings, stop);
-            if (!pieces) {
+            std::optional<RepairMesh> fragments = cut_once(std::move(mesh), meetings, stop);
+            if (!fragments) {
                 cut.failed = "cutting them took longer than the time limit";
                 return cut;
             }
-            mesh = joined(std::move(*pieces));
+            mesh = joined(std::move(*fragments));
         }
     } catch (const std::exception& error) {
         cut.failed = "the exact cut failed: ";

@@ -81,7 +81,8 @@ private:
     /// Repairs one triangle; returns false if this is refused.
     bool mend(std::uint32_t t) {
         const std::size_t middle = middle_corner(corners_of(mesh_, t));
-        if (middle == 3) return refuse(t, "has two corners at one place; weld joins them");
+        if (middle == 3)
+            return refuse(t, "two of its corners have equal positions; weld joins them");
         const HalfEdge longest = next_in_triangle(3 * t + static_cast<HalfEdge>(middle));
         const std::uint32_t a = start_of(mesh_.triangles, longest);
         const std::uint32_t b = end_of(mesh_.triangles, longest);
@@ -89,11 +90,11 @@ private:
         const std::vector<HalfEdge> uses = edges_.of(a, b);
         if (uses.size() == 1) return drop(t);
         if (uses.size() > 2) {
-            return refuse(t, "has its longest edge in common with several triangles");
+            return refuse(t, "several other triangles share its longest edge");
         }
         const HalfEdge other = uses[0] / 3 == t ? uses[1] : uses[0];
         if (exact::is_degenerate(corners_of(mesh_, other / 3))) {
-            return refuse(t, "its neighbour across the longest edge has none either");
+            return refuse(t, "its neighbour across the longest edge has no area either");
         }
         return flip(t, v, a, b, other);
     }
@@ -109,7 +110,7 @@ private:
     bool flip(std::uint32_t t, std::uint32_t v, std::uint32_t a, std::uint32_t b, HalfEdge other) {
         const std::uint32_t d = apex_of(mesh_.triangles, other);
         if (d == v || !edges_.of(v, d).empty()) {
-            return refuse(t, "its middle corner and its neighbour's apex share an edge already");
+            return refuse(t, "an edge already joins its middle corner and its neighbour's apex");
         }
         const std::uint32_t u = other / 3;
         const bool from_b = start_of(mesh_.triangles, other) == b;

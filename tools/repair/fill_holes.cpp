@@ -123,8 +123,8 @@ public:
                 fill(i);
             } else {
                 refuse(loops_[i], diagonal,
-                       "is " + std::to_string(diagonal) + " across, more than the " +
-                           std::to_string(most) + " allowed by the hole size");
+                       "has a bounding box of diagonal " + std::to_string(diagonal) +
+                           "; the hole size allows " + std::to_string(most));
             }
         }
     }
@@ -138,8 +138,8 @@ public:
         if (bad.empty()) return;
         for (const auto& [patch, meeting] : bad) {
             refuse(loops_[patch], diagonal_of(mesh_, loops_[patch]),
-                   "would be closed by a patch on which " + triangle_in_words(mesh_, meeting.a) +
-                       " and " + triangle_in_words(mesh_, meeting.b) + " meet");
+                   "stays open, because with a patch " + triangle_in_words(mesh_, meeting.a) +
+                       " and " + triangle_in_words(mesh_, meeting.b) + " would meet");
         }
         std::vector<bool> kept(mesh_.triangles.size(), true);
         for (std::size_t t = 0; t < kept.size(); ++t) {

@@ -43,7 +43,7 @@ Meetings find_meetings(const RepairMesh& mesh, const SearchOptions& options) {
 std::string triangle_in_words(const RepairMesh& mesh, std::uint32_t triangle) {
     const Origin& origin = mesh.triangle_origin[triangle];
     if (origin.source != kNone) return "triangle " + std::to_string(origin.source);
-    return "a triangle of " + std::string(origin.step ? name_of(*origin.step) : "a step");
+    return "a triangle made by " + std::string(origin.step ? name_of(*origin.step) : "a step");
 }
 
 }  // namespace cdprep::mesh

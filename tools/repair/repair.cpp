@@ -258,7 +258,7 @@ RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
     RepairCounts counts;
     counts.source_triangles = soup.triangles.size();
     counts.source_vertices = soup.positions.size();
-    std::vector<std::uint32_t> pieces(soup.triangles.size(), 0);
+    std::vector<std::uint32_t> fragments(soup.triangles.size(), 0);
     std::vector<bool> whole(soup.triangles.size(), false), reversed(soup.triangles.size(), false);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t source = mesh.triangle_origin[t].source;
@@ -266,7 +266,7 @@ RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
             ++counts.made;
             continue;
         }
-        ++pieces[source];
+        ++fragments[source];
         if (mesh.triangle_origin[t].step) continue;
         whole[source] = true;
         // Corners are compared by position: numbers change with every join and split.
@@ -275,8 +275,8 @@ RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
         reversed[source] = !(soup.positions[was[1]] == mesh.positions[is[1]] &&
                              soup.positions[was[2]] == mesh.positions[is[2]]);
     }
-    for (std::size_t source = 0; source < pieces.size(); ++source) {
-        if (pieces[source] == 0) {
+    for (std::size_t source = 0; source < fragments.size(); ++source) {
+        if (fragments[source] == 0) {
             ++counts.dropped;
         } else if (!whole[source]) {
             ++counts.cut;
@@ -341,12 +341,12 @@ std::optional<RepairSteps> find_repair_preset(std::string_view name) noexcept {
         steps_of({RepairStep::drop_bad_numbers, RepairStep::weld, RepairStep::drop_repeated_corners,
                   RepairStep::drop_duplicates, RepairStep::drop_zero_area, RepairStep::orient,
                   RepairStep::split_non_manifold, RepairStep::orient_outward});
-    if (name == "safe") return steps;
+    if (name == kSafePreset) return steps;
     steps |= steps_of(
         {RepairStep::stitch_seams, RepairStep::resolve_t_junctions, RepairStep::fill_holes});
-    if (name == "closed") return steps;
+    if (name == kClosedPreset) return steps;
     steps |= steps_of({RepairStep::resolve_self_intersections});
-    if (name == "solid") return steps;
+    if (name == kSolidPreset) return steps;
     return std::nullopt;
 }
 
@@ -374,7 +374,7 @@ Repaired repair(const TriangleSoup& bare, const RepairOptions& options) {
     Repaired again = repair_once(soup, without, stop);
     for (StepReport& step : mended.report.steps) {
         if (step.step != RepairStep::resolve_self_intersections) continue;
-        step.undone = "holes whose patches it could not resolve are left open";
+        step.undone = "it could not remove the crossings of patches, so their holes stay open";
         again.report.steps.push_back(std::move(step));
     }
     return again;

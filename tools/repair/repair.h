@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <bitset>
 #include <cstdint>
 #include <limits>
@@ -18,6 +19,12 @@ namespace cdprep::mesh {
 
 /// The set of steps to run, by their number.
 using RepairSteps = std::bitset<kRepairStepCount>;
+
+/// The names of presets.
+inline constexpr const char* kSafePreset = "safe";
+inline constexpr const char* kClosedPreset = "closed";
+inline constexpr const char* kSolidPreset = "solid";
+inline constexpr std::array kRepairPresets = {kSafePreset, kClosedPreset, kSolidPreset};
 
 /// Returns the steps of a preset; nothing for another name. The goal of "safe" is a 2-manifold,
 /// oriented mesh of the same surface; nothing moves and no hole is closed. For "closed" the mesh
@@ -46,7 +53,7 @@ struct RepairCounts {
     std::uint64_t source_triangles = 0;
     std::uint64_t kept = 0;      ///< whole, with their winding
     std::uint64_t reversed = 0;  ///< whole
-    std::uint64_t cut = 0;       ///< into pieces, at least one of them present
+    std::uint64_t cut = 0;       ///< into fragments, at least one of them present
     std::uint64_t dropped = 0;
     std::uint64_t made = 0;  ///< output triangles without a source
     std::uint64_t source_vertices = 0;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <limits>
+
 #include <numeric>
 #include <span>
 #include <utility>
+#include "repair/repair.h"
 
 #include "mesh/stars.h"
 #include "validate/defects/component_pairs.h"
@@ -163,9 +165,9 @@ SelfCrossing find_output_crossing(const TriangleSoup& input, const RepairMesh& o
 std::string worse_crossing(const SelfCrossing& before, const SelfCrossing& after) {
     if (!before.is_complete || after.apart <= before.apart) return "";
     return (after.is_complete ? "" : "at least ") + std::to_string(after.apart) +
-           " pairs of triangles cross or touch, and " +
+           " pairs of triangles cross or touch, compared with " +
            (before.apart == 0 ? "none" : std::to_string(before.apart)) +
-           " before; the pieces of a triangle count as one";
+           " before; the fragments of a triangle count as one";
 }
 
 std::string missed_goal(std::string_view preset, const StoredVerdict& after,
@@ -180,19 +182,19 @@ std::string missed_goal(std::string_view preset, const StoredVerdict& after,
     flaws.add(after.repeated_corners, "triangle repeats a corner", "triangles repeat a corner");
     flaws.add(after.inconsistent_edges, "edge has triangles wound differently",
               "edges have triangles wound differently");
-    if (preset != "safe") {
+    if (preset != kSafePreset) {
         flaws.add(after.boundary_edges, "edge is still open", "edges are still open");
     }
-    if (preset == "solid") {
+    if (preset == kSolidPreset) {
         flaws.add(crossing_after.pairs, "pair of triangles still crosses or touches",
                   "pairs of triangles still cross or touch");
     }
     std::string sentence = flaws.text().empty() ? "" : missed + flaws.text();
-    if (preset == "solid" && crossing_after.pairs > 0) {
+    if (preset == kSolidPreset && crossing_after.pairs > 0) {
         return sentence + "; first " + std::to_string(crossing_after.first) + " and " +
                std::to_string(crossing_after.second);
     }
-    if (preset == "solid" && !crossing_after.is_complete) {
+    if (preset == kSolidPreset && !crossing_after.is_complete) {
         return (sentence.empty() ? missed : sentence + ", ") +
                "not all pairs of triangles were examined for crossings";
     }

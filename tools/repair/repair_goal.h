@@ -16,7 +16,7 @@ namespace cdprep::mesh {
 struct SelfCrossing {
     std::uint64_t pairs = 0;
     /// Pairs of triangles without a common corner. A triangle counts once with its copies and
-    /// its pieces, so cutting a triangle makes nothing worse.
+    /// its fragments, so cutting a triangle makes nothing worse.
     std::uint64_t apart = 0;
     std::uint32_t first = 0;  ///< the lowest pair, by number in the soup; 0 if there is none
     std::uint32_t second = 0;

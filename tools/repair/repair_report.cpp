@@ -208,12 +208,13 @@ std::string repair_text(const RepairFileReport& report, std::size_t most_refusal
         text +=
             "  (2-manifold by vertex numbers, as stored; validate joins equal positions first)\n";
     if (report.goal) text += *report.goal ? "  goal: reached\n" : "  goal: missed\n";
-    text += "  of " + counted(counts.source_triangles, "triangle", "triangles") + " " +
+    text += "  " + counted(counts.source_triangles, "triangle", "triangles") + ": " +
             std::to_string(counts.kept) + " kept, " + std::to_string(counts.reversed) +
             " reversed, " + std::to_string(counts.cut) + " cut, " + std::to_string(counts.dropped) +
             " dropped; " + std::to_string(counts.made) + " new\n";
-    text += "  input to output at most " + printed(repair.input_to_output.upper, "%.6g") +
-            ", output to input at most " + printed(repair.output_to_input.upper, "%.6g") +
+    text += "  distance from input to output at most " +
+            printed(repair.input_to_output.upper, "%.6g") + ", from output to input at most " +
+            printed(repair.output_to_input.upper, "%.6g") +
             (repair.settled ? "\n" : "; repairing again would change more\n");
     for (const mesh::StepReport& step : repair.steps) {
         text += step_line(step);

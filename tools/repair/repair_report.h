@@ -33,13 +33,13 @@ struct RepairFileReport {
 /// most `most_refusals` refusals per step in words.
 [[nodiscard]] std::string repair_text(const RepairFileReport& report, std::size_t most_refusals);
 
-/// Returns one JSON object with every change by number. "triangle_source" and "vertex_source"
-/// have an entry for each output triangle and vertex, -1 for those that a step made. An infinite
-/// distance is null, and so is a value that was not requested.
+/// Returns one JSON object with every change by number, which repair.schema.json describes.
+/// "triangle_source" and "vertex_source" have an entry for each output triangle and vertex, -1 for
+/// those that a step made. An infinite distance is null, and so is a value that was not requested.
 [[nodiscard]] std::string repair_json(const RepairFileReport& report);
 
-/// Returns the summary that a baked file keeps: one object with the counts of changes, step by
-/// step, without lists.
+/// Returns the summary that a baked file keeps, as info.schema.json describes it: one object with
+/// the counts of changes, step by step, without lists.
 [[nodiscard]] std::string repair_summary_json(const mesh::RepairReport& repair);
 
 }  // namespace cdprep::report

@@ -91,7 +91,7 @@ struct StepReport {
     RepairStep step;
     std::vector<DroppedTriangle> dropped;
     std::vector<std::uint32_t> reversed;  ///< source triangles with reversed winding
-    std::vector<std::uint32_t> cut;       ///< source triangles cut into pieces
+    std::vector<std::uint32_t> cut;       ///< source triangles cut into fragments
     std::vector<MergedVertex> merged;
     std::vector<std::uint32_t> unused;  ///< source vertices left out: no triangle uses them
     std::vector<std::uint32_t> parted;  ///< source vertices; one entry per added copy

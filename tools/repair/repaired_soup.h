@@ -16,7 +16,7 @@ struct RepairedSoup {
     std::vector<std::uint32_t> vertex_from;    ///< likewise for each vertex
 };
 
-/// Orders the triangles by their sources, with pieces of one source together. Those without a
+/// Orders the triangles by their sources, with fragments of one source together. Those without a
 /// source come last. Nodes, groups, materials and faces follow from the sources. Triangles
 /// without a source form an instance and runs of their own, named "repair".
 [[nodiscard]] RepairedSoup as_soup(const TriangleSoup& source, RepairMesh repaired);

@@ -248,19 +248,20 @@ Stepped refused(RepairMesh mesh, const std::string& sentence,
 }
 
 /// Refuses with a message about a pair, and its numbers.
-Stepped refused_pair(RepairMesh mesh, const RepairMesh& pieces, std::uint32_t a, std::uint32_t b,
+Stepped refused_pair(RepairMesh mesh, const RepairMesh& fragments, std::uint32_t a, std::uint32_t b,
                      const std::string& why) {
-    return refused(std::move(mesh),
-                   triangle_in_words(pieces, a) + " and " + triangle_in_words(pieces, b) + why,
-                   {pieces.triangle_origin[a].source, pieces.triangle_origin[b].source},
-                   pieces.positions[pieces.triangles[a].vertex[0]]);
+    return refused(
+        std::move(mesh),
+        triangle_in_words(fragments, a) + " and " + triangle_in_words(fragments, b) + why,
+        {fragments.triangle_origin[a].source, fragments.triangle_origin[b].source},
+        fragments.positions[fragments.triangles[a].vertex[0]]);
 }
 
 /// Refuses because a limit or an interrupt ended the search for pairs.
 Stepped refused_search(RepairMesh mesh, const Meetings& some) {
     return refused(std::move(mesh),
                    "at least " + std::to_string(some.pairs.size()) +
-                       " pairs of triangles meet, and the limit ended the search for more.",
+                       " pairs of triangles meet; a limit ended the search for more.",
                    {}, {});
 }
 
@@ -293,7 +294,7 @@ RepairMesh keep_boundary(const RepairMesh& mesh, const std::vector<Facet>& facet
     return boundary;
 }
 
-/// Records the triangles of `before` that are missing in `after`, and those that are in pieces.
+/// Records the triangles of `before` that are missing in `after`, and those that are cut.
 void account(const RepairMesh& before, const RepairMesh& after, StepReport& report) {
     std::uint32_t most = 0;
     for (const Origin& origin : before.triangle_origin) {
@@ -329,7 +330,7 @@ Stepped resolve_self_intersections(RepairMesh mesh, const SearchOptions& search,
     const TriangleMeeting& first = meetings.pairs.front();
     if (count_unpaired_uses(mesh.positions, mesh.triangles) > 0) {
         return refused_pair(mesh, mesh, first.a, first.b,
-                            " meet, and the mesh is open, so it has no inside.");
+                            " meet, and the mesh is unbalanced, so it has no inside.");
     }
     CutMesh cut = cut_crossings(mesh, search, stop);
     if (!cut.failed.empty()) {
@@ -348,12 +349,13 @@ Stepped resolve_self_intersections(RepairMesh mesh, const SearchOptions& search,
     }
     if (!add_up) {
         return refused_pair(mesh, mesh, first.a, first.b,
-                            " meet, and around a cut edge winding numbers do not add up.");
+                            " meet, and the winding numbers around a cut edge are inconsistent.");
     }
     for (std::uint32_t f = 0; f < facets.size(); ++f) {
         if (windings.front(f) == 0 && windings.behind(f) == 0) {
-            return refused_pair(mesh, cut.mesh, facets[f].first, facets[f].last,
-                                " are two sides of a sheet that bounds nothing: it would be lost.");
+            return refused_pair(
+                mesh, cut.mesh, facets[f].first, facets[f].last,
+                " are two sides of a sheet that encloses nothing and would be lost.");
         }
     }
     Stepped parted = split_non_manifold(keep_boundary(cut.mesh, facets, windings));
@@ -366,7 +368,7 @@ Stepped resolve_self_intersections(RepairMesh mesh, const SearchOptions& search,
     const Meetings after = find_meetings(parted.mesh, search);
     if (!after.pairs.empty()) {
         return refused_pair(mesh, parted.mesh, after.pairs[0].a, after.pairs[0].b,
-                            " meet in what would bound the solid.");
+                            " would still meet in the boundary of the solid.");
     }
     if (!after.is_complete) return refused_search(mesh, after);
     return {std::move(parted.mesh), std::move(report)};

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "mesh/vectors.h"
 #include "text/number_text.h"
 
 namespace cdprep::scenes {
@@ -25,10 +26,6 @@ float as_float(double x) {
     if (std::fabs(x) <= kLargest) return static_cast<float>(x);
     return std::isnan(x) ? std::numeric_limits<float>::quiet_NaN()
                          : static_cast<float>(std::copysign(HUGE_VAL, x));
-}
-
-Double3 sum(const Double3& a, const Double3& b, double sign) {
-    return {a.x + sign * b.x, a.y + sign * b.y, a.z + sign * b.z};
 }
 
 /// Returns the positions of a model by their number in the imported file.
@@ -56,7 +53,7 @@ std::vector<LiveTriangle> triangles_of(const Model& model) {
 LiveLimits limits_for(const Model& base, std::size_t vertices, const Cut& cut) {
     if (cut.misses) return {};
     const std::size_t count = base.triangle_count();
-    const std::size_t after = count - cut.removed.size() + cut.parts.size();
+    const std::size_t after = count - cut.removed.size() + cut.appended.size();
     return {.triangles = static_cast<std::uint32_t>(std::max(count, after)),
             .vertices = static_cast<std::uint32_t>(vertices)};
 }
@@ -67,7 +64,7 @@ void ChangeWork::add(const ChangeWork& other) noexcept {
     refits += other.refits;
     rebuilt += other.rebuilt;
     torn += other.torn;
-    parts += other.parts;
+    appended += other.appended;
     seconds += other.seconds;
 }
 
@@ -200,7 +197,8 @@ void ChangingModel::set_stream(const SamplePair& samples) {
 void ChangingModel::open() {
     const Double3 half = half_opening(*change_.tear);
     for (std::size_t i = 0; i < positions_.size(); ++i) {
-        positions_[i] = sum(positions_[i], half, cut_.is_far[i] != 0 ? 1 : -1);
+        const Double3& p = positions_[i];
+        positions_[i] = cut_.is_far[i] != 0 ? mesh::plus(p, half) : mesh::minus(p, half);
     }
 }
 
@@ -221,9 +219,11 @@ Result<ChangeWork> ChangingModel::update(std::span<const Position> positions, bo
         const auto placed = live_->refit(added, positions.subspan(rest_count_), parallel_for);
         if (!placed) return placed.error();
         if (const auto removed = live_->remove(cut_.removed); !removed) return removed.error();
-        if (const auto parts = live_->append(cut_.parts); !parts) return parts.error();
+        if (const auto added_all = live_->append(cut_.appended); !added_all) {
+            return added_all.error();
+        }
         work.torn = cut_.removed.size();
-        work.parts = cut_.parts.size();
+        work.appended = cut_.appended.size();
     }
     if (const auto fitted = live_->refit(positions, parallel_for); !fitted) return fitted.error();
     work.refits = 1;

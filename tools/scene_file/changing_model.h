@@ -18,11 +18,11 @@ namespace cdprep::scenes {
 
 /// The work on live models.
 struct ChangeWork {
-    std::uint64_t refits = 0;   ///< of all vertices of a model
-    std::uint64_t rebuilt = 0;  ///< triangles in subtrees that were rebuilt
-    std::uint64_t torn = 0;     ///< triangles that a tear removed
-    std::uint64_t parts = 0;    ///< triangles that it appended
-    double seconds = 0;         ///< wall time in refit(), rebuild(), append() and remove()
+    std::uint64_t refits = 0;    ///< of all vertices of a model
+    std::uint64_t rebuilt = 0;   ///< triangles in subtrees that were rebuilt
+    std::uint64_t torn = 0;      ///< triangles that a tear removed
+    std::uint64_t appended = 0;  ///< triangles that it appended
+    double seconds = 0;          ///< wall time in refit(), rebuild(), append() and remove()
 
     void add(const ChangeWork& other) noexcept;
 };

@@ -73,7 +73,7 @@ std::vector<std::string> effect_refusals(const SceneFile& scene) {
             const Ask effect = effect_of(word);
             if (!contains(scene.pairs[i].asked.effects & unbuilt_effects(), effect)) continue;
             std::string refusal = words_for(scene, i) + ": " + word;
-            refusal += " is not built in a scene. Choose from ";
+            refusal += " is not supported in a scene. Choose from ";
             refusals.push_back(std::move(refusal) + built + ".");
         }
     }
@@ -133,12 +133,11 @@ std::vector<std::string> body_refusals(const SceneFile& scene) {
         if (!seen.insert({object.layer, changes}).second) continue;
         const std::string start =
             "Object " + quoted(object.name) + " in layer " + quoted(scene.layers[object.layer]);
-        refusals.push_back(moves_alone ? start +
-                                             " is a body, but no pair of this layer asks for "
-                                             "response."
-                                       : start +
-                                             " deforms or tears. The response of such models is "
-                                             "not built: pieces do not follow the surface.");
+        refusals.push_back(moves_alone
+                               ? start + " is a body, but no pair of this layer requests response."
+                               : start +
+                                     " deforms or tears. The response of such models is not "
+                                     "supported: pieces do not follow the surface.");
     }
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
         const LayerPair& pair = scene.pairs[i].asked;

@@ -193,15 +193,15 @@ private:
         }
         static const std::vector<std::string> words = {"average", "minimum", "maximum", "multiply"};
         if (const Element rule = element.find("frictionCombine")) {
-            const bool is_read = rule->one_of(words, "a rule").has_value();
+            const bool is_read = rule->one_of(words, "a combine mode").has_value();
             if (is_read) {
-                list("a rule for two frictions; their geometric mean is used", *rule);
+                list("a friction combine mode; the geometric mean is used", *rule);
             }
         }
         if (const Element rule = element.find("restitutionCombine")) {
-            const auto word = rule->one_of(words, "a rule");
+            const auto word = rule->one_of(words, "a combine mode");
             if (word && words[*word] != "maximum") {
-                list("a rule for two restitutions; the larger one is used", *rule);
+                list("a restitution combine mode; the larger restitution is used", *rule);
             }
         }
         return material;
@@ -345,7 +345,7 @@ private:
         if (truth_at(geometry, "convexHull")) {
             findings_.not_taken("a convex hull as geometry; the mesh is used", place);
         }
-        return is_own || takes_mesh_instead("a mesh that is not the node's", place, node, kind);
+        return is_own || takes_mesh_instead("a mesh other than the node's", place, node, kind);
     }
 
     bool takes_shape(const JsonElement& shape, std::uint32_t node, const std::string& kind) {
@@ -383,7 +383,7 @@ private:
         for (const std::string& key : *keys) {
             if (key == "name" || key == "extras") continue;
             if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-            findings_.not_taken("the key '" + key + "', which is not known here",
+            findings_.not_taken("the unknown key '" + key + "'",
                                 pointer_below(element->pointer(), key));
         }
     }
@@ -420,7 +420,7 @@ bool accepts(const GltfFilter& filter, const std::set<std::string>& systems) {
 }  // namespace
 
 void Findings::not_taken(const std::string& what, const std::string& place) {
-    add("not taken: " + what, place);
+    add("ignored: " + what, place);
 }
 
 void Findings::assumed(const std::string& what) {

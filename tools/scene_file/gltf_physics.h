@@ -17,12 +17,12 @@ namespace cdprep::scenes {
 /// What a file says and a scene cannot, or what it leaves open. Equal findings are listed once.
 class Findings {
 public:
-    /// "not taken: WHAT". `place` is a JSON pointer.
+    /// "ignored: WHAT". `place` is a JSON pointer.
     void not_taken(const std::string& what, const std::string& place);
     /// "assumed: WHAT".
     void assumed(const std::string& what);
 
-    /// Returns a sentence for each finding: "FILE: not taken: WHAT (/nodes/3/mesh and 2 more)."
+    /// Returns a sentence for each finding: "FILE: ignored: WHAT (/nodes/3/mesh and 2 more)."
     [[nodiscard]] std::vector<std::string> sentences(const std::string& file) const;
 
 private:

@@ -273,7 +273,7 @@ private:
         const GltfMotion& motion = *node_of(places_[mover]).motion;
         const std::string place = pointer_of(places_[mover], "motion");
         if (members.empty()) {
-            findings_.not_taken("a motion without a collider or trigger that is taken", place);
+            findings_.not_taken("a motion without a collider or trigger that is used", place);
         } else if (motion.is_kinematic) {
             for (const std::uint32_t member : members) move_steadily(member, velocities, mover);
         } else if (colliders > 1 && !join(mover, members)) {
@@ -320,8 +320,8 @@ private:
         keep_joined(mover, joined[0], *pose, std::move(model));
         findings_.assumed(
             node_of(places_[mover]).motion->mass
-                ? "colliders of a body do not overlap: its inertia is that of all"
-                : "colliders of a body do not overlap: its mass is the sum of theirs");
+                ? "the colliders of a body do not overlap: its inertia is computed from all of them"
+                : "the colliders of a body do not overlap: its mass is the sum of their masses");
         return true;
     }
 
@@ -374,7 +374,7 @@ private:
             mesh::safe_length(cross(minus(start.translation(), velocities.centre), turn));
         if (!(off <= kRounding * size * mesh::safe_length(turn))) {
             findings_.not_taken(
-                "a turn of a kinematic node whose axis is not through the origin "
+                "a rotation of a kinematic node about an axis that misses the origin "
                 "of its collider or trigger",
                 pointer_of(places_[place],
                            node_of(places_[place]).collider ? "collider" : "trigger"));
@@ -488,7 +488,7 @@ private:
         }
         if (has_lists && has_loners) {
             findings_.assumed(
-                "a collider or trigger in no collision system is in none of those "
+                "a collider or trigger without collision systems is in no system "
                 "that a filter lists");
         }
     }
@@ -551,7 +551,7 @@ private:
         scene().step_s = 1.0 / 60;
         scene().duration_s = 1;
         if (assembly_.rounding > 0) {
-            findings_.assumed("transforms were rounded to rigid ones, by " +
+            findings_.assumed("transforms were rounded to rigid ones; the largest change is " +
                               report::number_text(assembly_.rounding));
         }
         findings_.assumed("a step is 1/60 s, and a run takes 1 s without --frames or --until");
@@ -564,8 +564,8 @@ private:
         const char* const axis = is_x ? "-x" : is_z ? "-z" : "-y";
         findings_.assumed(std::string("gravity is 9.81 m/s^2 along ") + axis);
         findings_.assumed(
-            "of two surfaces, the friction is the geometric mean and the "
-            "restitution the larger one");
+            "two surfaces have the geometric mean of their frictions and the "
+            "larger restitution");
         const bool lacks_material = std::ranges::any_of(places_, [&](const Place& place) {
             const auto& collider = node_of(place).collider;
             return place.new_object != kNone && collider && !collider->material;
@@ -612,11 +612,11 @@ private:
 
     /// Returns the corners of the box of a model, without numbers that are not finite.
     Result<std::vector<Double3>> corners_of(const AssemblyModel& model) const {
-        std::vector<import::PlacedNode> parts;
-        for (const AssemblyPart& part : model) {
-            parts.push_back({&assembly_.file.nodes()[part.node], part.model_from_mesh});
+        std::vector<import::PlacedNode> nodes;
+        for (const AssemblyNode& node : model) {
+            nodes.push_back({&assembly_.file.nodes()[node.node], node.model_from_mesh});
         }
-        const Result<mesh::TriangleSoup> soup = assembly_.file.triangles(parts);
+        const Result<mesh::TriangleSoup> soup = assembly_.file.triangles(nodes);
         if (!soup) return soup.error();
         std::array<std::array<double, 2>, 3> box = {
             {{HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, -HUGE_VAL}}};

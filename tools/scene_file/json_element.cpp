@@ -85,7 +85,7 @@ bool JsonElement::is_object_of(std::initializer_list<std::string_view> keys) con
     for (const auto& [key, value] : value_->items()) {
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         JsonElement(*this, value, pointer_below(pointer_, key))
-            .refuse("'" + key + "' is not a key here. Choose from " + listed(known) + "." +
+            .refuse("unknown key '" + key + "'. Choose from " + listed(known) + "." +
                     report::suggestion(key, known));
         is_known = false;
     }
@@ -132,7 +132,7 @@ std::optional<std::string> JsonElement::text() const {
     if (value_->is_string() && !value_->get_ref<const std::string&>().empty()) {
         return value_->get<std::string>();
     }
-    refuse_value("a text that is not empty");
+    refuse_value("a non-empty string");
     return std::nullopt;
 }
 

@@ -48,18 +48,18 @@ Result<cli::BakeOptions> bake_options_for(Ask asks, const import::ImportOptions&
 
 /// Makes a bake read a model of an assembly. Equal words name equal models of one file.
 void read_model(const AssemblyScene& assembly, const AssemblyModel& model, cli::BakeOptions& bake) {
-    std::vector<import::PlacedNode> parts;
-    for (const AssemblyPart& part : model) {
-        const import::MeshNode& node = assembly.file.nodes()[part.node];
-        parts.push_back({&node, part.model_from_mesh});
+    std::vector<import::PlacedNode> nodes;
+    for (const AssemblyNode& placed : model) {
+        const import::MeshNode& node = assembly.file.nodes()[placed.node];
+        nodes.push_back({&node, placed.model_from_mesh});
         bake.part += bake.part.empty() ? "meshes" : " meshes";
         for (const std::uint32_t mesh : node.meshes) bake.part += " " + std::to_string(mesh);
         bake.part += " transform";
-        for (const double x : part.model_from_mesh) bake.part += " " + report::number_text(x);
+        for (const double x : placed.model_from_mesh) bake.part += " " + report::number_text(x);
     }
-    bake.read = [&assembly, parts](const fs::path& /*input*/,
+    bake.read = [&assembly, nodes](const fs::path& /*input*/,
                                    const import::ImportOptions& /*options*/) {
-        return assembly.file.triangles(parts);
+        return assembly.file.triangles(nodes);
     };
 }
 
@@ -257,9 +257,8 @@ std::vector<std::string> kept_colliders(const SceneFile& scene,
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (models[i].colliders.empty()) continue;
-        lines.push_back(
-            scene.models[i].string() + ": " +
-            cli::kept_text(models[i].colliders, "naming the file that 'cdprep bake' makes of it"));
+        lines.push_back(scene.models[i].string() + ": " +
+                        cli::kept_text(models[i].colliders, "a file from 'cdprep bake'"));
     }
     return lines;
 }

@@ -20,7 +20,7 @@
 namespace cdprep::scenes {
 
 enum class ModelOrigin : std::uint8_t {
-    unused,     ///< no pair of layers asks for its objects: nothing was read
+    unused,     ///< no pair of layers uses its objects: nothing was read
     baked,      ///< the scene names a baked file
     in_memory,  ///< a mesh file, baked into memory
     cached,     ///< a mesh file, whose bake is in the cache
@@ -80,8 +80,8 @@ struct LoadedModels {
                                             std::span<const SceneModel> models,
                                             std::vector<std::string>& names);
 
-/// Returns what a model must serve, but does not. The mass of an open mesh does not count: no bake
-/// of that mesh has it.
+/// Returns what a model must serve, but does not. The mass of an unbalanced mesh does not count: no
+/// bake of that mesh has it.
 [[nodiscard]] Ask lacking_asks(const SceneModel& model);
 
 /// Returns why models that were opened do not serve their layers: a sentence for each such model.

@@ -67,7 +67,8 @@ Result<Done> PointCache::read_header() {
     }
     if (bytes.size() < kHeaderBytes) {
         return file_.unreadable("the file ends at byte " + std::to_string(bytes.size()) +
-                                ", within the first " + std::to_string(kHeaderBytes));
+                                ", within its header of " + std::to_string(kHeaderBytes) +
+                                " bytes");
     }
     const auto number = [&](std::size_t byte) { return static_cast<std::int32_t>(word(byte)); };
     if (const auto version = number(kVersionByte); version != 1) {
@@ -84,11 +85,11 @@ Result<Done> PointCache::read_header() {
     samples_ = word(kSamplesByte);
     const std::size_t rest = bytes.size() - kHeaderBytes, each = points_ * kPointBytes;
     if (rest % each == 0 && rest / each == samples_) return Done{};
-    return found_at(file_, kSamplesByte,
-                    report::counted(samples_, "sample", "samples") + " of " +
-                        report::counted(each, "byte", "bytes"),
-                    "as many as the " + report::counted(rest, "byte", "bytes") +
-                        " behind the first " + std::to_string(kHeaderBytes) + " hold");
+    return found_at(
+        file_, kSamplesByte,
+        report::counted(samples_, "sample", "samples") + " of " +
+            report::counted(each, "byte", "bytes"),
+        "as many as fit in the " + report::counted(rest, "byte", "bytes") + " after the header");
 }
 
 Result<Done> PointCache::check_numbers() const {

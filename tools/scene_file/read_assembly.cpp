@@ -66,7 +66,7 @@ public:
 
     Result<AssemblyScene> run() {
         read_.scene.name = path_.string();
-        read_.scene.layers = {"parts"};
+        read_.scene.layers = {"objects"};
         read_.scene.has_pairs = false;
         const std::span<const MeshNode> nodes = read_.file.nodes();
         if (nodes.size() > kMostObjects) {
@@ -168,7 +168,7 @@ private:
     }
 
     void add_model(std::uint32_t node, const Affine& model_from_mesh) {
-        read_.models.push_back({AssemblyPart{node, model_from_mesh}});
+        read_.models.push_back({AssemblyNode{node, model_from_mesh}});
         read_.scene.models.emplace_back(path_.string() + "/" + read_.file.nodes()[node].path);
     }
 

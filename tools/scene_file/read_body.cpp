@@ -66,9 +66,10 @@ std::optional<BodyMotion> read_body(const JsonElement& motion) {
     if (!body) return std::nullopt;
     for (const char* other : {"path", "velocity", "turn_rad_per_s", "deform", "tear"}) {
         if (const auto member = motion.find(other)) {
-            member->refuse("a body excludes " + std::string(other) +
-                           ": it is rigid, and contacts and gravity move it. Its first velocities "
-                           "belong in 'body'.");
+            member->refuse(
+                "a body cannot have " + std::string(other) +
+                ": it is rigid, and contacts and gravity move it. Its initial velocities "
+                "belong in 'body'.");
         }
     }
     return read_members(*body);

@@ -71,8 +71,8 @@ private:
         for_each_item(root, "objects", [&](const JsonElement& object) { read_object(object); });
         if (!scene_.bodies.empty() && !root.find("gravity")) {
             root.refuse(
-                "there are bodies, but the key 'gravity' is missing: for example "
-                "[0, 0, -9.81] in metres, or [0, 0, 0] for none.");
+                "there are bodies, but the key 'gravity' is missing: for example [0, 0, -9.81] in "
+                "metres, or [0, 0, 0] for none.");
         }
     }
 
@@ -123,7 +123,7 @@ private:
 
     std::optional<std::uint32_t> read_layer(const JsonElement& element) {
         if (scene_.layers.empty()) {
-            if (!are_layers_refused_) element.refuse_value("a layer, but the scene has none");
+            if (!are_layers_refused_) element.refuse_value("a layer, but the scene has no layers");
             return std::nullopt;
         }
         const auto number = element.one_of(scene_.layers, "a layer");
@@ -154,18 +154,18 @@ private:
             pair.asked.body = word == 1 ? Body::solid : Body::surface;
         }
         if (const auto overlap = element.find("overlap")) {
-            const auto word = overlap->one_of(Names{"closed", "proper"}, "a meaning of overlap");
+            const auto word = overlap->one_of(Names{"closed", "proper"}, "a kind of overlap");
             pair.asked.overlap = word == 1 ? Overlap::proper : Overlap::closed;
         }
         if (const auto contacts = element.find("contacts")) {
             if (!contains(pair.asked.effects, Ask::contacts)) {
-                contacts->refuse("the pair does not ask for contacts.");
+                contacts->refuse("the pair does not request contacts.");
             }
             read_contacts(*contacts, pair.asked.contacts);
         }
         if (const auto impact = element.find("impact")) {
             if (!contains(pair.asked.effects, Ask::continuous)) {
-                impact->refuse("the pair does not ask for continuous.");
+                impact->refuse("the pair does not request continuous.");
             }
             read_impact(*impact, pair.asked.impact);
         }
@@ -357,8 +357,7 @@ private:
             if (!element.is_word("fixed") && !element.is_word("body")) {
                 element.refuse_value(
                     "\"fixed\", \"body\", or an object with path, velocity, turn_rad_per_s, "
-                    "deform, "
-                    "tear or body");
+                    "deform, tear or body");
             }
             return Motion::fixed(start);
         }
@@ -383,15 +382,16 @@ private:
 
     static Motion read_path(const JsonElement& element, const Pose& start, bool has_pose) {
         if (element.find("velocity") || element.find("turn_rad_per_s")) {
-            element.refuse("a path excludes velocity and turn_rad_per_s.");
+            element.refuse("a path cannot be combined with velocity or turn_rad_per_s.");
         }
         if (has_pose) {
-            element.refuse("an object with a path has no pose of its own; its keys have.");
+            element.refuse(
+                "an object with a path cannot have a pose; the keys of the path have poses.");
         }
         std::vector<KeyPose> keys;
         for_each_item(element, "path", [&](const JsonElement& key) { read_key(key, keys); });
         if (!keys.empty()) return Motion::path(std::move(keys));
-        element.refuse("the path has no key.");
+        element.refuse("the path has no keys.");
         return Motion::fixed(start);
     }
 
@@ -402,7 +402,7 @@ private:
         if (time) key.time_s = time->number(Range::zero_or_more).value_or(0);
         if (const auto pose = element.require("pose")) key.pose = read_pose(*pose);
         if (time && !keys.empty() && key.time_s <= keys.back().time_s) {
-            time->refuse_value("a time after that of the key before it");
+            time->refuse_value("a time after that of the previous key");
         }
         keys.push_back(key);
     }
@@ -420,7 +420,7 @@ private:
     /// Reads three rows of four numbers: a rotation, and a translation as the last column.
     static Result<Pose> read_matrix(const JsonElement& element) {
         if (element.find("translation") || element.find("quaternion")) {
-            element.refuse("a matrix excludes translation and quaternion.");
+            element.refuse("a matrix cannot be combined with translation or quaternion.");
         }
         const JsonElement matrix = *element.find("matrix");
         const auto rows = matrix.items();

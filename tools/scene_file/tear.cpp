@@ -90,7 +90,7 @@ private:
         return has_near && has_far;
     }
 
-    /// Returns whether a part of a triangle is on the far side.
+    /// Returns whether a triangle reaches the far side.
     [[nodiscard]] bool is_far(const LiveTriangle& triangle) const {
         return std::ranges::any_of(triangle.vertex,
                                    [&](std::uint32_t vertex) { return sides_[vertex] > 0; });
@@ -129,7 +129,7 @@ private:
         const format::Triangle copied = far_side(triangle.vertex);
         if (copied.vertex == triangle.vertex) return;
         cut_.removed.push_back(triangle.number);
-        cut_.parts.push_back(copied);
+        cut_.appended.push_back(copied);
     }
 
     [[nodiscard]] format::Triangle far_side(std::array<std::uint32_t, 3> vertices) const {
@@ -139,11 +139,11 @@ private:
         return {vertices};
     }
 
-    void add_part(bool is_far, const std::array<std::uint32_t, 3>& vertices) {
-        cut_.parts.push_back(is_far ? far_side(vertices) : format::Triangle{vertices});
+    void append(bool is_far, const std::array<std::uint32_t, 3>& vertices) {
+        cut_.appended.push_back(is_far ? far_side(vertices) : format::Triangle{vertices});
     }
 
-    /// Adds the parts of a triangle with vertices on both sides. They keep its winding.
+    /// Appends the fragments of a triangle with vertices on both sides. They keep its winding.
     void split(const std::array<std::uint32_t, 3>& vertex) {
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t a = vertex[i], b = vertex[(i + 1) % 3], c = vertex[(i + 2) % 3];
@@ -151,9 +151,9 @@ private:
             if (sides_[b] == 0 || sides_[c] == 0 || sides_[b] != sides_[c]) continue;
             const std::size_t own = sides_[a] > 0 ? 1 : 0, other = 1 - own;
             const std::array<std::uint32_t, 2> ab = on_plane(a, b), ac = on_plane(a, c);
-            add_part(own == 1, {a, ab[own], ac[own]});
-            add_part(other == 1, {ab[other], b, c});
-            add_part(other == 1, {ab[other], c, ac[other]});
+            append(own == 1, {a, ab[own], ac[own]});
+            append(other == 1, {ab[other], b, c});
+            append(other == 1, {ab[other], c, ac[other]});
             return;
         }
     }
@@ -162,8 +162,8 @@ private:
     void split_at(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const std::array<std::uint32_t, 2> bc = on_plane(b, c);
         const std::size_t side_of_b = sides_[b] > 0 ? 1 : 0, side_of_c = 1 - side_of_b;
-        add_part(side_of_b == 1, {a, b, bc[side_of_b]});
-        add_part(side_of_c == 1, {a, bc[side_of_c], c});
+        append(side_of_b == 1, {a, b, bc[side_of_b]});
+        append(side_of_c == 1, {a, bc[side_of_c], c});
     }
 
     /// Returns the vertices where an edge crosses the plane: near, far.

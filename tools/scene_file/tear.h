@@ -42,18 +42,19 @@ struct CutVertex {
 
 /// The changes of a cut. All lists are empty if the plane misses the model.
 struct Cut {
-    std::vector<std::uint32_t> removed;   ///< numbers of triangles, rising
-    std::vector<format::Triangle> parts;  ///< to append
-    std::vector<CutVertex> vertices;      ///< numbered from the number of `rest` on
-    std::vector<std::uint8_t> is_far;     ///< for each vertex, the new ones at the end
+    std::vector<std::uint32_t> removed;      ///< numbers of triangles, rising
+    std::vector<format::Triangle> appended;  ///< triangles in their place
+    std::vector<CutVertex> vertices;         ///< numbered from the number of `rest` on
+    std::vector<std::uint8_t> is_far;        ///< for each vertex, the new ones at the end
     bool misses = true;
 };
 
 /// Cuts triangles along the plane of a tear. `rest` has the positions of the vertices by number.
 ///
-/// A triangle with vertices on both sides crosses the plane. It is replaced by its parts: two if a
+/// A triangle with vertices on both sides crosses the plane. It is replaced by fragments: two if a
 /// vertex is in the plane, otherwise three. Each edge that crosses gets one new vertex for each
-/// side. Its position is rounded, its side is not: parts belong to the side of their old vertices.
+/// side. Its position is rounded, its side is not: fragments belong to the side of their old
+/// vertices.
 ///
 /// Vertices in the plane are found exactly. A triangle that touches the plane belongs to the side
 /// of its other vertices. One that lies in the plane belongs to the near side. If both sides use a

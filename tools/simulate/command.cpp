@@ -102,9 +102,10 @@ public:
             inputs_of(scene_, assembly_ ? &*assembly_ : nullptr), outputs_of(arguments_));
         if (!apart) return fail("simulate", apart.error());
         if (!scene_.has_pairs) {
-            return fail("simulate", {ErrorCode::unreadable,
-                                     scene_.name + ": the key 'pairs' is missing. It says what to "
-                                                   "compute."});
+            return fail(
+                "simulate",
+                {ErrorCode::unreadable,
+                 scene_.name + ": the key 'pairs' is missing. It lists the effects to compute."});
         }
         if (const Result<Done> dropped = drop(); !dropped) {
             return fail("simulate", dropped.error());
@@ -159,10 +160,11 @@ private:
     /// Says that the errors are about the scene in a recording, which is found nowhere else.
     void tell_recording(std::vector<std::string>& errors) const {
         for (std::string& error : errors) {
-            error.insert(0, arguments_.scene.string() + ": the scene in it: ");
+            error.insert(0, arguments_.scene.string() + ": the recorded scene: ");
         }
         errors.push_back(arguments_.scene.string() +
-                         ": a recording finds models from its own folder. Move both together.");
+                         ": paths of models are relative to the folder of the recording. Move the "
+                         "models with it.");
     }
 
     /// Meshes are in the file, so a replay reads it again.
@@ -175,9 +177,11 @@ private:
         assembly_ = std::move(reading.assembly);
         scene_ = std::move(assembly_->scene);
         if (replay_ && replay_->scene_text() != scene_.text) {
-            return fail("simulate",
-                        {ErrorCode::unreadable, scene_.name + ": this is not the file that was "
-                                                              "recorded. Record the scene anew."});
+            return fail(
+                "simulate",
+                {ErrorCode::unreadable,
+                 scene_.name +
+                     ": the file has changed since it was recorded. Record the scene again."});
         }
         return std::nullopt;
     }
@@ -197,7 +201,7 @@ private:
             });
             if (!is_asked) {
                 return Error{ErrorCode::bad_argument,
-                             scene_.name + ": --drop " + word + ": no pair of layers asks for it."};
+                             scene_.name + ": --drop " + word + ": no pair of layers requests it."};
             }
             scenes::drop_effect(scene_, effect);
         }
@@ -240,7 +244,7 @@ private:
         const std::string found = std::isfinite(frames) ? report::number_text(frames) : "too many";
         return Error{ErrorCode::bad_argument,
                      scene_.name + ": " + what + " / step_s is " + found + " frames; at most " +
-                         std::to_string(kMostFrames) + " are possible. Choose --frames."};
+                         std::to_string(kMostFrames) + " are supported. Set --frames."};
     }
 
     [[nodiscard]] std::uint32_t thread_count() const {
@@ -384,8 +388,8 @@ private:
                                        const std::function<void()>& write_end) {
         const Error is_stopped = {ErrorCode::interrupted,
                                   scene_.name +
-                                      ": stopped while --cost measured. The output has no costs; "
-                                      "all else is complete."};
+                                      ": stopped during the measurements of --cost. The output has "
+                                      "no costs but is otherwise complete."};
         const LastWords words([&] {
             write_end();
             return sentence_of(is_stopped);
@@ -449,17 +453,16 @@ private:
 };
 
 Exit run(const Arguments& arguments) {
-    const Result<ProgressStyle> style = parse_progress(arguments.progress);
-    if (!style) return fail("simulate", style.error());
     if (arguments.plan && arguments.format == "ndjson") {
         return fail("simulate", {ErrorCode::bad_argument,
-                                 "--format ndjson is for events, and --plan computes none. Choose "
-                                 "text or json."});
+                                 "--plan computes no events, so it does not support --format "
+                                 "ndjson. Use text or json."});
     }
     if (arguments.cost && scenes::Recording::is_one(arguments.scene)) {
-        return fail("simulate", {ErrorCode::bad_argument,
-                                 "--cost runs a scene again and again. Give the scene file, not a "
-                                 "recording."});
+        return fail(
+            "simulate",
+            {ErrorCode::bad_argument,
+             "--cost simulates the scene several times. Give the scene file, not a recording."});
     }
     const Result<Done> apart = check_outputs({arguments.scene}, outputs_of(arguments));
     if (!apart) return fail("simulate", apart.error());
@@ -467,7 +470,7 @@ Exit run(const Arguments& arguments) {
     if (!output) return fail("simulate", output.error());
     Result<PageOutput> page = PageOutput::open(arguments.html, arguments.svg);
     if (!page) return fail("simulate", page.error());
-    return Run(arguments, *output, *page, *style).run();
+    return Run(arguments, *output, *page, parse_progress(arguments.progress)).run();
 }
 
 std::vector<std::string> effect_words() {
@@ -497,9 +500,8 @@ void add_study_options(const Command& command, Arguments& arguments, const Optio
         .add_option(
             "--record", arguments.record,
             "Also write a recording: the scene, and the poses and events of each frame. `cdprep "
-            "simulate FILE` replays it with the same import options, and compares the results. The "
-            "recording also appears after an interrupt or an error, with the frames that were "
-            "complete")
+            "simulate FILE` replays it with the same import options, and compares the results. "
+            "After an interrupt or an error, the recording has all complete frames")
         .type_name("FILE")
         .excludes(plan)
         .group("Report");
@@ -530,7 +532,7 @@ void add_report_options(const Command& command, Arguments& arguments) {
     command
         .add_option("--format", arguments.format,
                     "Format of the report. text: the work of each effect. ndjson: a line for each "
-                    "event, then one with the summary. json: the same as one object. Default: text "
+                    "event, then one with the summary. json: all this in one object. Default: text "
                     "with --plan, else ndjson")
         .type_name("FORMAT")
         .check(one_of({"text", "json", "ndjson"}))
@@ -543,13 +545,13 @@ void add_notes(const Command& command) {
         "of layers, it lists the effects to compute. Objects whose layer is in no pair are never "
         "examined. Events do not depend on the number of threads. Motions may deform and tear "
         "models: a shear, a twist, a vertex stream (PC2), or a cut along a plane. With response, "
-        "bodies fall, push each other and come to rest. Events name the contacts that push. A "
-        "frame then takes 4 substeps, and the solver takes 50 iterations in each. `dynamics` of "
-        "the scene changes these numbers. A glTF file with the extension KHR_physics_rigid_bodies "
-        "is a scene too. Collision filters become layers, and motions become bodies. Triggers "
-        "report which colliders start and stop colliding with them. The geometry of a collider is "
-        "the mesh of its node. Messages on standard error list the parts of the file that are "
-        "ignored. They also list the values that are assumed because the file does not state them.",
+        "bodies fall, push each other and come to rest. Events name the objects that push. A frame "
+        "then has 4 substeps, and the solver 50 iterations in each. `dynamics` of the scene "
+        "changes these numbers. A glTF file with the extension KHR_physics_rigid_bodies is a scene "
+        "too. Collision filters become layers, and motions become bodies. Triggers report which "
+        "colliders start and stop colliding with them. The geometry of a collider is the mesh of "
+        "its node. Messages on standard error list the parts of the file that are ignored. They "
+        "also list assumed values that the file does not state.",
         {"cdprep simulate samples/scenes/crates.json --plan",
          "cdprep simulate samples/scenes/crates.json --frames 100",
          "cdprep simulate samples/scenes/cut.json --format text",
@@ -570,13 +572,12 @@ void add_simulate(const Command& app, Exit& exit) {
         .add_option("scene", arguments->scene,
                     "A scene file (JSON), a glTF file, or a recording of either")
         .required();
-    const Option plan =
-        command
-            .add_flag("--plan", arguments->plan,
-                      "Print what would be computed and what not, and exit. Lists the sections of "
-                      "the models that are read, and the memory of the scene. If the plan is "
-                      "invalid, all reasons are listed (exit 2)")
-            .group("Simulation");
+    const Option plan = command
+                            .add_flag("--plan", arguments->plan,
+                                      "Print what would be computed and what not, and exit. Lists "
+                                      "the sections that are read, and the memory of the scene. If "
+                                      "the plan is invalid, all reasons are listed (exit 2)")
+                            .group("Simulation");
     const Option frames =
         command
             .add_option("--frames", arguments->frames,
@@ -596,8 +597,8 @@ void add_simulate(const Command& app, Exit& exit) {
         .group("Simulation");
     command
         .add_option("--cache", arguments->cache,
-                    "Folder for baked files of the meshes that the scene names, created if it "
-                    "does not exist. Default: bake into memory")
+                    "Folder for baked files of the scene's meshes. It is created if it does not "
+                    "exist. Default: bake into memory")
         .type_name("FOLDER")
         .group("Simulation");
     add_study_options(command, *arguments, plan);

@@ -167,9 +167,9 @@ std::vector<EffectRow> CostTable::effects(const scenes::Simulation& simulation) 
 
 std::vector<PartRow> CostTable::parts() const {
     std::vector<PartRow> rows = {{"boxes and broad phase", counts_.box_ticks},
-                                 {"rest of pairs", rest_nanoseconds_},
+                                 {"pair overhead", rest_nanoseconds_},
                                  {"lists and events", counts_.list_ticks}};
-    if (refit_times_.sum() > 0) rows.push_back({"changes of models", refit_times_.sum()});
+    if (refit_times_.sum() > 0) rows.push_back({"model changes", refit_times_.sum()});
     return rows;
 }
 

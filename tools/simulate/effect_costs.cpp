@@ -80,7 +80,7 @@ Result<Done> check_cost_room(const SceneFile& file, std::uint64_t frames) {
     return Error{ErrorCode::over_budget,
                  file.name + ": --cost would keep " + report::number_text(bytes) +
                      " bytes of poses; at most " + report::number_text(kMost) +
-                     " are possible. Compute fewer frames."};
+                     " are supported. Compute fewer frames."};
 }
 
 Result<std::vector<report::EffectCost>> measure_costs(const SceneFile& file,

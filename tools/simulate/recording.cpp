@@ -155,10 +155,10 @@ std::string_view Recording::take_line() {
 
 Result<Done> Recording::read_first() {
     const Json first = Json::parse(take_line(), nullptr, false);
-    if (!first.is_object()) return unreadable("the line is no JSON object.");
+    if (!first.is_object()) return unreadable("the line is not a JSON object.");
     const auto version = first.find("cdprep_recording");
     if (version == first.end() || *version != kVersion) {
-        return unreadable("this is no recording of version " + std::to_string(kVersion) + ".");
+        return unreadable("this is not a recording of version " + std::to_string(kVersion) + ".");
     }
     const std::string* const name = text_of(first, "scene");
     const std::string* const folder = text_of(first, "folder");
@@ -175,7 +175,7 @@ Result<Done> Recording::read_first() {
     scene_text_ = *text;
     import_ = *options;
     for (const Json& model : *models) {
-        if (!model.is_string()) return unreadable("the hash of a model is no text.");
+        if (!model.is_string()) return unreadable("the hash of a model is not a string.");
         hashes_.push_back(model.get<std::string>());
     }
     return Done{};
@@ -187,7 +187,8 @@ Result<Done> Recording::set_import(cdprep::import::ImportOptions& options) const
         return Error{ErrorCode::bad_argument,
                      file_.name() + ": was recorded " + (recorded.empty() ? "without " : "with ") +
                          option + recorded + ", but " + option + given +
-                         " is given. A replay imports as the run did: leave " + option + " out."};
+                         " is given. A replay uses the import options of the recording: leave " +
+                         option + " out."};
     };
     const auto unit = [](const auto& x) { return x ? " " + report::unit_name(*x) : std::string(); };
     const auto axis = [](const auto& x) {
@@ -214,8 +215,8 @@ Result<Done> Recording::check_models(const SceneFile& file,
         if (found == recorded) continue;
         std::string sentence = file_.name() + ": the model ";
         sentence += file.models[i].string();
-        sentence += " has hash '" + found + "', but that of '";
-        sentence += recorded + "' was recorded. Record the scene anew.";
+        sentence += " has hash '" + found + "', but '";
+        sentence += recorded + "' was recorded. Record the scene again.";
         return Error{ErrorCode::unreadable, sentence};
     }
     return Done{};
@@ -227,8 +228,10 @@ Result<Done> Recording::read_last() {
     const Json last = Json::parse(text.substr(text.rfind('\n') + 1), nullptr, false);
     const auto frames = last.is_object() ? last.find("frames") : last.end();
     if (frames == last.end() || !frames->is_number_unsigned()) {
-        return Error{ErrorCode::unreadable,
-                     file_.name() + ": the recording ends without a line that counts its frames."};
+        return Error{
+            ErrorCode::unreadable,
+            file_.name() +
+                ": the last line of the recording, with the number of frames, is missing."};
     }
     frames_ = frames->get<std::uint64_t>();
     if (frames_ == 0) {
@@ -246,7 +249,7 @@ Result<Done> Recording::check_state(const RecordedFrame& frame, const Scene& sce
 
 Result<RecordedFrame> Recording::next(std::size_t objects) {
     const Json json = Json::parse(take_line(), nullptr, false);
-    if (!json.is_object()) return unreadable("the line is no JSON object.");
+    if (!json.is_object()) return unreadable("the line is not a JSON object.");
     const auto frame = json.find("frame");
     if (frame == json.end() || *frame != next_frame_) {
         return unreadable("expected frame " + std::to_string(next_frame_) + ".");
@@ -260,8 +263,8 @@ Result<RecordedFrame> Recording::next(std::size_t objects) {
     for (const Json& pose : *poses) {
         const std::optional<GivenPose> given = pose_from(pose, objects);
         if (!given) {
-            return unreadable("a pose must be an object's number below " + std::to_string(objects) +
-                              " and 12 numbers of a rigid motion.");
+            return unreadable("a pose must have the number of an object, below " +
+                              std::to_string(objects) + ", and 12 numbers of a rigid motion.");
         }
         read.poses.push_back(*given);
     }

@@ -154,7 +154,7 @@ std::string table_text(const RunSummary& summary) {
     const std::uint64_t frames = summary.table.frames();
     std::string text = line_of(
         {"effect", "calls/frame", "time/frame", "p99", "state", "sections", "begins", "ends"},
-        summary.costs.empty() ? "asked by" : "time without it  asked by");
+        summary.costs.empty() ? "requested by" : "time without it  requested by");
     for (const EffectRow& row : summary.table.effects(summary.simulation)) {
         text += effect_line(summary, row);
     }
@@ -184,11 +184,11 @@ std::string changes_text(const RunSummary& summary) {
                        counted(changing.tear, "tears", "tear") + ": " +
                        counted(work.refits, "refit", "refits") + ", " +
                        counted(work.rebuilt, "triangle", "triangles") + " rebuilt, " +
-                       counted(work.torn, "triangle", "triangles") + " torn into " +
-                       counted(work.parts, "part", "parts") + "; the changes of a frame took " +
+                       counted(work.torn, "triangle", "triangles") + " torn and " +
+                       std::to_string(work.appended) + " appended; the changes of a frame took " +
                        time_text(summary.table.refit_times().at(0.5)) + " (median)\n";
     for (const std::string& name : changing.missed) {
-        text += "object '" + printable(name) + "' is not torn, for the plane misses its model\n";
+        text += "object '" + printable(name) + "' is not torn: the plane misses its model\n";
     }
     return text;
 }
@@ -198,7 +198,7 @@ std::string response_text(const RunSummary& summary) {
     const scenes::Response* response = summary.simulation.response();
     if (response == nullptr) {
         return scenes::has_response(summary.scene)
-                   ? "response was not computed: the poses are those of the recording\n"
+                   ? "response was not computed: the poses are from the recording\n"
                    : "";
     }
     const dynamics::DynamicsCounts& counts = summary.table.body_counts();
@@ -211,15 +211,15 @@ std::string response_text(const RunSummary& summary) {
                        "; deepest overlap at the end " + number_text(deepest_contact(*response)) +
                        "; state " + hexadecimal(response->bodies().state_hash()) + "\n";
     if (response->box_count() > 0) {
-        text += counted(response->box_count(), "body resists as a box: its file has",
-                        "bodies resist as boxes: their files have") +
+        text += counted(response->box_count(), "body has the inertia of its box: its file has",
+                        "bodies have the inertia of their boxes: their files have") +
                 " no usable mass properties\n";
     }
     for (const std::string& warning : response_warnings(counts)) text += warning + ".\n";
     return text;
 }
 
-/// What nobody asks for, and what is not read for it.
+/// The effects that are not computed, and the sections that are not read.
 std::string not_computed_text(const RunSummary& summary) {
     std::string text = not_computed_lines(summary.scene, summary.not_computed);
     const AllSections sections = sections_of_models(summary.simulation.models());
@@ -295,7 +295,7 @@ void add_changes(Json& json, const RunSummary& summary) {
     json["changes"] = {{"deform", changing.deform}, {"tear", changing.tear},
                        {"missed", changing.missed}, {"refits", work.refits},
                        {"rebuilt", work.rebuilt},   {"torn", work.torn},
-                       {"parts", work.parts}};
+                       {"appended", work.appended}};
     json["changes_ms"] = times_json(summary.table.refit_times());
 }
 
@@ -326,7 +326,7 @@ std::vector<std::string> response_warnings(const dynamics::DynamicsCounts& count
     }
     if (counts.too_fast > 0) {
         warnings.push_back(counted(counts.too_fast, "body was", "bodies were") +
-                           " faster than contacts can follow, counted in each substep");
+                           " too fast for the search for contacts, counted in each substep");
     }
     return warnings;
 }
@@ -337,7 +337,7 @@ std::string summary_text(const RunSummary& summary) {
     const scenes::Simulation& simulation = summary.simulation;
     return table_text(summary) + not_computed_text(summary) + "candidates " +
            std::to_string(counts.candidates) + ": kept " + std::to_string(counts.kept) +
-           ", apart by their boxes " + std::to_string(counts.apart) + "\nframes " +
+           ", with disjoint boxes " + std::to_string(counts.apart) + "\nframes " +
            std::to_string(summary.table.frames()) + " of " + std::to_string(summary.frames) +
            " complete; " + counted(simulation.scene().object_count(), "object", "objects") + "; " +
            counted(simulation.grown_steps(), "frame", "frames") + " needed more room\n" +

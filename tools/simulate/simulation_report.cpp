@@ -76,7 +76,7 @@ std::vector<std::string> SimulationReport::warnings(bool is_gltf) const {
     for (const std::string& warning : response_warnings(cut)) {
         sentences.push_back(warning + (scene_.dynamics.most_contacts < kMostListedContacts
                                            ? ". Raise dynamics.most_contacts."
-                                           : ": two bodies have at most " +
+                                           : ": two bodies can have at most " +
                                                  std::to_string(kMostListedContacts) + "."));
     }
     for (const std::string& warning : response_warnings(fast)) {
@@ -85,7 +85,7 @@ std::vector<std::string> SimulationReport::warnings(bool is_gltf) const {
     }
     for (std::string& sentence : sentences) {
         sentence.insert(0, printable(scene_.name) + ": ");
-        if (is_gltf) sentence += " A glTF file cannot state that: write a scene file.";
+        if (is_gltf) sentence += " A glTF file cannot set these: write a scene file.";
     }
     return sentences;
 }

@@ -46,7 +46,7 @@ struct MemoryParts {
     std::optional<build::TetraTreeOptions> tetra_tree{};
     bool hulls = false;   ///< exact hulls of the whole and, if there are several, of each component
     bool pieces = false;  ///< exact convex pieces, the hierarchy over them, and contact data
-    bool mass = false;    ///< mass properties; the mesh must be closed
+    bool mass = false;    ///< mass properties; the mesh must be balanced
     mesh::StopCheck stop{};  ///< ends the search for pieces; the model is then unusable
 };
 

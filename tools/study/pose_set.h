@@ -40,7 +40,7 @@ struct StudyPose {
     std::array<double, 4> quaternion{};  ///< the source of the rotation: w, x, y, z
     Stratum stratum{};
     bool hit = false;           ///< the surfaces have a common point
-    Answer solid = Answer::no;  ///< the solids have one; unknown if a model is open
+    Answer solid = Answer::no;  ///< the solids have one; unknown if a model is unbalanced
     double gap_lower = 0;       ///< the surfaces' distance is in [gap_lower, gap_upper], model
     double gap_upper = 0;       ///< units; both are 0 if the surfaces touch
     double depth = 0;           ///< model units; 0 if they do not touch, and for given poses

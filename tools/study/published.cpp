@@ -45,7 +45,7 @@ constexpr std::array<PublishedModel, kPublishedModels> kPublished = {{
      437645,
      869928,
      {70.25, 4.8031, ""},
-     {104.68, 2.1975, "less than 4 bytes for each triangle (3.32 MiB): it cannot be right"},
+     {104.68, 2.1975, "less than 4 bytes per triangle (3.32 MiB), so it cannot be right"},
      {42.5, 0.4613, ""},
      {6.678, 348.9311, "the size of 871145 triangles, not of 869928"},
      std::nullopt},
@@ -63,9 +63,10 @@ namespace {
 
 constexpr std::size_t kHorse = 0, kSkull = 1, kBunny = 2, kArmadillo = 3, kDragon = 4, kBuddha = 5;
 
-constexpr const char* kPrefix = "collide is a prefix of overlap, yet takes longer: noise or a slip";
+constexpr const char* kPrefix =
+    "collide is only a part of the work of overlap, yet takes longer: noise or a misprint";
 constexpr const char* kLostZero =
-    "its neighbours are 0.0104 to 0.041: probably 0.04625 with a zero lost";
+    "the neighbouring figures are 0.0104 to 0.041: probably 0.04625, with a zero lost";
 
 /// A mesh that is known by the hash of its geometry.
 struct Known {
@@ -110,19 +111,18 @@ constexpr std::array<Alternative, 6> kAlternatives = {{{kDragon, 869928},
 
 constexpr std::array<const char*, 6> kErrata = {
     "Table 2, Dragon: the octree's 2.1975 MiB are less than 4 bytes for each of 869928 triangles "
-    "(3.32 MiB). Nothing is tuned to it.",
+    "(3.32 MiB). This figure is not used for tuning.",
     "Tables 2 and 3, Dragon and Buddha: the sizes of PQP imply 871145 and 1087339 triangles, not "
     "869928 and 1085634; the distributed scans have 871414 and 1087716. Structures were built "
     "from different sets of triangles.",
-    "Table 2: the parts listed of a tetra-tree's root add up to 628 bytes; the 340 of the text fit "
-    "vertices of 12 bytes. The octree's root has floats, its nodes doubles. The formula is taken "
-    "as printed.",
+    "Table 2: the listed members of a tetra-tree's root add up to 628 bytes. The text says 340, "
+    "which fits vertices of 12 bytes. The octree's root has floats, its nodes doubles. Sizes here "
+    "use the formula as printed.",
     "Table 4, Dragon and Horse: the octree's collide (0.4144 s) takes longer than its overlap "
-    "(0.3593 s), of which it is a prefix.",
-    "Table 4, Buddha and Armadillo: 0.4625 s of PQP's overlap is 11 times its neighbours; "
-    "probably 0.04625.",
-    "Table 4 does not say where the models were placed: its seconds can be set beside ours, not "
-    "matched.",
+    "(0.3593 s). But collide is only a part of the work of overlap.",
+    "Table 4, Buddha and Armadillo: PQP's overlap of 0.4625 s is 11 times the neighbouring "
+    "figures. It is probably 0.04625 s.",
+    "Table 4 does not state the poses of the models, so its times cannot be reproduced.",
 };
 
 std::string counts_sentence(std::size_t vertices, std::size_t triangles) {
@@ -165,7 +165,7 @@ Likeness find_likeness(std::size_t vertices, std::size_t triangles, std::uint64_
         if (vertices == model.vertices && triangles == model.triangles) {
             return {i, Mark::none,
                     "has the published counts of " + std::string(model.name) +
-                        "; whether it is that mesh is not known",
+                        "; it is not known whether it is that mesh",
                     i};
         }
     }

@@ -24,6 +24,9 @@ inline constexpr std::array<StructureName, 6> kStructureNames = {{
     {"pieces", Structure::pieces, false},
 }};
 
+/// Convex hulls are no tree, but --structures and --structure name them too.
+inline constexpr const char* kHullName = "hull";
+
 [[nodiscard]] constexpr const char* structure_name(Structure structure) noexcept {
     for (const StructureName& known : kStructureNames) {
         if (known.structure == structure) return known.name;

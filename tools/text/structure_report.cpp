@@ -43,12 +43,12 @@ std::string as_text(const StructureReport& report) {
     for (const StructureRule& rule : settings.rules) text += ", " + rule.name + " " + rule.value;
     text += ": " + std::to_string(report.nodes) + " nodes, " + std::to_string(report.leaves) +
             " leaves, " + fixed(share(report.references, report.triangles), 2) +
-            " references a triangle, largest leaf " + std::to_string(report.largest_leaf) + ", " +
+            " references per triangle, largest leaf " + std::to_string(report.largest_leaf) + ", " +
             std::to_string(report.bytes) + " bytes";
     if (!report.cones) return text;
     const ConeFigures& cones = *report.cones;
     return text + "; centre " + cones.centre + ", " + fixed(cones.mean_layers, 2) +
-           " layers a cone, " + std::to_string(cones.most_layers) + " at most, " +
+           " layers per cone, " + std::to_string(cones.most_layers) + " at most, " +
            fixed(100 * share(cones.in_many, report.triangles), 2) +
            " % of triangles in more than 8 cones";
 }

@@ -68,8 +68,7 @@ Result<Baseline> Baseline::parse(std::string_view text, const std::string& name)
         }
         return baseline;
     } catch (const json::parse_error& error) {
-        return unreadable(
-            name, "byte " + std::to_string(error.byte) + " is where it stops being a JSON report");
+        return unreadable(name, "its JSON is invalid at byte " + std::to_string(error.byte));
     } catch (const json::exception&) {
         return unreadable(name, "it does not follow tools/validate/validation.schema.json");
     }

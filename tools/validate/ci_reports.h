@@ -18,7 +18,7 @@ namespace cdprep::report {
 [[nodiscard]] std::string junit_suite(const ValidationReport& report, const ValidationRun& run);
 [[nodiscard]] std::string junit_tail();
 
-/// A SARIF 2.1.0 log in pieces: the head, then one file after the other, then the tail.
+/// A SARIF 2.1.0 log, step by step: the head, then one file after the other, then the tail.
 ///
 /// Each place of an error or warning is a result. Its artifact is the file; its node, triangles and
 /// vertices are logical locations. There are no line numbers. If a finding has more places than are

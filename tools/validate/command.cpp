@@ -248,8 +248,6 @@ Result<Done> settle(ValidateArguments& arguments) {
 Exit run(ValidateArguments& arguments) {
     const Result<Done> settled = settle(arguments);
     if (!settled) return fail("validate", settled.error());
-    const Result<ProgressStyle> style = parse_progress(arguments.progress);
-    if (!style) return fail("validate", style.error());
     const Result<std::vector<Input>> inputs = inputs_for(arguments);
     if (!inputs) return fail("validate", inputs.error());
     const Result<Done> checked = check_output(arguments, inputs.value());
@@ -270,7 +268,7 @@ Exit run(ValidateArguments& arguments) {
         page.emplace(std::move(opened).value());
     }
     const Threads threads(arguments.threads);
-    Progress progress(style.value(), inputs.value().size());
+    Progress progress(parse_progress(arguments.progress), inputs.value().size());
     return Run(arguments.options, kFormats.at(arguments.format), std::move(output).value(),
                std::move(page), progress)
         .all(inputs.value(), threads);
@@ -293,10 +291,9 @@ void add_judging_options(const Command& command, ValidateArguments& arguments) {
         .one_value_each()
         .group(group);
     command
-        .add_option(
-            "--baseline", arguments.baseline,
-            "An earlier report of --format json: only findings that it lacks are listed and "
-            "count for --fail-on")
+        .add_option("--baseline", arguments.baseline,
+                    "An earlier report of --format json. Only findings not in it are listed and "
+                    "count for --fail-on")
         .type_name("FILE")
         .group(group);
     command
@@ -324,7 +321,7 @@ void add_judging_options(const Command& command, ValidateArguments& arguments) {
     add_max_pairs(command, arguments.options.defects.max_pairs);
     command
         .add_flag("--no-crossings", arguments.no_crossings,
-                  "Skip rules CDP0403 and CDP0501 to CDP0503; the verdict says so")
+                  "Skip rules CDP0403 and CDP0501 to CDP0503; the verdict states this")
         .group(group);
 }
 
@@ -334,8 +331,8 @@ void add_validate(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<ValidateArguments>();
     const Command command = app.add_command("validate", "Report defects of meshes");
     command.set_notes(
-        "Triangles and vertices are numbered from 0, as in the file. Without --fail-on the "
-        "exit code is 1 when an error was found.\n\n"
+        "Triangles and vertices are numbered from 0, as in the file. Without --fail-on, the exit "
+        "code is 1 if an error is found.\n\n"
         "Nodes and groups that are colliders of an engine are left out, as by 'cdprep bake'. "
         "Triangles and vertices are then numbered without them.",
         {"cdprep validate model.obj", "cdprep validate assets --format sarif -o meshes.sarif",

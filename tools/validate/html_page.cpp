@@ -24,6 +24,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+constexpr std::size_t kPlacesOnPage = 50'000;  // listed and marked, on the page
 constexpr std::size_t kLeastPlaces = 10;       // per finding, on any page
 constexpr std::size_t kMostPagePlaces = 1000;  // per finding
 constexpr std::size_t kPlaceNumbers = 100;     // triangles or vertices listed per place
@@ -52,8 +53,7 @@ Limits limits_of(std::span<const PageMesh> meshes, const PageOptions& options) {
         if (shares[i] < meshes[i].triangles.size()) ++ghosts;
     }
     const double cells = std::sqrt(kGhostTriangles / (6.0 * static_cast<double>(ghosts)));
-    return {std::move(shares),
-            std::clamp(options.max_places / findings, kLeastPlaces, kMostPagePlaces),
+    return {std::move(shares), std::clamp(kPlacesOnPage / findings, kLeastPlaces, kMostPagePlaces),
             std::clamp<std::size_t>(kComponents / std::max<std::size_t>(1, meshes.size()), 5,
                                     kMostComponents),
             static_cast<std::uint32_t>(std::max(4.0, cells))};

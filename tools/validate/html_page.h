@@ -24,11 +24,9 @@ struct PageOptions {
     std::string version{};  ///< of the program, shown on the page
     /// The limit on triangles drawn exactly, for the page as a whole. Meshes share it evenly;
     /// triangles that small meshes leave go to larger ones. A mesh above its share is drawn
-    /// exactly around findings, and coarsely elsewhere. The page reports this.
+    /// exactly around findings, and coarsely elsewhere. The page reports this. Only tests set it: a
+    /// small mesh does not reach the default.
     std::size_t max_triangles = 1'000'000;
-    /// The limit on places listed and marked, for the page as a whole. Findings share it evenly;
-    /// each has at least 10 and at most 1000. Counts always include all places.
-    std::size_t max_places = 50'000;
 };
 
 /// Returns one complete HTML page. It draws every mesh, marks each finding in place, lists the
@@ -37,6 +35,9 @@ struct PageOptions {
 ///
 /// `#CDP0301/3` opens the page at the third place of that rule, `#mesh=2&CDP0301/3` in the
 /// second mesh. `#camera=x,y,z,tx,ty,tz` looks from one point at another, in model units.
+///
+/// The page lists and marks 50,000 places. Findings share them evenly; each has at least 10 and at
+/// most 1000. Counts always include all places.
 ///
 /// The page takes about 960 kB, plus 24 bytes per drawn triangle of a closed mesh and 500 per
 /// place. Coarse surfaces take up to 10 MB per page. A mesh of 871,414 triangles takes 22 MB.

@@ -50,13 +50,14 @@ void keep_fresh_places(mesh::Finding& finding, Judgement& judgement,
 }
 
 std::string compared_by_count(const mesh::Finding& finding, const KnownFinding& known) {
-    const std::string kept =
-        known.is_complete()
-            ? "there are too many places now to compare each one"
-            : "the baseline has " + std::to_string(known.fingerprints.size()) + " of its places";
-    return mesh::id_of(finding.rule) + " was compared by number, " + std::to_string(finding.count) +
-           " now and " + std::to_string(known.count) + " before, since " + kept +
-           "; places listed as new may be old. A baseline with a larger --max-issues distinguishes "
+    const std::string kept = known.is_complete()
+                                 ? "there are now too many places to compare each one"
+                                 : "the baseline lists only " +
+                                       std::to_string(known.fingerprints.size()) + " of its places";
+    return mesh::id_of(finding.rule) + " was compared by its count, " +
+           std::to_string(finding.count) + " now and " + std::to_string(known.count) +
+           " before: " + kept +
+           ". Places listed as new may be old. A baseline with a larger --max-issues distinguishes "
            "them.";
 }
 

@@ -43,9 +43,9 @@ Result<Done> RuleSettings::override_severity(const std::string& words) {
     if (!rule) return bad_argument(no_rule("--rule:", text.substr(0, equals)));
     const auto severity = find_severity(text.substr(equals + 1));
     if (!severity) {
-        return bad_argument("--rule '" + words + "': the severity '" +
+        return bad_argument("--rule '" + words + "': unknown severity '" +
                             std::string(text.substr(equals + 1)) +
-                            "' must be off, note, warn or error.");
+                            "'. Choose from off, note, warn and error.");
     }
     severity_[*rule] = *severity;
     return Done{};
@@ -79,8 +79,8 @@ Result<RuleSettings> RuleSettings::parse(const std::vector<std::string>& rules,
     }
     for (const mesh::Rule rule : settings.fail_on_rules_) {
         if (settings.severity(rule) != mesh::Severity::off) continue;
-        return bad_argument("--fail-on " + mesh::id_of(rule) + " asks for a rule that --rule " +
-                            mesh::id_of(rule) + "=off turns off. Leave one of them out.");
+        return bad_argument("--fail-on " + mesh::id_of(rule) + " names a rule that --rule " +
+                            mesh::id_of(rule) + "=off turns off. Remove one of the two options.");
     }
     return settings;
 }

@@ -118,7 +118,8 @@ Json place_json(const ValidationReport& report, std::size_t i, std::size_t k,
 Json rest_json(const ValidationReport& report, std::size_t i, std::uint64_t count,
                const Json& artifact) {
     Json result = result_json(
-        report, i, std::to_string(count) + " more of them are not listed (--max-issues).");
+        report, i,
+        counted(count, "more place is", "more places are") + " not listed (--max-issues).");
     result["locations"] = Json::array({{{"physicalLocation", {{"artifactLocation", artifact}}}}});
     result["occurrenceCount"] = count;
     return result;

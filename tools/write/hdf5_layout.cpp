@@ -279,7 +279,7 @@ std::string find_place(const Handle& file, const format::SectionKind& kind,
     const Handle creation(H5Dget_create_plist(dataset.id()), H5Pclose);
     const haddr_t offset = H5Dget_offset(dataset.id());
     if (H5Pget_layout(creation.id()) != H5D_CONTIGUOUS || offset == HADDR_UNDEF) {
-        return clause(kind.id, "is not stored as one uncompressed run");
+        return clause(kind.id, "is not stored contiguously and uncompressed");
     }
     places.push_back({kind.id, offset, shape[0]});
     return {};
@@ -300,13 +300,13 @@ std::optional<Layout> make_layout(std::span<const Plan> plans, const format::Fil
 FoundLayout find_layout(const std::filesystem::path& path) {
     const Silence silence;
     const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-    if (!file.good()) return {{}, "it is not an HDF5 file that can be read"};
+    if (!file.good()) return {{}, "it is not a readable HDF5 file"};
     FoundLayout found;
     for (const format::SectionKind& kind : format::section_kinds()) {
         const std::string damage = find_place(file, kind, found.places);
         if (!damage.empty()) return {{}, damage};
     }
-    if (found.places.empty()) found.damage = "it holds no dataset of cdprep";
+    if (found.places.empty()) found.damage = "it contains no dataset of cdprep";
     return found;
 }
 

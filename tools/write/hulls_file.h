@@ -14,7 +14,7 @@
 
 namespace cdprep::write {
 
-/// File formats from which simulators read convex pieces.
+/// File formats from which simulators read convex hulls.
 enum class HullsFormat : std::uint8_t { obj, glb, urdf, sdf, mjcf };
 
 /// Returns the format that the extension names, in upper or lower case: .obj, .glb, .urdf, .sdf,
@@ -50,7 +50,7 @@ struct HullsFileOptions {
     double metres_per_unit = 0;  ///< scales formats with a unit (URDF, SDF, MJCF); 0 means 1
     /// Of the link or body. Nothing: no mass is written, and readers use their own default.
     std::optional<BodyMass> mass = {};
-    /// The mesh that is shown instead of the pieces. Nothing: only MJCF and GLB show the pieces.
+    /// The mesh that is shown instead of the hulls. Nothing: only MJCF and GLB show the hulls.
     /// An OBJ never contains it.
     std::optional<MeshArrays> visual = {};
     bool is_floating = false;     ///< MJCF: a free joint; otherwise the body is fixed to the world

@@ -12,7 +12,8 @@
 
 namespace cdprep::write {
 
-static_assert(std::endian::native == std::endian::little, "binary files are written as they lie");
+static_assert(std::endian::native == std::endian::little,
+              "binary files are written in the byte order of memory");
 
 /// Appends a number in the fewest digits that a reader of doubles reads back exactly. A reader of
 /// floats also reads a float value back exactly. The double 0.1F is written as

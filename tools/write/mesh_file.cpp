@@ -103,7 +103,7 @@ Result<Done> write_mesh_file(const std::filesystem::path& path, MeshFormat forma
     if (format == MeshFormat::stl && !mesh.single_precision) {
         return Error{ErrorCode::bad_argument,
                      path.string() +
-                         ": STL holds floats only, and this mesh has other coordinates. Write "
+                         ": STL stores floats only, and this mesh has other coordinates. Write "
                          "PLY, OBJ or OFF."};
     }
     return write_whole(path, bytes_of(format, mesh));

@@ -32,7 +32,7 @@ Error unwritable(const std::filesystem::path& target, const std::string& why) {
     const bool was_there = std::filesystem::exists(target, unknown);
     return {ErrorCode::unwritable,
             target.string() + ": " + why +
-                (was_there ? ". What was there before is unchanged." : ". Nothing was written.")};
+                (was_there ? ". The previous content is unchanged." : ". Nothing was written.")};
 }
 
 /// Returns false for a device or a pipe, which a rename would replace by a file.
@@ -101,8 +101,8 @@ std::string why_not_created(const std::filesystem::path& target, int error) {
     const std::filesystem::path folder = folder_of(target);
     std::error_code unknown;
     if (error == ENOENT) {
-        return "cannot be written, for the folder " + folder.string() +
-               (std::filesystem::is_directory(folder, unknown) ? " takes no new files"
+        return "cannot be written, because the folder " + folder.string() +
+               (std::filesystem::is_directory(folder, unknown) ? " accepts no new files"
                                                                : " does not exist");
     }
     return std::string("cannot be written: ") + std::strerror(error);
@@ -173,7 +173,7 @@ Result<OutputFile> OutputFile::create(const std::filesystem::path& wanted, Tempo
         }
     }
     return unwritable(target, "is being written by " + std::to_string(kMostWriters) +
-                                  " others, the most allowed at once");
+                                  " other programs, the maximum");
 }
 
 Error OutputFile::failed(const char* what) const {

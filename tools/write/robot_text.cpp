@@ -166,7 +166,7 @@ std::string sdf_text(const RobotFile& file) {
 }
 
 /// Returns an MJCF file that contains the vertices themselves; MuJoCo computes their hull. A shown
-/// mesh is a geom of group 2, and the pieces are of group 3, which viewers hide at first.
+/// mesh is a geom of group 2, and the hulls are of group 3, which viewers hide at first.
 std::string mjcf_text(const RobotFile& file) {
     pugi::xml_document document;
     const xml_node mujoco = add(document, "mujoco");

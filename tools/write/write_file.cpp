@@ -88,8 +88,8 @@ Result<Done> write_user_block(OutputFile& file, const format::FileHeader& facts,
 Result<Done> commit_checked(OutputFile& file, const std::filesystem::path& path, ErrorCode blame) {
     const Result<Model> opened = Model::open(file.readable_path());
     if (!opened) {
-        return Error{blame, path.string() +
-                                ": the written file does not read back: " + opened.error().message};
+        return Error{blame, path.string() + ": the written file cannot be read back: " +
+                                opened.error().message};
     }
     return file.commit();
 }
@@ -97,8 +97,8 @@ Result<Done> commit_checked(OutputFile& file, const std::filesystem::path& path,
 Error no_layout(const std::filesystem::path& path) {
     return {ErrorCode::over_budget,
             path.string() +
-                ": HDF5 could not lay the file out; memory may be short. The file "
-                "that was there before is unchanged."};
+                ": HDF5 could not create the file; memory may be short. The previous "
+                "content is unchanged."};
 }
 
 Error not_mendable(const std::filesystem::path& path, const std::string& why) {
@@ -146,7 +146,7 @@ Result<Done> write_and_check(const std::filesystem::path& path, const format::Fi
 const char* find_block_damage(std::span<const std::byte> bytes) {
     if (bytes.size() < format::kUserBlockSize ||
         format::read_header(bytes).magic != format::kMagic) {
-        return "it has no user block of cdprep in front";
+        return "it does not begin with a user block of cdprep";
     }
     const format::FileHeader header = format::read_header(bytes);
     const auto block = bytes.first<format::kUserBlockSize>();
@@ -154,7 +154,7 @@ const char* find_block_damage(std::span<const std::byte> bytes) {
         header.section_count > format::kMaxSections) {
         return "its user block is damaged";
     }
-    return header.version == format::kVersion ? nullptr : "it was written as another version";
+    return header.version == format::kVersion ? nullptr : "it has another format version";
 }
 
 /// The present places of the sections. Their bytes must equal the baked bytes; a tool may move
@@ -174,13 +174,13 @@ Relocated relocate(std::span<const std::byte> file, std::span<const Place> place
     for (const Place& place : places) {
         const std::uint64_t size = place.count * format::element_size(place.id);
         if (place.offset > file.size() || size > file.size() - place.offset) {
-            return {{}, {}, clause(place, "ends past the end of the file")};
+            return {{}, {}, clause(place, "extends past the end of the file")};
         }
         const auto bytes =
             file.subspan(static_cast<std::size_t>(place.offset), static_cast<std::size_t>(size));
         std::optional<SectionEntry> entry = format::find_section(file, place.id);
         if (!entry || entry->checksum != format::checksum(bytes)) {
-            return {{}, {}, clause(place, "does not hold what was baked")};
+            return {{}, {}, clause(place, "does not contain the baked data")};
         }
         entry->offset = place.offset;
         found.sections.push_back({place.id, bytes});

@@ -18,8 +18,8 @@ namespace {
     std::exit(2);
 }
 
-/// A closed mesh has mass properties.
-bool is_closed(const TestMesh& mesh) {
+/// A balanced mesh has mass properties.
+bool is_balanced(const TestMesh& mesh) {
     std::size_t odd = 0;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
     for (const Triangle& t : mesh.triangles) {
@@ -52,8 +52,8 @@ const Model& baked(const TestMesh& mesh) {
     for (const Kept& one : kept) {
         if (equals(one.mesh)) return one.made.model;
     }
-    auto made = study::make_memory_model(mesh_of(mesh),
-                                         {.hulls = true, .pieces = true, .mass = is_closed(mesh)});
+    auto made = study::make_memory_model(
+        mesh_of(mesh), {.hulls = true, .pieces = true, .mass = is_balanced(mesh)});
     if (!made) stop(made.error().message);
     kept.push_back({mesh, std::move(made).value()});
     return kept.back().made.model;

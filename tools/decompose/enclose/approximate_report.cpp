@@ -14,23 +14,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::size_t most_vertices(const convex::ApproximatePieces& result) {
+std::size_t most_vertices(const convex::ApproximateParts& result) {
     std::size_t most = 0;
-    for (const auto& piece : result.pieces) most = std::max(most, piece.hull.points.size());
+    for (const auto& part : result.parts) most = std::max(most, part.hull.points.size());
     return most;
 }
 
 Json table_json(const ApproximateReport& report) {
     Json rows = Json::array();
-    for (std::size_t i = 0; i < report.result.pieces.size(); ++i) {
-        const convex::ApproximatePiece& piece = report.result.pieces[i];
-        Json row = {{"piece", i},
-                    {"vertices", piece.hull.points.size()},
-                    {"facets", piece.hull.facets.size()},
-                    {"triangles", piece.triangles.size()},
-                    {"outer_error", piece.error.upper}};
-        if (piece.node < report.node_names.size() && !report.node_names[piece.node].empty()) {
-            row["node"] = report.node_names[piece.node];
+    for (std::size_t i = 0; i < report.result.parts.size(); ++i) {
+        const convex::ApproximatePart& part = report.result.parts[i];
+        Json row = {{"part", i},
+                    {"vertices", part.hull.points.size()},
+                    {"facets", part.hull.facets.size()},
+                    {"triangles", part.triangles.size()},
+                    {"outer_error", part.error.upper}};
+        if (part.node < report.node_names.size() && !report.node_names[part.node].empty()) {
+            row["node"] = report.node_names[part.node];
         }
         rows.push_back(std::move(row));
     }
@@ -55,31 +55,32 @@ std::string unit_warning(const ApproximateReport& report) {
 }
 
 std::string approximate_text(const ApproximateReport& report) {
-    const convex::ApproximatePieces& result = report.result;
+    const convex::ApproximateParts& result = report.result;
     const double share = report.diagonal > 0 ? 100 * result.outer_error / report.diagonal : 0;
     std::string text = printable(report.input) + ": " +
-                       counted(result.pieces.size(), "convex piece", "convex pieces") +
-                       " enclose " + counted(report.triangles, "triangle", "triangles") + " (" +
+                       counted(result.parts.size(), "convex part", "convex parts") + " enclose " +
+                       counted(report.triangles, "triangle", "triangles") + " (" +
                        in_six_digits(report.seconds) + " s)\n";
     text += "  they stick out of the ";
     text += report.to_surface ? "surface" : "solid";
     text += " by at most " + in_six_digits(result.outer_error) + " (" + in_six_digits(share) +
             " % of the diagonal; at least " + in_six_digits(result.outer_lower) + ")\n";
-    text += "  enclosed: " + std::to_string(result.proof.fragments) + " fragments, " +
+    text += "  proof of enclosure: " + std::to_string(result.proof.fragments) + " fragments, " +
             std::to_string(result.proof.outside) + " corners outside their hulls\n";
-    text += "  at most " + counted(most_vertices(result), "vertex", "vertices") + " a piece\n";
-    if (!report.to_surface && report.open_components > 0) {
+    text += "  at most " + counted(most_vertices(result), "vertex", "vertices") + " per part\n";
+    if (!report.to_surface && report.unbalanced_components > 0) {
         text += "  " +
-                counted(report.open_components, "component is not closed and counts as a surface",
-                        "components are not closed and count as surfaces") +
-                "; to count as solid, close with repair --preset closed first\n";
+                counted(report.unbalanced_components,
+                        "component is not balanced and counts as a surface",
+                        "components are not balanced and count as surfaces") +
+                "; 'cdprep repair --preset closed' makes meshes balanced\n";
     }
     if (result.ran_out_of_work)
-        text += "  the search budget ended early: a larger --work can give a tighter result\n";
+        text += "  the search budget was used up: a larger --work can give a tighter result\n";
     if (!result.is_as_asked)
-        text += "  the request is not met: it needs more pieces or a larger error\n";
+        text += "  the request is not met: it needs more parts or a larger error\n";
     if (report.left_out > 0) {
-        text += "  " + std::to_string(report.left_out) + " flat pieces were not written\n";
+        text += "  " + std::to_string(report.left_out) + " flat parts were not written\n";
     }
     if (report.is_for_simulators)
         text += "  size " + size_text(report.size, report.metres_per_unit) + "\n";
@@ -88,16 +89,16 @@ std::string approximate_text(const ApproximateReport& report) {
     }
     if (report.mass) {
         text += "  mass " + in_six_digits(*report.mass) + " kg, of ";
-        text += report.is_mass_of_pieces ? "the pieces; overlaps count twice\n" : "the solid\n";
+        text += report.is_mass_of_parts ? "the parts; overlaps count twice\n" : "the solid\n";
     }
     if (!report.output.empty()) text += "  written to " + printable(report.output) + "\n";
     if (!report.has_table) return text;
-    text += "  piece vertices facets triangles outer_error\n";
-    for (std::size_t i = 0; i < result.pieces.size(); ++i) {
-        const convex::ApproximatePiece& piece = result.pieces[i];
-        text += "  " + std::to_string(i) + " " + std::to_string(piece.hull.points.size()) + " " +
-                std::to_string(piece.hull.facets.size()) + " " +
-                std::to_string(piece.triangles.size()) + " " + in_six_digits(piece.error.upper) +
+    text += "  part vertices facets triangles outer_error\n";
+    for (std::size_t i = 0; i < result.parts.size(); ++i) {
+        const convex::ApproximatePart& part = result.parts[i];
+        text += "  " + std::to_string(i) + " " + std::to_string(part.hull.points.size()) + " " +
+                std::to_string(part.hull.facets.size()) + " " +
+                std::to_string(part.triangles.size()) + " " + in_six_digits(part.error.upper) +
                 "\n";
     }
     return text;
@@ -108,17 +109,17 @@ std::string approximate_json(const ApproximateReport& report) {
     if (report.error) {
         json["error"] = *report.error;
     } else {
-        const convex::ApproximatePieces& result = report.result;
+        const convex::ApproximateParts& result = report.result;
         json["method"] = "approximate";
         if (report.max_error) json["max_error"] = *report.max_error;
-        if (report.parts) json["parts"] = *report.parts;
+        if (report.max_parts) json["max_parts"] = *report.max_parts;
         json["triangles"] = report.triangles;
-        json["pieces"] = result.pieces.size();
+        json["parts"] = result.parts.size();
         json["outer_error"] = result.outer_error;
         json["outer_error_at_least"] = result.outer_lower;
         json["inner_error"] = result.inner_error;
         json["measured_to"] = report.to_surface ? "surface" : "solid";
-        json["open_components"] = report.open_components;
+        json["unbalanced_components"] = report.unbalanced_components;
         json["diagonal"] = report.diagonal;
         json["size"] = report.size;
         json["metres_per_unit"] = report.metres_per_unit;
@@ -133,7 +134,7 @@ std::string approximate_json(const ApproximateReport& report) {
         json["left_out"] = report.left_out;
         if (report.mass) {
             json["mass"] = *report.mass;
-            json["mass_of"] = report.is_mass_of_pieces ? "pieces" : "solid";
+            json["mass_of"] = report.is_mass_of_parts ? "parts" : "solid";
         }
         json["seconds"] = report.seconds;
         if (report.has_table) json["table"] = table_json(report);

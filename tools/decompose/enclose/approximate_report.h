@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "decompose/enclose/approximate_pieces.h"
+#include "decompose/enclose/approximate_parts.h"
 
 namespace cdprep::report {
 
-/// The result of enclosing one file in convex pieces.
+/// The result of enclosing one file in convex parts.
 struct ApproximateReport {
     std::string input;
     std::string output;               ///< empty: nothing was written
     std::optional<double> max_error;  ///< the requested error, model units
-    std::optional<std::size_t> parts;
+    std::optional<std::size_t> max_parts;
     std::size_t triangles = 0;
     double diagonal = 0;           ///< of the mesh's box, model units
     bool to_surface = false;       ///< the error refers to the surface, not to the solid
@@ -23,13 +23,13 @@ struct ApproximateReport {
     double metres_per_unit = 0;    ///< 0: unknown
     bool is_normalized = false;    ///< then there is no unit
     format::UpAxis up_axis = format::UpAxis::unknown;
-    bool is_for_simulators = false;   ///< the output is in metres, +z up
-    std::size_t open_components = 0;  ///< always measured as surfaces
-    convex::ApproximatePieces result;
-    std::vector<std::string> node_names;  ///< by ApproximatePiece::node; may be empty
+    bool is_for_simulators = false;         ///< the output is in metres, +z up
+    std::size_t unbalanced_components = 0;  ///< always measured as surfaces
+    convex::ApproximateParts result;
+    std::vector<std::string> node_names;  ///< by ApproximatePart::node; may be empty
     std::size_t left_out = 0;             ///< hulls that the output format cannot hold
     std::optional<double> mass;           ///< the mass written, kilograms
-    bool is_mass_of_pieces = false;       ///< overlaps count twice; else the mass is exact
+    bool is_mass_of_parts = false;        ///< overlaps count twice; else the mass is exact
     bool has_table = false;
     double seconds = 0;  ///< of the decomposition alone
     int exit = 0;
@@ -40,11 +40,12 @@ struct ApproximateReport {
 /// size and mass. Empty if no warning applies.
 [[nodiscard]] std::string unit_warning(const ApproximateReport& report);
 
-/// Returns a few lines for a person. With a table, it adds one line per piece.
+/// Returns a few lines for a person. With a table, it adds one line per part.
 [[nodiscard]] std::string approximate_text(const ApproximateReport& report);
 
-/// Returns one JSON object. "pieces" is the number of pieces. "outer_error" and "inner_error" are
-/// proved and in the mesh's unit; "proof" lists the tests of the proof.
+/// Returns one JSON object, which decompose.schema.json describes. "parts" is the number of parts.
+/// "outer_error" and "inner_error" are proved and in the mesh's unit; "proof" lists the tests of
+/// the proof.
 [[nodiscard]] std::string approximate_json(const ApproximateReport& report);
 
 }  // namespace cdprep::report

@@ -33,12 +33,12 @@ std::optional<write::BodyMass> mass_of(const mesh::Mesh& mesh, double density, d
     return body;
 }
 
-mesh::Mesh mesh_of(std::span<const convex::ConvexHull> pieces) {
+mesh::Mesh mesh_of(std::span<const convex::ConvexHull> parts) {
     mesh::Mesh all;
-    for (const convex::ConvexHull& piece : pieces) {
+    for (const convex::ConvexHull& part : parts) {
         const auto first = static_cast<std::uint32_t>(all.positions.size());
-        all.positions.insert(all.positions.end(), piece.points.begin(), piece.points.end());
-        for (const auto& [a, b, c] : piece.facets) {
+        all.positions.insert(all.positions.end(), part.points.begin(), part.points.end());
+        for (const auto& [a, b, c] : part.facets) {
             all.triangles.push_back({{first + a, first + b, first + c}});
         }
     }
@@ -47,14 +47,14 @@ mesh::Mesh mesh_of(std::span<const convex::ConvexHull> pieces) {
 
 }  // namespace
 
-std::optional<WeighedBody> weigh(const mesh::Mesh& mesh, bool is_closed,
-                                 std::span<const convex::ConvexHull> pieces, double density,
+std::optional<WeighedBody> weigh(const mesh::Mesh& mesh, bool is_balanced,
+                                 std::span<const convex::ConvexHull> parts, double density,
                                  double metres_per_unit) {
     const double scale = metres_per_unit > 0 ? metres_per_unit : 1;
-    if (is_closed) {
+    if (is_balanced) {
         if (const auto body = mass_of(mesh, density, scale)) return WeighedBody{*body, false};
     }
-    if (const auto body = mass_of(mesh_of(pieces), density, scale)) return WeighedBody{*body, true};
+    if (const auto body = mass_of(mesh_of(parts), density, scale)) return WeighedBody{*body, true};
     return std::nullopt;
 }
 

@@ -13,12 +13,14 @@ namespace {
 
 using mesh::middle_of;
 
+// A number without a reason was chosen by trial: a finer field or more samples take more time.
 constexpr double kSampling = 0.4;    ///< of a spacing: sides of the last triangles
 constexpr double kCentreWay = 0.67;  ///< of the longest side: bound from centre to corner
 constexpr double kRounded = 1e-5;    ///< of a spacing: exceeds the rounding to float
+constexpr double kCoarser = 0.25;    ///< of a spacing: the step to a larger; halves the nodes
 constexpr double kTooLow = 0.35;     ///< of a spacing: a field is rarely lower than this
 constexpr std::size_t kFiner = 3;    ///< fine nodes per coarse spacing
-constexpr double kMostFine = 6.4e7;  ///< most nodes of the fine field
+constexpr double kMostFine = 6.4e7;  ///< most nodes of the fine field: 256 megabytes
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 constexpr std::size_t kGroup = 4;  ///< nodes along each axis of a group of kept-out nodes
 constexpr double kShell = 1.5;     ///< thickness of the layer of kept-out nodes, in spacings
@@ -73,7 +75,7 @@ DistanceField::DistanceField(const Solid& solid, double spacing, double beyond,
     const Double3 size = mesh::minus(box.upper, box.lower);
     const auto nodes_along = [&](double length) { return std::floor(length / spacing_) + 2; };
     while (nodes_along(size.x) * nodes_along(size.y) * nodes_along(size.z) > most) {
-        spacing_ *= 1.25;
+        spacing_ *= 1 + kCoarser;
     }
     count_ = {static_cast<std::size_t>(nodes_along(size.x)),
               static_cast<std::size_t>(nodes_along(size.y)),

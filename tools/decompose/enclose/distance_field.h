@@ -25,7 +25,7 @@ struct Estimate {
 /// Where that matters, `fine` uses a finer field, whose nodes are measured on first use.
 enum class Detail : std::uint8_t { coarse, fine };
 
-/// Distances from a solid on a grid, negative inside. They guide the search for pieces. Values are
+/// Distances from a solid on a grid, negative inside. They guide the search for parts. Values are
 /// rounded and interpolated; results are measured afterwards.
 class DistanceField {
 public:

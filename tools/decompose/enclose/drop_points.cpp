@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cdprep/exact/triangles.h"
-#include "decompose/enclose/piece_points.h"
+#include "decompose/enclose/part_points.h"
 #include "mesh/point_tree.h"
 #include "mesh/vectors.h"
 
@@ -29,20 +29,25 @@ using mesh::minus;
 using mesh::plus;
 using mesh::scaled;
 
-constexpr double kIgnored = 0.0007;  ///< of half the sum of the box's sides: PhysX
-constexpr double kMargin = 1.5;      ///< for the floats and partial hulls of engines
-constexpr std::size_t kMostRounds = 64;
-constexpr std::uint32_t kFewestPoints = 4;
+// The numbers without a source or reason were chosen by trial. They trade points that stay low,
+// and growth, against time. tests/engines checks how many points engines keep.
+
+/// Of half the sum of the box's sides: the default of PhysX 5 (PxCookingParams::planeTolerance).
+constexpr double kIgnored = 0.0007;
+constexpr double kMargin = 1.5;             ///< factor: for the floats and partial hulls of engines
+constexpr std::size_t kMostRounds = 64;     ///< of replacements: limits the time
+constexpr std::uint32_t kFewestPoints = 4;  ///< a hull with a volume has no fewer
 /// A hull grows by more than the height only while more than one point in so many is low. The last
 /// ones would take most of the growth.
 constexpr std::size_t kFewLow = 50;
 /// The first distance of new points in front of planes, in units of the largest coordinate: the
 /// rounding error of a coordinate. It grows until the exact test passes.
-constexpr double kFirstPad = 0x1p-50, kPadGrowth = 16;
-constexpr int kPads = 6;
+constexpr double kFirstPad = 0x1p-50;
+constexpr double kPadGrowth = 16;
+constexpr int kPads = 6;  ///< the last is 2^-30; then fewer points are replaced at once
 constexpr std::size_t kMostNeighbours = 12;  ///< tried for each low point, the nearest first
 constexpr int kSweeps = 24;                  ///< over planes; what is left is added along a way
-constexpr double kLeastSlope = 0.05;         ///< of a way out against a plane: no shallower
+constexpr double kLeastSlope = 0.05;         ///< sine of a way out against a plane: no shallower
 
 /// The plane of a face, through a point of it: heights are exact up to rounding near that point.
 struct HullPlane {

@@ -29,8 +29,7 @@ std::optional<Error> find_bad_output(const fs::path& input, const fs::path& outp
     if (!format) {
         return Error{ErrorCode::bad_argument,
                      output.string() +
-                         ": the extension names no format that pieces can be written "
-                         "in; it must be .obj, .glb, .urdf, .sdf, .mjcf or .xml."};
+                         ": parts can be written as .obj, .glb, .urdf, .sdf, .mjcf or .xml only."};
     }
     if (write::may_replace(output, *format, input)) {
         return Error{ErrorCode::bad_argument,
@@ -46,9 +45,9 @@ struct Stopped {};
 convex::ApproximateOptions search_options(const EncloseOptions& options) {
     convex::ApproximateOptions how;
     how.max_error = options.max_error;
-    how.parts = options.parts;
+    how.max_parts = options.parts;
     if (options.max_parts) {
-        how.parts = std::min(options.parts.value_or(*options.max_parts), *options.max_parts);
+        how.max_parts = std::min(options.parts.value_or(*options.max_parts), *options.max_parts);
     }
     how.max_vertices = options.max_vertices;
     how.work = options.work;
@@ -71,11 +70,11 @@ std::string unknown_unit(const fs::path& input, const EncloseOptions& options) {
                           : " needs. Give --unit mm, cm, m, in or ft.");
 }
 
-/// Writes the pieces. For simulators, also writes the mass and the visual mesh, in metres, +z up.
-Result<Done> write_pieces(mesh::Mesh mesh, bool is_closed, const EncloseOptions& options,
-                          report::ApproximateReport& report) {
+/// Writes the parts. For simulators, also writes the mass and the visual mesh, in metres, +z up.
+Result<Done> write_parts(mesh::Mesh mesh, bool is_balanced, const EncloseOptions& options,
+                         report::ApproximateReport& report) {
     std::vector<convex::ConvexHull> hulls;
-    for (const convex::ApproximatePiece& piece : report.result.pieces) hulls.push_back(piece.hull);
+    for (const convex::ApproximatePart& part : report.result.parts) hulls.push_back(part.hull);
     const write::HullsFormat format = *write::hulls_format_of(options.output);
     write::HullsFileOptions how;
     how.metres_per_unit = report.metres_per_unit;
@@ -84,12 +83,12 @@ Result<Done> write_pieces(mesh::Mesh mesh, bool is_closed, const EncloseOptions&
         for (convex::ConvexHull& hull : hulls) {
             mesh::turn_up(hull.points, report.up_axis, format::UpAxis::z);
         }
-        const auto weighed = weigh(mesh, is_closed && !options.to_surface, hulls, options.density,
+        const auto weighed = weigh(mesh, is_balanced && !options.to_surface, hulls, options.density,
                                    report.metres_per_unit);
         if (weighed) {
             how.mass = weighed->body;
             report.mass = weighed->body.mass;
-            report.is_mass_of_pieces = weighed->is_of_pieces;
+            report.is_mass_of_parts = weighed->is_of_parts;
         }
     }
     if (options.has_visual && write::has_mesh_files(format)) {
@@ -98,7 +97,7 @@ Result<Done> write_pieces(mesh::Mesh mesh, bool is_closed, const EncloseOptions&
     std::vector<write::HullArrays> written;
     for (std::size_t i = 0; i < hulls.size(); ++i) {
         written.push_back(
-            {"piece_" + std::to_string(i), hulls[i].points, hulls[i].facets, hulls[i].dimension});
+            {"part_" + std::to_string(i), hulls[i].points, hulls[i].facets, hulls[i].dimension});
     }
     const Result<std::size_t> left_out = write::write_hulls(options.output, format, written, how);
     if (!left_out) return left_out.error();
@@ -108,9 +107,9 @@ Result<Done> write_pieces(mesh::Mesh mesh, bool is_closed, const EncloseOptions&
 
 }  // namespace
 
-std::optional<convex::ApproximatePieces> search_pieces(const mesh::Mesh& mesh,
-                                                       convex::ApproximateOptions how,
-                                                       const Threads& threads) {
+std::optional<convex::ApproximateParts> search_parts(const mesh::Mesh& mesh,
+                                                     convex::ApproximateOptions how,
+                                                     const Threads& threads) {
     const auto run = [&](std::size_t count, Task task) {
         const auto unless_stopped = [&](std::size_t i) {
             if (is_interrupted()) throw Stopped{};
@@ -120,7 +119,7 @@ std::optional<convex::ApproximatePieces> search_pieces(const mesh::Mesh& mesh,
     };
     how.parallel_for = run;
     try {
-        return convex::find_approximate_pieces(mesh, how);
+        return convex::find_approximate_parts(mesh, how);
     } catch (const Stopped&) {
         return std::nullopt;
     }
@@ -152,14 +151,14 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     convex::ApproximateOptions how = search_options(options);
     how.node_of = nodes.node_of;
     how.convex_node = nodes.is_convex;
-    std::optional<convex::ApproximatePieces> found = search_pieces(mesh, how, threads);
+    std::optional<convex::ApproximateParts> found = search_parts(mesh, how, threads);
     if (!found || is_interrupted()) return interrupted(input);
     report.result = std::move(*found);
     report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     report.input = input.string();
     report.output = options.output.string();
     report.max_error = options.max_error;
-    report.parts = how.parts;
+    report.max_parts = how.max_parts;
     report.triangles = mesh.triangles.size();
     report.to_surface = options.to_surface;
     report.has_table = options.has_table;
@@ -176,11 +175,11 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     }
     const mesh::Topology topology = mesh::find_topology(mesh);
     for (const format::Component& component : topology.components) {
-        if ((component.flags & format::component_balanced) == 0) ++report.open_components;
+        if ((component.flags & format::component_balanced) == 0) ++report.unbalanced_components;
     }
     if (options.output.empty()) return report;
     progress.show(0, name + ": write");
-    const Result<Done> written = write_pieces(mesh, topology.balanced, options, report);
+    const Result<Done> written = write_parts(mesh, topology.balanced, options, report);
     if (!written) return written.error();
     return report;
 }

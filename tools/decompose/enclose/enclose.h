@@ -29,12 +29,12 @@ struct EncloseOptions {
 };
 
 /// Searches on these threads. Returns nothing soon after a signal.
-[[nodiscard]] std::optional<convex::ApproximatePieces> search_pieces(const mesh::Mesh& mesh,
-                                                                     convex::ApproximateOptions how,
-                                                                     const Threads& threads);
+[[nodiscard]] std::optional<convex::ApproximateParts> search_parts(const mesh::Mesh& mesh,
+                                                                   convex::ApproximateOptions how,
+                                                                   const Threads& threads);
 
-/// Encloses a file's mesh in convex pieces and writes them. find_nodes() decides which parts stay
-/// separate and which become one piece. Fails with `interrupted` soon after a signal, and then
+/// Encloses a file's mesh in convex parts and writes them. find_nodes() decides which nodes stay
+/// separate and which become one part. Fails with `interrupted` soon after a signal, and then
 /// writes nothing.
 [[nodiscard]] Result<report::ApproximateReport> enclose(const std::filesystem::path& input,
                                                         const EncloseOptions& options,

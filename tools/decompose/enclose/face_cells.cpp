@@ -23,6 +23,10 @@ using Interval = CGAL::Interval_nt<true>;
 using mesh::Box;
 using mesh::HalfEdge;
 
+// Limits of the work, as the header states them.
+constexpr std::size_t kMostTriangles = 4'000;
+constexpr std::size_t kMostPlanes = 32;
+constexpr std::size_t kMostCells = 128;
 constexpr double kFlat = 1e-6;       ///< of the diagonal: vertices this near a plane are on it
 constexpr double kStep = 8;          ///< in kFlat: the step to a point beside a plane
 constexpr double kInwards = 1e-3;    ///< of the way to a cell's middle: the step from a corner
@@ -56,13 +60,8 @@ Double3 middle(const Place& place) {
 
 class FaceCutter {
 public:
-    FaceCutter(const mesh::Mesh& mesh, const Solid& solid, const std::vector<bool>& is_wanted,
-               const FaceCellOptions& options)
-        : mesh_(mesh),
-          solid_(solid),
-          is_wanted_(is_wanted),
-          options_(options),
-          near_(kFlat * solid.diagonal()) {}
+    FaceCutter(const mesh::Mesh& mesh, const Solid& solid, const std::vector<bool>& is_wanted)
+        : mesh_(mesh), solid_(solid), is_wanted_(is_wanted), near_(kFlat * solid.diagonal()) {}
 
     std::optional<SolidCells> run() {
         if (!sort_triangles()) return std::nullopt;
@@ -84,7 +83,7 @@ private:
         for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
             const std::uint32_t body = solid_.body_of(i);
             if (!is_wanted_[body]) continue;
-            if (triangles_of_[body].size() == options_.most_triangles) return false;
+            if (triangles_of_[body].size() == kMostTriangles) return false;
             triangles_of_[body].push_back(i);
         }
         return true;
@@ -94,7 +93,7 @@ private:
         const auto faces = find_faces(body);
         if (!faces) return false;
         const std::vector<Plane> planes = choose_planes(*faces);
-        if (planes.size() > options_.most_planes) return false;
+        if (planes.size() > kMostPlanes) return false;
         std::vector<Region> regions = {region_around(body)};
         for (const Plane& plane : planes) {
             std::vector<Region> next;
@@ -102,7 +101,7 @@ private:
             for (Region& region : regions) cut(std::move(region), plane, next);
             ++plane_number_;
             regions = std::move(next);
-            if (cells_.cells.size() + regions.size() > options_.most_cells) return false;
+            if (cells_.cells.size() + regions.size() > kMostCells) return false;
         }
         return std::all_of(regions.begin(), regions.end(),
                            [this](const Region& region) { return close(region); });
@@ -205,7 +204,7 @@ private:
                        });
             });
             if (!is_known) chosen.push_back(face.plane);
-            if (chosen.size() > options_.most_planes) break;
+            if (chosen.size() > kMostPlanes) break;
         }
         return chosen;
     }
@@ -334,15 +333,15 @@ private:
         for (std::size_t which = 0; which < 2; ++which) {
             auto& fragments = (which == 0 ? low : high).fragments;
             for (std::size_t k = 2; k < polygon[which].size(); ++k) {
-                const Fragment part = {
+                const Fragment made = {
                     {polygon[which][0], polygon[which][k - 1], polygon[which][k]},
                     fragment.triangle};
                 if (is_first) {
-                    cells_.fragments[number] = part;
+                    cells_.fragments[number] = made;
                     fragments.push_back(number);
                 } else {
                     fragments.push_back(static_cast<std::uint32_t>(cells_.fragments.size()));
-                    cells_.fragments.push_back(part);
+                    cells_.fragments.push_back(made);
                     ++cells_.fragment_count[fragment.triangle];
                 }
                 is_first = false;
@@ -448,7 +447,6 @@ private:
     const mesh::Mesh& mesh_;
     const Solid& solid_;
     const std::vector<bool>& is_wanted_;
-    const FaceCellOptions& options_;
     double near_;
     std::vector<std::vector<std::uint32_t>> triangles_of_;  ///< of each wanted body
     SurfaceEdges edges_;
@@ -460,10 +458,9 @@ private:
 }  // namespace
 
 std::optional<SolidCells> cut_along_faces(const mesh::Mesh& mesh, const Solid& solid,
-                                          const std::vector<bool>& is_wanted,
-                                          const FaceCellOptions& options) {
+                                          const std::vector<bool>& is_wanted) {
     if (!solid.encloses()) return std::nullopt;
-    return FaceCutter(mesh, solid, is_wanted, options).run();
+    return FaceCutter(mesh, solid, is_wanted).run();
 }
 
 }  // namespace cdprep::convex

@@ -13,7 +13,8 @@
 namespace cdprep::convex {
 namespace {
 
-// The limit of tests of points against planes: once for the hull's, once for the surface's.
+// The limit of tests of points against planes: once for the hull's, once for the surface's. Beyond
+// it, find_hull_error() searches for the bound.
 constexpr std::size_t kMostTests = 4'000'000;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

@@ -39,12 +39,10 @@ public:
         : solid_(solid), options_(options) {}
 
     HullError run(const ConvexHull& hull) {
-        if (!options_.surface_alone) {
-            const auto flush = bound_flush(hull, solid_, kFlush * solid_.diagonal());
-            if (flush && *flush <= std::max(options_.enough, kFlush * solid_.diagonal())) {
-                error_.upper = *flush;
-                return error_;
-            }
+        const auto flush = bound_flush(hull, solid_, kFlush * solid_.diagonal());
+        if (flush && *flush <= std::max(options_.enough, kFlush * solid_.diagonal())) {
+            error_.upper = *flush;
+            return error_;
         }
         for (const Cell& cell : cells_under(hull)) push(cell);
         while (!heap_.empty() && !is_good_enough()) {
@@ -54,7 +52,7 @@ public:
             halve(cell);
         }
         if (!heap_.empty()) error_.upper = std::max(error_.upper, heap_.front().upper);
-        if (hull.dimension == 3 && !options_.surface_alone) look_inside(hull);
+        if (hull.dimension == 3) look_inside(hull);
         // Cells meet at rounded middles, and distances are rounded: the slack covers both.
         if (error_.upper > 0) error_.upper += solid_.slack();
         return error_;

@@ -23,8 +23,6 @@ struct HullErrorOptions {
     double enough = 0;       ///< or upper is at most this, model units; or 1e-6 of the diagonal
     /// Ends as soon as lower exceeds this.
     double too_much = std::numeric_limits<double>::infinity();
-    /// Examines the hull's surface alone; `upper` is then proved for the surface only.
-    bool surface_alone = false;
     std::size_t most_cells = 200'000;  ///< ends at this number, with the bounds found so far
 };
 
@@ -32,8 +30,8 @@ struct HullErrorOptions {
 /// The whole hull counts, not its surface alone: a hull that closes off a cavity is detected.
 ///
 /// Facets are halved, the one with the greatest bound first. The distance to one triangle is
-/// convex, so the corners of a part bound it. Also, no point of a part is farther away than its
-/// middle by more than the part's radius. Then cubes within the hull are cut, for points deeper
+/// convex, so the corners of a half bound it. Also, no point of a half is farther away than its
+/// middle by more than the half's radius. Then cubes within the hull are cut, for points deeper
 /// than 2 % of the error under the surface. Hulls that lie on the surface and in the solid, up to
 /// rounding, are recognised at once.
 [[nodiscard]] HullError find_hull_error(const ConvexHull& hull, const Solid& solid,

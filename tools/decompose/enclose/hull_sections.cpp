@@ -155,9 +155,9 @@ std::optional<HullSections> make_hull_sections(const mesh::Mesh& mesh,
     return sections;
 }
 
-void add_parts(HullSections& sections, std::span<const ApproximatePiece> pieces) {
-    for (std::uint32_t i = 0; i < pieces.size(); ++i) {
-        sections.add(format::HullScope::part, i, {pieces[i].hull, pieces[i].error.upper}, {});
+void add_parts(HullSections& sections, std::span<const ApproximatePart> parts) {
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+        sections.add(format::HullScope::part, i, {parts[i].hull, parts[i].error.upper}, {});
     }
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cdprep/format/hulls.h"
-#include "decompose/enclose/approximate_pieces.h"
+#include "decompose/enclose/approximate_parts.h"
 #include "hull/mesh_hulls.h"
 
 namespace cdprep::convex {
@@ -26,7 +26,8 @@ struct HullSections {
              std::span<const std::uint32_t> source_vertex);
 };
 
-/// The largest number of components for which a file stores component hulls.
+/// The largest number of components for which a file stores component hulls: it limits the size of
+/// the file.
 inline constexpr std::size_t kMostComponentHulls = 1 << 16;
 
 /// Returns the hulls of a mesh: of the whole, of its components and of its instances. Components
@@ -37,7 +38,7 @@ inline constexpr std::size_t kMostComponentHulls = 1 << 16;
     const mesh::Mesh& mesh, std::span<const format::Instance> instances, std::uint32_t max_vertices,
     ParallelFor run);
 
-/// Adds pieces as parts after all other hulls, with their errors as distances.
-void add_parts(HullSections& sections, std::span<const ApproximatePiece> pieces);
+/// Adds the hulls of parts after all others, with the errors of the parts as distances.
+void add_parts(HullSections& sections, std::span<const ApproximatePart> parts);
 
 }  // namespace cdprep::convex

@@ -49,8 +49,8 @@ public:
         const auto grow_one = [&](std::size_t i) { grown[i] = grow(i); };
         parallel_for(grown.size(), grow_one);
         std::vector<Cells> chosen = choose(grown);
-        for (Cells& piece : chosen) {
-            for (std::uint32_t& cell : piece) cell = wanted_[cell];
+        for (Cells& part : chosen) {
+            for (std::uint32_t& cell : part) cell = wanted_[cell];
         }
         return chosen;
     }
@@ -58,7 +58,7 @@ public:
 private:
     // A cell that does not fit will not fit later: hulls only grow.
     [[nodiscard]] Cells grow(std::size_t seed) const {
-        Cells piece = {static_cast<std::uint32_t>(seed)};
+        Cells part = {static_cast<std::uint32_t>(seed)};
         std::vector<Double3> hull = points_[seed];
         std::vector<bool> seen(wanted_.size(), false);
         seen[seed] = true;
@@ -71,7 +71,7 @@ private:
                 near.push({mesh::squared_distance(centre_[other], centre_[seed]), other});
             }
         };
-        see_around(piece[0]);
+        see_around(part[0]);
         while (!near.empty()) {
             const std::uint32_t cell = near.top().second;
             near.pop();
@@ -80,11 +80,11 @@ private:
             ConvexHull both = convex_hull(points);
             if (!is_within_error(both)) continue;
             hull = std::move(both.points);
-            piece.push_back(cell);
+            part.push_back(cell);
             see_around(cell);
         }
-        std::sort(piece.begin(), piece.end());
-        return piece;
+        std::sort(part.begin(), part.end());
+        return part;
     }
 
     [[nodiscard]] bool are_neighbours(std::uint32_t a, std::uint32_t b) const {
@@ -114,12 +114,12 @@ private:
         return false;
     }
 
-    /// Chooses, again and again, the piece that takes in most of the cells left.
+    /// Chooses, again and again, the part that takes in most of the cells left.
     [[nodiscard]] std::vector<Cells> choose(const std::vector<Cells>& grown) const {
         std::vector<Cells> chosen;
         std::vector<bool> is_left(wanted_.size(), true);
-        const auto gain = [&](const Cells& piece) {
-            return std::count_if(piece.begin(), piece.end(),
+        const auto gain = [&](const Cells& part) {
+            return std::count_if(part.begin(), part.end(),
                                  [&](std::uint32_t cell) { return is_left[cell]; });
         };
         for (std::size_t left = wanted_.size(); left > 0;) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "decompose/enclose/piece_points.h"
+#include "decompose/enclose/part_points.h"
 #include "mesh/half_edges.h"
 #include "mesh/vectors.h"
 

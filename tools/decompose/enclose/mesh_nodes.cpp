@@ -5,7 +5,7 @@
 #include <array>
 
 #include "cli/colliders.h"
-#include "decompose/enclose/part_nodes.h"
+#include "decompose/enclose/separate_nodes.h"
 #include "mesh/component_numbers.h"
 #include "mesh/topology.h"
 
@@ -36,20 +36,20 @@ void fill_run(std::vector<std::uint32_t>& node_of, const Run& run, std::uint32_t
     std::fill_n(node_of.begin() + run.first_triangle, run.triangle_count, node);
 }
 
-/// Returns, for each group, true if it is a closed body without the others.
-std::vector<bool> find_closed(const mesh::Mesh& mesh, const std::vector<std::uint32_t>& group_of,
-                              std::size_t count) {
-    const mesh::Mesh parted = convex::part_nodes(mesh, group_of);
-    const mesh::ComponentNumbers numbers = mesh::number_components(parted);
-    const std::vector<format::Component> components = mesh::find_topology(parted).components;
-    std::vector<bool> is_closed(count, true);
-    for (std::size_t i = 0; i < parted.triangles.size(); ++i) {
-        const std::uint32_t component = numbers.of_vertex[parted.triangles[i].vertex[0]];
+/// Returns, for each group, true if it is balanced without the others.
+std::vector<bool> find_balanced(const mesh::Mesh& mesh, const std::vector<std::uint32_t>& group_of,
+                                std::size_t count) {
+    const mesh::Mesh separated = convex::separate_nodes(mesh, group_of);
+    const mesh::ComponentNumbers numbers = mesh::number_components(separated);
+    const std::vector<format::Component> components = mesh::find_topology(separated).components;
+    std::vector<bool> is_balanced(count, true);
+    for (std::size_t i = 0; i < separated.triangles.size(); ++i) {
+        const std::uint32_t component = numbers.of_vertex[separated.triangles[i].vertex[0]];
         if ((components[component].flags & format::component_balanced) == 0) {
-            is_closed[group_of[i]] = false;
+            is_balanced[group_of[i]] = false;
         }
     }
-    return is_closed;
+    return is_balanced;
 }
 
 }  // namespace
@@ -74,9 +74,9 @@ MeshNodes find_nodes(const mesh::TriangleSoup& soup, const mesh::Mesh& mesh) {
     }
     if (!has_groups) return nodes;
     const auto others = static_cast<std::uint32_t>(nodes.names.size());
-    const std::vector<bool> is_closed = find_closed(mesh, nodes.node_of, others);
+    const std::vector<bool> is_balanced = find_balanced(mesh, nodes.node_of, others);
     for (std::uint32_t& node : nodes.node_of) {
-        if (!is_closed[node] && !is_tagged_collider(nodes.names[node])) node = others;
+        if (!is_balanced[node] && !is_tagged_collider(nodes.names[node])) node = others;
     }
     nodes.names.emplace_back();
     nodes.is_convex.push_back(0);

@@ -17,6 +17,10 @@ using mesh::cross;
 using mesh::dot;
 using mesh::minus;
 
+/// Points and planes that one loop without branches tests, so that SIMD lanes are used. They change
+/// no result.
+constexpr std::size_t kPointsAtOnce = 16;
+constexpr std::size_t kPlanesAtOnce = 64;
 constexpr int kMostSteps = 40;      ///< of a search for a plane; then the point counts as inside
 constexpr double kNothing = 1e-18;  ///< of squared distances: nearer counts as inside
 constexpr std::uint32_t kClosed = std::numeric_limits<std::uint32_t>::max();
@@ -134,15 +138,14 @@ Double3 unit(const Double3& v) {
 std::size_t PointRows::farthest(const Double3& along) const {
     std::size_t best = 0;
     double most = -std::numeric_limits<double>::infinity();
-    constexpr std::size_t kAtOnce = 16;
     std::size_t i = 0;
-    for (; i + kAtOnce <= size(); i += kAtOnce) {
-        std::array<double, kAtOnce> value;
-        for (std::size_t k = 0; k < kAtOnce; ++k) {
+    for (; i + kPointsAtOnce <= size(); i += kPointsAtOnce) {
+        std::array<double, kPointsAtOnce> value;
+        for (std::size_t k = 0; k < kPointsAtOnce; ++k) {
             value[k] = along.x * x_[i + k] + along.y * y_[i + k] + along.z * z_[i + k];
         }
         double of_block = value[0];
-        for (std::size_t k = 1; k < kAtOnce; ++k) of_block = std::max(of_block, value[k]);
+        for (std::size_t k = 1; k < kPointsAtOnce; ++k) of_block = std::max(of_block, value[k]);
         if (of_block <= most) continue;
         most = of_block;
         best = i;
@@ -254,13 +257,12 @@ bool SeparatedPoints::keep_out(Planes& planes, std::size_t i, std::span<const Do
 /// Returns true if all points of a group stay outside, each beyond a plane of its own.
 bool SeparatedPoints::keep_out_points(const Near& near, const Added& added) {
     const std::span<const Double3> points = kept_out_.points_of(near.group);
-    constexpr std::size_t kAtOnce = 64;
     const Double3& c = added.centre;
     work_ += points.size();
-    for (std::size_t begin = 0; begin < points.size(); begin += kAtOnce) {
-        const std::size_t count = std::min(kAtOnce, points.size() - begin);
+    for (std::size_t begin = 0; begin < points.size(); begin += kPlanesAtOnce) {
+        const std::size_t count = std::min(kPlanesAtOnce, points.size() - begin);
         const std::size_t first = near.single + begin;
-        std::array<double, kAtOnce> beyond;
+        std::array<double, kPlanesAtOnce> beyond;
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t i = first + k;
             beyond[k] = single_.x[i] * c.x + single_.y[i] * c.y + single_.z[i] * c.z +
@@ -299,12 +301,11 @@ void SeparatedPoints::look_around(const mesh::Box& box) {
 }
 
 bool SeparatedPoints::keep_out_all(const Added& added) {
-    constexpr std::size_t kAtOnce = 64;
     const Double3& c = added.centre;
     work_ += near_.size();
-    for (std::size_t begin = 0; begin < near_.size(); begin += kAtOnce) {
-        const std::size_t count = std::min(kAtOnce, near_.size() - begin);
-        std::array<double, kAtOnce> beyond;
+    for (std::size_t begin = 0; begin < near_.size(); begin += kPlanesAtOnce) {
+        const std::size_t count = std::min(kPlanesAtOnce, near_.size() - begin);
+        std::array<double, kPlanesAtOnce> beyond;
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t i = begin + k;
             beyond[k] = planes_.x[i] * c.x + planes_.y[i] * c.y + planes_.z[i] * c.z +

@@ -21,12 +21,12 @@ std::vector<std::uint32_t> find_hosts(const mesh::Mesh& mesh,
                                       const mesh::ComponentNumbers& components,
                                       const std::vector<format::Component>& facts) {
     std::vector<std::uint32_t> host(components.count);
-    std::vector<bool> closed(components.count);
+    std::vector<bool> balanced(components.count);
     for (std::uint32_t i = 0; i < components.count; ++i) {
         host[i] = i;
-        closed[i] = (facts[i].flags & format::component_balanced) != 0;
+        balanced[i] = (facts[i].flags & format::component_balanced) != 0;
     }
-    for (const mesh::Nested& nested : mesh::find_nested(mesh, components, closed)) {
+    for (const mesh::Nested& nested : mesh::find_nested(mesh, components, balanced)) {
         const double outer = facts[nested.outer].signed_volume;
         if (facts[nested.inner].signed_volume >= 0 || outer <= 0) continue;
         std::uint32_t& chosen = host[nested.inner];
@@ -46,9 +46,9 @@ Solid::Solid(const mesh::Mesh& mesh, Reference reference, ParallelFor parallel_f
     for (std::uint32_t i = 0; i < components.count; ++i) {
         if (host[i] != i) continue;
         body[i] = body_count_++;
-        const bool closed = (facts[i].flags & format::component_balanced) != 0;
-        closed_.push_back(closed && reference == Reference::solid);
-        encloses_ = encloses_ || closed_.back();
+        const bool balanced = (facts[i].flags & format::component_balanced) != 0;
+        balanced_.push_back(balanced && reference == Reference::solid);
+        encloses_ = encloses_ || balanced_.back();
     }
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         body_of_[i] = body[host[components.of_vertex[mesh.triangles[i].vertex[0]]]];
@@ -63,7 +63,7 @@ void Solid::count_around(const Double3& p, std::vector<Around>& around) const {
     const Double3 before = exact::before_along_x(p, diagonal());
     tree_.along_x(p, [&](std::uint32_t triangle) {
         const std::uint32_t body = body_of_[triangle];
-        if (!closed_[body]) return;
+        if (!balanced_[body]) return;
         const WindingTerm term = exact::winding_term(before, p, tree_.corners(triangle));
         auto at = std::find_if(around.begin(), around.end(),
                                [body](const Around& a) { return a.body == body; });

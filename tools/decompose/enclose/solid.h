@@ -12,22 +12,22 @@ namespace cdprep::convex {
 
 /// The reference from which errors are measured.
 enum class Reference : std::uint8_t {
-    solid,   ///< the volume of closed components, and the surface of the others
+    solid,   ///< the volume of balanced components, and the surface of the others
     surface  ///< the surface alone, as for sheets without volume
 };
 
 /// The solid that a mesh encloses, and its surface: it measures the distance of points from it.
 ///
-/// The cavities of a closed component are the inverted components within it. It encloses the points
-/// where the sum of its winding number and theirs is not 0. Other components enclose nothing. Keeps
-/// no reference to the mesh.
+/// The cavities of a balanced component are the inverted components within it. It encloses the
+/// points where the sum of its winding number and theirs is not 0. Other components enclose
+/// nothing. Keeps no reference to the mesh.
 class Solid {
 public:
     /// `mesh` has triangles. The same for any parallel_for.
     Solid(const mesh::Mesh& mesh, Reference reference, ParallelFor parallel_for);
 
-    /// Returns the number of bodies. A body is a closed component with its cavities, or one open
-    /// component.
+    /// Returns the number of bodies. A body is a balanced component with its cavities, or one
+    /// unbalanced component.
     [[nodiscard]] std::uint32_t body_count() const {
         return body_count_;
     }
@@ -40,7 +40,7 @@ public:
     }
     /// Returns true if p is enclosed. Exact; on the surface the result may be either.
     [[nodiscard]] bool includes(const Double3& p) const;
-    /// Returns the bodies that enclose p, or have it on their closed surface; ascending. Exact.
+    /// Returns the bodies that enclose p, or have it on their surface; ascending. Exact.
     [[nodiscard]] std::vector<std::uint32_t> bodies_around(const Double3& p) const;
 
     [[nodiscard]] const TriangleTree& tree() const {
@@ -65,7 +65,7 @@ private:
 
     TriangleTree tree_;
     std::vector<std::uint32_t> body_of_;
-    std::vector<bool> closed_;  ///< of each body
+    std::vector<bool> balanced_;  ///< of each body
     std::uint32_t body_count_ = 0;
     bool encloses_ = false;
     double slack_ = 0;

@@ -18,12 +18,14 @@ using Axis = double Double3::*;
 using Interval = CGAL::Interval_nt<true>;
 
 constexpr std::array<Axis, 3> kAxes = {&Double3::x, &Double3::y, &Double3::z};
+// Chosen by trial: more and smaller cells follow the surface more closely, and take more time.
 constexpr double kSmallest = 0.125;        ///< of the size: smaller cells are not cut
 constexpr double kUncut = 0.125;           ///< of a cell: triangles this small are not cut
 constexpr double kNearMiddle = 0.25;       ///< of a side: how far from its middle a cut may be
-constexpr std::size_t kChunk = 1U << 14U;  ///< fragments examined per task
+constexpr std::size_t kChunk = 1U << 14U;  ///< fragments per task: changes no result
 constexpr std::uint32_t kSharing = 3;      ///< vertices with one coordinate that attract a cut
-constexpr double kBeside = 1e-7;           ///< of the diagonal: the step to a point beside a plane
+// Far above the rounding of coordinates.
+constexpr double kBeside = 1e-7;  ///< of the diagonal: the step to a point beside a plane
 
 /// A box that may still be cut.
 struct Open {
@@ -159,7 +161,7 @@ private:
     };
 
     /// Returns the two halves of each box. Fragments are examined in parallel: many boxes, or many
-    /// parts of one. Fragments that are cut get their numbers one after the other.
+    /// in one. Fragments that are cut get their numbers one after the other.
     std::vector<Open> share_all(std::span<const Cut> cuts) {
         std::vector<Shared> shares;
         for (std::size_t i = 0; i < cuts.size(); ++i) {
@@ -188,8 +190,8 @@ private:
                 cut_in_two(number, cut, below, above);
             }
             for (const std::uint32_t number : shared.loose) {
-                for (const std::uint32_t part : trim(number, cut.open->box, uncut_side(cut))) {
-                    cut_in_two(part, cut, below, above);
+                for (const std::uint32_t inner : trim(number, cut.open->box, uncut_side(cut))) {
+                    cut_in_two(inner, cut, below, above);
                 }
             }
         }
@@ -322,7 +324,7 @@ private:
         return static_cast<std::uint32_t>(cells_.places.size() - 1);
     }
 
-    /// The parts of a fragment on the low and the high side of a plane.
+    /// What a plane leaves of a fragment on its low and its high side.
     struct Halves {
         std::vector<std::uint32_t> low;
         std::vector<std::uint32_t> high;
@@ -380,10 +382,10 @@ private:
         for (const auto& [polygon, half] :
              {std::pair(&low, &halves.low), std::pair(&high, &halves.high)}) {
             for (std::size_t k = 2; k < polygon->size(); ++k) {
-                const Fragment part = {{(*polygon)[0], (*polygon)[k - 1], (*polygon)[k]},
+                const Fragment made = {{(*polygon)[0], (*polygon)[k - 1], (*polygon)[k]},
                                        fragment.triangle};
-                if (is_first) cells_.fragments[number] = part;
-                half->push_back(is_first ? number : add_fragment(part));
+                if (is_first) cells_.fragments[number] = made;
+                half->push_back(is_first ? number : add_fragment(made));
                 is_first = false;
             }
         }
@@ -401,24 +403,24 @@ private:
         above.fragments.insert(above.fragments.end(), halves.high.begin(), halves.high.end());
     }
 
-    /// Returns the parts of a fragment that extend beyond the box by at most `by`. Other boxes have
-    /// the same fragment for the rest.
+    /// Returns what of a fragment extends beyond the box by at most `by`. Other boxes have the same
+    /// fragment for the rest.
     std::vector<std::uint32_t> trim(std::uint32_t number, const Box& box, double by) {
         std::vector<std::uint32_t> kept = {number};
         for (const Axis axis : kAxes) {
             for (const bool is_upper : {false, true}) {
                 const double at = is_upper ? box.upper.*axis : box.lower.*axis;
                 std::vector<std::uint32_t> next;
-                for (const std::uint32_t part : kept) {
-                    const Box around = box_around(cells_.fragments[part]);
+                for (const std::uint32_t one : kept) {
+                    const Box around = box_around(cells_.fragments[one]);
                     const double beyond =
                         is_upper ? around.upper.*axis - at : at - around.lower.*axis;
                     if (beyond <= by) {
-                        next.push_back(part);
+                        next.push_back(one);
                         continue;
                     }
-                    const std::uint32_t triangle = cells_.fragments[part].triangle;
-                    const Halves halves = cut_fragment(part, axis, at);
+                    const std::uint32_t triangle = cells_.fragments[one].triangle;
+                    const Halves halves = cut_fragment(one, axis, at);
                     const auto& in = is_upper ? halves.low : halves.high;
                     const auto& out = is_upper ? halves.high : halves.low;
                     next.insert(next.end(), in.begin(), in.end());
@@ -430,7 +432,7 @@ private:
         return kept;
     }
 
-    /// Makes one cell for each body that has a part in the box.
+    /// Makes one cell for each body that reaches into the box.
     void close(const Open& open) {
         std::vector<std::uint32_t> bodies = solid_.bodies_around(centre(open.box));
         for (const std::uint32_t fragment : open.fragments) {

@@ -17,15 +17,15 @@ struct Place {
     Double3 upper;
 };
 
-/// A triangle of the mesh, or a part of one that a cut made. The exact fragments of a triangle
+/// A triangle of the mesh, or what a cut left of one. The exact fragments of a triangle
 /// cover it, and may overlap.
 struct Fragment {
     std::array<std::uint32_t, 3> place;
     std::uint32_t triangle;
 };
 
-/// The part of one body in a box. The hull of all places of its fragments and of `corners` contains
-/// the body's part in the box, exactly.
+/// What one body has in a box. The hull of all places of its fragments and of `corners` contains
+/// that, exactly.
 struct SolidCell {
     mesh::Box box;
     std::uint32_t body;
@@ -51,7 +51,7 @@ struct SolidCellOptions {
 };
 
 /// Cuts boxes in two across their longest side until they are small enough. Cuts prefer coordinates
-/// that several vertices share, so that no cut runs close to an edge of a machined part. Triangles
+/// that several vertices share, so that no cut runs close to an edge of a machined body. Triangles
 /// much smaller than a cell are not cut: every cell that they may meet has a copy. A copy sticks
 /// out of a cell by at most an eighth of its longest side. A triangle in a cut's plane goes to the
 /// side of its body. The same for any parallel_for.

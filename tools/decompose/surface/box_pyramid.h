@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kWidth = 8;
+    static constexpr std::size_t kWidth = 8;  ///< boxes below one: changes no result
 
     template <class Visit>
     bool visit_below(std::size_t level, std::size_t at, const Box& box, Visit& visit) const {

@@ -19,7 +19,7 @@ using mesh::kNone;
 constexpr std::size_t kLeastRegion = 64;         ///< triangles; smaller regions are quickly merged
 constexpr std::size_t kLeastPolygon = 3;         ///< triangles; two merge over their common edge
 constexpr std::size_t kMostOutline = 4096;       ///< corners; the test is quadratic in them
-constexpr std::uint64_t kMostTests = 1U << 28U;  ///< of one region
+constexpr std::uint64_t kMostTests = 1U << 28U;  ///< of a point against a plane, per region
 
 /// Triangles in groups.
 struct Grouped {
@@ -60,7 +60,7 @@ Grouped connected(const PatchRules& rules, Joins joins) {
 /// Calls body(group) for all groups, in parallel.
 template <class Body>
 void for_groups(const Grouped& groups, ParallelFor parallel_for, Body body) {
-    constexpr std::size_t kAtATime = 1024;
+    constexpr std::size_t kAtATime = 1024;  // groups per task: changes no result
     for_chunks(groups.count(), kAtATime, parallel_for, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) body(i);
     });

@@ -75,7 +75,7 @@ std::vector<std::uint8_t> find_convexity(const mesh::Mesh& mesh, ParallelFor par
 }
 
 std::vector<PieceAdjacency> find_adjacency(const PieceArrays& pieces, ParallelFor parallel_for) {
-    constexpr std::size_t kAtATime = 512;
+    constexpr std::size_t kAtATime = 512;  // pieces per task: changes no result
     std::vector<PieceAdjacency> adjacency(pieces.facets.size());
     const auto begin_of = [&](std::size_t piece) -> std::size_t {
         return piece < pieces.pieces.size() ? pieces.pieces[piece].first_facet

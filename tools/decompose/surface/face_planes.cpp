@@ -13,7 +13,7 @@ namespace cdprep::convex {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kUnit = 0x1p-53;
+constexpr double kUnit = 0x1p-53;  ///< u below
 
 // Error bound. Let u = 2^-53. A component of the normal is a difference of two products of two
 // differences. Its error is (1 + u)^4 - 1 < 4.1u of each product. Let m be the sum of the products'
@@ -27,6 +27,9 @@ constexpr double kNormalDoubt = 5 * kUnit;
 // stays below kLeastDoubt. Nothing overflows.
 constexpr double kMostExtent = 1e100;
 constexpr double kLeastDoubt = 1e-210;
+// A normal has the length of twice an area, in squared model units. The square of this length is
+// far above the least normal double, 2.2e-308. So smaller components may underflow without harm.
+constexpr double kLeastLength = 1e-150;
 
 /// Returns, for each component of a cross product, the sum of the sizes of its products.
 Double3 cross_sizes(const Double3& a, const Double3& b) {
@@ -49,7 +52,7 @@ Double3 extent_of(const mesh::Mesh& mesh) {
 FacePlanes::FacePlanes(const mesh::Mesh& mesh, double tolerance, ParallelFor parallel_for)
     : mesh_(mesh), tolerance_(tolerance), planes_(mesh.triangles.size()) {
     const Double3 extent = extent_of(mesh);
-    constexpr std::size_t kAtATime = 1 << 14;
+    constexpr std::size_t kAtATime = 1 << 14;  // triangles per task: changes no result
     for_chunks(planes_.size(), kAtATime, parallel_for, [&](std::size_t first, std::size_t last) {
         for (std::size_t t = first; t < last; ++t) {
             planes_[t] = plane_of(static_cast<std::uint32_t>(t), extent);
@@ -83,7 +86,7 @@ double FacePlanes::least_length(std::uint32_t triangle) const {
     const double length = std::sqrt(mesh::dot(normal, normal));
     const double doubt = kNormalDoubt * (sizes.x + sizes.y + sizes.z) + kLeastDoubt;
     // Squares below the range of double would be lost: then nothing is known.
-    return length > 1e-150 ? std::max(0.0, length * (1 - 6 * kUnit) - doubt) : 0;
+    return length > kLeastLength ? std::max(0.0, length * (1 - 6 * kUnit) - doubt) : 0;
 }
 
 bool FacePlanes::admits_exactly(std::uint32_t triangle, std::uint32_t vertex) const {

@@ -104,7 +104,7 @@ void grow_patches(const PatchRules& rules, PatchSet& patches, PieceOrder order,
     }
     PatchScope scope{0, static_cast<std::uint32_t>(place.size()), work * place.size()};
     Growth growth(rules, patches, order, scope);
-    constexpr std::size_t kBetweenLooks = 1024;
+    constexpr std::size_t kBetweenLooks = 1024;  // seeds from one call of stop() to the next
     for (std::size_t i = 0; i < seeds.size(); ++i) {
         if (i % kBetweenLooks == 0 && mesh::is_stopped(stop)) return;
         growth.grow(seeds[i]);

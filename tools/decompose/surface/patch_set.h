@@ -19,7 +19,7 @@ struct PatchRules {
     const SurfaceEdges& edges;
     const FacePlanes& planes;
     const SolidParts& solids;
-    /// True if hulls over closed components must stay inside. False with a tolerance. A hull may
+    /// True if hulls over balanced components must stay inside. False with a tolerance. A hull may
     /// then add volume: it is within the tolerance of the surface, or the piece makes no promise.
     bool keeps_inside;
 };
@@ -49,7 +49,7 @@ public:
     }
 
     /// Returns true if two patches of the scope may become one. All faces of each must admit all
-    /// vertices of the other. In closed components the hull of both must stay inside. A refused
+    /// vertices of the other. In balanced components the hull of both must stay inside. A refused
     /// pair stays refused for all patches that grow from the two.
     [[nodiscard]] bool can_join(std::uint32_t a, std::uint32_t b, PatchScope& scope) const;
 
@@ -64,7 +64,7 @@ public:
     /// Makes one patch of triangles; nothing will be joined to it.
     void close(std::span<const std::uint32_t> triangles);
 
-    /// Returns true if the hull of a patch of a closed component stays inside. All its triangles
+    /// Returns true if the hull of a patch of a balanced component stays inside. All its triangles
     /// must lie on the hull.
     [[nodiscard]] bool is_contained(std::uint32_t patch, PatchScope& scope) const;
 

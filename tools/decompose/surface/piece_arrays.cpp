@@ -104,7 +104,7 @@ private:
 
 PieceArrays make_piece_arrays(const mesh::Mesh& mesh, SurfacePieces pieces,
                               ParallelFor parallel_for) {
-    constexpr std::size_t kAtATime = 512;
+    constexpr std::size_t kAtATime = 512;  // pieces per task: changes no result
     const std::size_t count = pieces.pieces.size();
     std::vector<PieceArrays> parts((count + kAtATime - 1) / kAtATime);
     for_chunks(count, kAtATime, parallel_for, [&](std::size_t first, std::size_t last) {

@@ -82,7 +82,8 @@ PieceNodeHull around(const ConvexHull& exact) {
     if (enclosing) return stored(enclosing->hull.points, enclosing->distance);
     const PointBox box = box_of(exact.points);
     // Coordinates may be near double's upper range: halved, their squares stay in it.
-    constexpr double kHalf = 0.5, kRoundedUp = 1 + 0x1p-50;
+    constexpr double kHalf = 0.5;
+    constexpr double kRoundedUp = 1 + 0x1p-50;  // more than the roundings of the diagonal
     const double half = std::hypot(kHalf * box.upper.x - kHalf * box.lower.x,
                                    kHalf * box.upper.y - kHalf * box.lower.y,
                                    kHalf * box.upper.z - kHalf * box.lower.z);

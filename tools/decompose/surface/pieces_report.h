@@ -25,9 +25,9 @@ struct SurfacePiecesReport {
 /// Returns a few lines for a person. With a table, it adds one line per piece.
 [[nodiscard]] std::string pieces_text(const SurfacePiecesReport& report);
 
-/// Returns one JSON object. "pieces" is the number of pieces. "outer_error" and "inner_error" are
-/// the greatest distances of the hulls above and below the surface. They refer to the surface of
-/// the piece, in the mesh's unit.
+/// Returns one JSON object, which decompose.schema.json describes. "pieces" is the number of
+/// pieces. "outer_error" and "inner_error" are the greatest distances of the hulls above and below
+/// the surface. They refer to the surface of the piece, in the mesh's unit.
 [[nodiscard]] std::string pieces_json(const SurfacePiecesReport& report);
 
 /// Returns the name of an order on the command line.

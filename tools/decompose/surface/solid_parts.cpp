@@ -10,9 +10,9 @@ namespace cdprep::convex {
 SolidParts::SolidParts(const mesh::Mesh& mesh)
     : mesh_(mesh), boxes_(mesh), component_of_vertex_(mesh::number_components(mesh).of_vertex) {
     for (const format::Component& component : mesh::find_topology(mesh).components) {
-        const bool closed = (component.flags & format::component_balanced) != 0;
-        closed_.push_back(closed ? 1 : 0);
-        cavity_.push_back(closed && component.signed_volume <= 0 ? 1 : 0);
+        const bool balanced = (component.flags & format::component_balanced) != 0;
+        balanced_.push_back(balanced ? 1 : 0);
+        cavity_.push_back(balanced && component.signed_volume <= 0 ? 1 : 0);
     }
 }
 

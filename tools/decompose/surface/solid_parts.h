@@ -12,15 +12,15 @@ namespace cdprep::convex {
 
 /// The obstacles for a hull over some triangles of a mesh. A hull that avoids them stays in the
 /// solid that the triangles bound. Obstacles are triangles of their own component, and of cavities:
-/// closed components wound inwards. The mesh's triangles must be in tree order, and the mesh must
+/// balanced components wound inwards. The mesh's triangles must be in tree order, and the mesh must
 /// outlive this.
 class SolidParts {
 public:
     explicit SolidParts(const mesh::Mesh& mesh);
 
-    /// Returns true if the triangle's component is closed, so that containment is defined.
+    /// Returns true if the triangle's component is balanced, so that containment is defined.
     [[nodiscard]] bool is_solid(std::uint32_t triangle) const {
-        return closed_[component_of(triangle)] != 0;
+        return balanced_[component_of(triangle)] != 0;
     }
 
     /// Returns true if only own triangles have a point strictly inside the hull of a patch to which
@@ -61,7 +61,7 @@ private:
     const mesh::Mesh& mesh_;
     BoxPyramid boxes_;
     std::vector<std::uint32_t> component_of_vertex_;
-    std::vector<std::uint8_t> closed_;
+    std::vector<std::uint8_t> balanced_;
     std::vector<std::uint8_t> cavity_;
 };
 

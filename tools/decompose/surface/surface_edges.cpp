@@ -48,7 +48,7 @@ SurfaceEdges find_surface_edges(const mesh::Mesh& mesh, ParallelFor parallel_for
     edges.twin.assign(3 * mesh.triangles.size(), kNone);
     edges.kind.assign(3 * mesh.triangles.size(), EdgeKind::no_area);
 
-    constexpr std::size_t kAtATime = 1 << 14;
+    constexpr std::size_t kAtATime = 1 << 14;  // edges per task: changes no result
     const std::size_t parts = (uses.edge_count() + kAtATime - 1) / kAtATime;
     std::vector<std::array<std::size_t, kEdgeKinds>> counts(parts);
     const auto classify = [&](std::size_t part) {

@@ -13,6 +13,10 @@
 namespace cdprep::convex {
 namespace {
 
+/// The limit of tests of a point against a plane, per triangle; a test takes some nanoseconds. It
+/// bounds the running time.
+constexpr std::uint64_t kMostWork = 5000;
+
 /// Returns the triangles in an order that keeps neighbours near each other.
 std::vector<std::uint32_t> tree_order(const mesh::Mesh& mesh, ParallelFor parallel_for) {
     return build::build_bvh(mesh.positions, mesh.triangles,
@@ -50,7 +54,8 @@ SurfacePieces listed(PatchSet& patches, std::span<const std::uint32_t> place) {
 /// Returns an upper bound of the height of a patch's vertices above its planes.
 double error_of(const PatchRules& rules, const PatchSet& patches, std::uint32_t patch,
                 double tolerance, FacePlanes::Points& points) {
-    constexpr std::uint64_t kMostTests = 1U << 24U;  // beyond this, the tolerance is the bound
+    // Of a point against a plane, some nanoseconds each. Beyond this, the tolerance is the bound.
+    constexpr std::uint64_t kMostTests = 1U << 24U;
     const std::uint64_t tests = patches.faces(patch).size() * patches.vertices(patch).size();
     if (tests > kMostTests) return tolerance;
     rules.planes.gather(patches.vertices(patch), points);
@@ -64,9 +69,9 @@ double error_of(const PatchRules& rules, const PatchSet& patches, std::uint32_t 
 /// Sets the promises of each piece. Without a tolerance the pieces were built to keep them.
 void describe(const PatchRules& rules, PatchSet& patches, std::span<const std::uint32_t> place,
               SurfacePieces& result, const SurfacePieceOptions& options) {
-    constexpr std::size_t kAtATime = 256;
+    constexpr std::size_t kAtATime = 256;  // pieces per task, with one limit of tests
     const auto run = [&](std::size_t first, std::size_t last) {
-        PatchScope scope{0, static_cast<std::uint32_t>(place.size()), options.most_work * kAtATime};
+        PatchScope scope{0, static_cast<std::uint32_t>(place.size()), kMostWork * kAtATime};
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t patch = patches.patch_of(place[result.of(i)[0]]);
             SurfacePiece& piece = result.pieces[i];
@@ -102,9 +107,9 @@ SurfacePieces find_surface_pieces(const mesh::Mesh& mesh, const SurfacePieceOpti
     close_convex_regions(rules, patches, parallel_for);
     if (options.order == PieceOrder::greedy) {
         fill_polygons(rules, patches, parallel_for);
-        merge_patches(rules, patches, options.most_work, options.stop, parallel_for);
+        merge_patches(rules, patches, kMostWork, options.stop, parallel_for);
     } else {
-        grow_patches(rules, patches, options.order, places, options.most_work, options.stop);
+        grow_patches(rules, patches, options.order, places, kMostWork, options.stop);
     }
     SurfacePieces result = listed(patches, places);
     result.edges = edges.count;

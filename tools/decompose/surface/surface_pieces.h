@@ -25,10 +25,6 @@ struct SurfacePieceOptions {
     /// Model units, 0 or more. In a piece, each vertex is proved to be at most this far above each
     /// plane of its triangles. 0: exact.
     double tolerance = 0;
-    /// The limit of tests of a point against a plane, per triangle; a test takes some nanoseconds.
-    /// It bounds the running time. Only large, nearly convex surfaces come near it; they then have
-    /// more pieces than necessary. The same for any parallel_for.
-    std::uint64_t most_work = 5000;
     ParallelFor parallel_for = serial_for;
     mesh::StopCheck stop = {};  ///< if it stops, the result is of no use
 };
@@ -36,7 +32,7 @@ struct SurfacePieceOptions {
 /// The properties of a piece besides its triangles.
 struct SurfacePiece {
     /// True if the hull of the vertices has no point outside the solid that the component bounds.
-    /// The component is then closed. Neither its triangles nor those of closed components wound
+    /// The component is then balanced. Neither its triangles nor those of balanced components wound
     /// inwards have a point strictly inside the hull. Exact. A flat piece is contained if it fills
     /// its hull.
     bool contained = false;
@@ -61,13 +57,14 @@ struct SurfacePieces {
 /// Cuts the surface of a mesh into convex pieces: patches whose triangles all lie on the boundary
 /// of the hull of their vertices. Accepts every mesh. Pieces never cross borders, non-manifold
 /// edges or inconsistent edges, and without a tolerance no reflex edges. A triangle without area is
-/// a piece by itself. Pieces of components that are not closed are never marked as contained.
+/// a piece by itself. Pieces of components that are not balanced are never marked as contained.
 ///
 /// All signs are exact: without a tolerance every triangle lies on its hull exactly, and
 /// `contained` is exact. A mesh without reflex edges whose triangles lie on its hull becomes one
 /// piece per component. Positions must be finite and at most format::kMaxCoordinate, and no two may
-/// be equal (weld() ensures this). The pieces are the same for any parallel_for. Measured by
-/// tests/bench/surface_pieces_bench.
+/// be equal (weld() ensures this). The pieces are the same for any parallel_for. The work per
+/// triangle is limited. Only large, nearly convex surfaces come near the limit; they then have more
+/// pieces than necessary. Measured by tests/bench/surface_pieces_bench.
 [[nodiscard]] SurfacePieces find_surface_pieces(const mesh::Mesh& mesh,
                                                 const SurfacePieceOptions& options = {});
 

@@ -57,14 +57,15 @@ json parse_utf8(std::string_view text) {
     constexpr int kMostLevels = 100;
     const auto check_depth = [](int depth, json::parse_event_t /*event*/, json& /*value*/) {
         if (depth > kMostLevels) {
-            throw std::runtime_error("its JSON nests deeper than " + std::to_string(kMostLevels));
+            throw std::runtime_error("its JSON is nested deeper than " +
+                                     std::to_string(kMostLevels) + " levels");
         }
         return true;
     };
     try {
         return json::parse(text, check_depth);
     } catch (const json::parse_error& error) {
-        throw std::runtime_error("byte " + std::to_string(error.byte) + " of its JSON is wrong");
+        throw std::runtime_error("its JSON is invalid at byte " + std::to_string(error.byte));
     }
 }
 

@@ -56,7 +56,8 @@ bool import_scene(const std::string& path) {
         if (missing.empty()) return write_scene(scene, files);
         return write_failure(
             SceneOutcome::unreadable,
-            "needs " + missing + ", which cannot be read from its folder. Put it there", files);
+            "needs " + missing + ", which cannot be read from the same folder. Put it there",
+            files);
     } catch (const std::bad_alloc&) {
         return write_failure(SceneOutcome::out_of_memory, "", files);
     } catch (const std::exception& problem) {

@@ -61,7 +61,7 @@ Matrix transform_of(const pugi::xml_node& node) {
         while (at < end && *at <= ' ') ++at;
         const Number number = parse_number(at, end);
         if (!number.next || !std::isfinite(number.value)) {
-            fail("a transform is \"" + std::string(text) + "\"; 12 finite numbers are needed");
+            fail("found the transform \"" + std::string(text) + "\"; expected 12 finite numbers");
         }
         result[4 * (i % 3) + i / 3] = number.value;
         at = number.next;
@@ -92,7 +92,7 @@ void check_extensions(const pugi::xml_node& model) {
         for (const std::string_view part : kRead) is_read |= uri.find(part) != uri.npos;
         if (!is_read)
             fail("it needs the extension " + std::string(uri.empty() ? prefix : uri) +
-                 ", which is not read");
+                 ", which is not supported");
     }
 }
 
@@ -122,7 +122,7 @@ private:
             const std::string_view type = attribute(one, "Type");
             if (type.ends_with("/3dmodel")) return entry_name(attribute(one, "Target"));
         }
-        fail("its package names no 3D model");
+        fail("its package has no 3D model");
     }
 
     /// Returns an XML document of the package. It is kept, so no document is read twice.
@@ -165,7 +165,7 @@ private:
         const auto found = objects_[name].find(id);
         const std::string object_name = "object " + id + " of " + name;
         if (found == objects_[name].end()) fail(object_name + " does not exist");
-        if (depth > kMaxDepth) fail(object_name + " is below itself, or too deep");
+        if (depth > kMaxDepth) fail(object_name + " contains itself, or is nested too deeply");
         const pugi::xml_node object = found->second;
         const std::string_view title = attribute(object, "name");
         const std::uint32_t node = add_node(title.empty() ? "object_" + id : std::string(title),
@@ -179,7 +179,7 @@ private:
                 }
             }
         } else {
-            fail(object_name + " has neither triangles nor components; nothing else is read");
+            fail(object_name + " has neither triangles nor components; nothing else is supported");
         }
     }
 
@@ -203,7 +203,7 @@ private:
 
     static Scene::Mesh read_mesh(const std::string& part_name, const pugi::xml_node& from) {
         if (child(from, "beamlattice"))
-            fail("a mesh of " + part_name + " has beams, which are not read");
+            fail("a mesh of " + part_name + " has beams, which are not supported");
         Scene::Mesh mesh;
         for (const pugi::xml_node& vertex : child(from, "vertices").children()) {
             if (local_name(vertex.name()) == "vertex") add_vertex(vertex, mesh);

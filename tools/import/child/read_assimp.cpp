@@ -1,21 +1,47 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "readers.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/config.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
-#include "folder_files.h"
+#include "input_files.h"
 
 namespace cdprep::import {
 namespace {
+
+/// Opens for assimp the files that it may read, and records the opened and the missing ones.
+class FolderFiles : public Assimp::DefaultIOSystem {
+public:
+    explicit FolderFiles(InputFiles& files) : files_(files) {}
+
+    bool Exists(const char* name) const override {
+        if (files_.find(name)) return true;
+        files_.note_missing(name);
+        return false;
+    }
+
+    Assimp::IOStream* Open(const char* name, const char* mode) override {
+        const bool reads = std::strchr(mode, 'r') && !std::strchr(mode, '+');
+        Assimp::IOStream* const stream =
+            reads && Exists(name) ? DefaultIOSystem::Open(name, mode) : nullptr;
+        if (stream) files_.note_opened(name, stream->FileSize());
+        return stream;
+    }
+
+private:
+    InputFiles& files_;
+};
 
 std::string_view text_of(const aiString& text) {
     return {text.data, std::min<std::size_t>(text.length, sizeof text.data)};

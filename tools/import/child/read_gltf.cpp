@@ -34,7 +34,7 @@ std::string read_bytes(const std::filesystem::path& path, InputFiles& files) {
     std::string bytes(size, '\0');
     std::ifstream stream(path, std::ios::binary);
     stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!stream) fail(path.filename().string() + " cannot be read whole");
+    if (!stream) fail(path.filename().string() + " cannot be read completely");
     return bytes;
 }
 
@@ -79,7 +79,8 @@ float load_component(std::uint64_t component, const char* at, bool normalized) {
         case f32:
             return load<float>(at);
         default:
-            fail("a position has component type " + std::to_string(component));
+            fail("a position has component type " + std::to_string(component) +
+                 ", which is not supported");
     }
 }
 
@@ -92,10 +93,12 @@ std::uint32_t load_index(std::uint64_t component, const char* at) {
         case u32:
             return load<std::uint32_t>(at);
         default:
-            fail("an index has component type " + std::to_string(component));
+            fail("an index has component type " + std::to_string(component) +
+                 ", which is not supported");
     }
 }
 
+/// assimp has such a function, but does not export it.
 std::string decode_base64(std::string_view text) {
     constexpr std::string_view kDigits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -224,12 +227,13 @@ private:
                 text == "KHR_physics_rigid_bodies" || text == "KHR_implicit_shapes" ||
                 text.starts_with("KHR_materials") || text.starts_with("KHR_texture") ||
                 text.starts_with("EXT_texture");
-            if (!is_harmless) fail("it needs the extension " + text + ", which is not read");
+            if (!is_harmless) fail("it needs the extension " + text + ", which is not supported");
         }
         for (const JsonValue node : root_["nodes"].items()) {
             const std::string_view instancing = "EXT_mesh_gpu_instancing";
             if (node["extensions"][instancing].exists()) {
-                fail("it has instances by " + std::string(instancing) + ", which are not read");
+                fail("it has instances by " + std::string(instancing) +
+                     ", which are not supported");
             }
         }
     }
@@ -299,7 +303,7 @@ private:
             offset <= size && (result.count == 0 || size - offset >= element) &&
             (result.count == 0 || result.count - 1 <= (size - offset - element) / result.stride);
         if (!fits) {
-            fail(name + " counts " + std::to_string(result.count) + " elements from byte " +
+            fail(name + " declares " + std::to_string(result.count) + " elements from byte " +
                  std::to_string(offset) + " of buffer " + std::to_string(buffer) + ", which has " +
                  std::to_string(size) + " bytes");
         }
@@ -429,7 +433,7 @@ private:
             const JsonValue node = root_["nodes"][top.node];
             const std::string name = "node " + std::to_string(top.node);
             if (!node.exists()) fail(name + " does not exist");
-            if (top.depth >= count) fail(name + " is below itself");
+            if (top.depth >= count) fail(name + " is its own descendant");
             if (scene_.nodes.size() >= kMaxUses) {
                 fail("its nodes are used more than " + std::to_string(kMaxUses) + " times");
             }
@@ -512,7 +516,7 @@ std::optional<Parts> split_glb(std::string_view bytes) {
     if (load<std::uint32_t>(bytes.data() + 4) != 2) return std::nullopt;
     const std::uint64_t length = load<std::uint32_t>(bytes.data() + 8);
     if (length > bytes.size()) {
-        fail("the GLB header counts " + std::to_string(length) + " bytes, but the file has " +
+        fail("the GLB header declares " + std::to_string(length) + " bytes, but the file has " +
              std::to_string(bytes.size()));
     }
     Parts parts;

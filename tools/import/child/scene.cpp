@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kResult = 3;  // the parent's descriptor
 
-/// Writes arrays to the result, in pieces.
+/// Writes arrays to the result, by way of a buffer.
 class ResultWriter {
 public:
     template <class T>

@@ -44,8 +44,9 @@ std::string ZipFile::read(const std::string& name) const {
         throw std::runtime_error("its part " + name + " cannot be read");
     }
     if (status.size / kMostPerPackedByte > status.comp_size) {
-        throw std::runtime_error("its part " + name + " claims " + std::to_string(status.size) +
-                                 " bytes, packed into " + std::to_string(status.comp_size));
+        throw std::runtime_error("its part " + name + " declares " + std::to_string(status.size) +
+                                 " bytes, but has only " + std::to_string(status.comp_size) +
+                                 " compressed bytes");
     }
     const std::unique_ptr<zip_file_t, CloseEntry> entry(
         ::zip_fopen_index(archive_.get(), place, 0));

@@ -31,21 +31,6 @@ using Exact = mpq_class;
 template <class Number>
 using Vector = std::array<Number, 3>;
 
-template <class Number>
-Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-template <class Number>
-Number dot(const Vector<Number>& a, const Vector<Number>& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-template <class Number>
-Vector<Number> sum(const Vector<Number>& a, const Vector<Number>& b) {
-    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
 /// The plane of a triangle, as its normal N and its height h: N . p = h for points p in it.
 template <class Number>
 struct Supporting {
@@ -122,7 +107,7 @@ struct RadialCover::Data {
         const auto b = corner<Number>(v[1]);
         const auto c = corner<Number>(v[2]);
         const Vector<Number> ab = cross(a, b);
-        return {sum(sum(ab, cross(b, c)), cross(c, a)), dot(ab, c)};
+        return {plus(plus(ab, cross(b, c)), cross(c, a)), dot(ab, c)};
     }
 
     template <class Number>

@@ -32,7 +32,7 @@ public:
     /// lines. A triangle occludes neither itself, nor an edge-on triangle, nor one in its own
     /// plane. An edge-on triangle occludes nothing and is never occluded. Takes O(others) time if
     /// one direction proves the triangle visible. Otherwise the time grows with the number of
-    /// pieces into which the others cut it. Any number of threads may call it.
+    /// fragments into which the others cut it. Any number of threads may call it.
     [[nodiscard]] bool is_hidden(std::uint32_t triangle,
                                  std::span<const std::uint32_t> others) const;
 

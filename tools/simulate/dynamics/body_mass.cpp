@@ -57,8 +57,8 @@ Error no_mass(const RigidBody& body) {
     const std::string holes =
         " (" + std::to_string(loops) + " boundary loop" + (loops == 1 ? "" : "s") + ")";
     return {ErrorCode::bad_argument,
-            begin + "mesh is open" + (loops == 0 ? "" : holes) +
-                ". Give a mass in the scene, or repair it (--repair closed)."};
+            begin + "mesh is unbalanced" + (loops == 0 ? "" : holes) +
+                ". Give a mass in the scene, or repair the mesh (bake --repair closed)."};
 }
 
 /// A solid box.
@@ -164,8 +164,8 @@ Result<BodyMass> mass_of(const RigidBody& body) {
         if (!has_usable_moments(made) && body.mass) made = mass_of_box(*box, mass);
         if (!has_usable_moments(made)) {
             return refused(body,
-                           "the moments of inertia are not those of a solid that the solver "
-                           "can turn. Give a mass in the scene, or repair the mesh.");
+                           "the moments of inertia are not usable: they are not those of a solid. "
+                           "Give a mass in the scene, or repair the mesh.");
         }
     }
     made.radius = radius_about(made.centre, *box);

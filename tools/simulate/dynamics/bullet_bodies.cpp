@@ -45,11 +45,12 @@ std::string fault_of(const DynamicsOptions& o) {
     constexpr std::uint32_t kMost = 1'000'000;  // of Bullet's int
     if (o.substeps > kMost || o.iterations > kMost) {
         return "There are " + std::to_string(o.substeps) + " substeps and " +
-               std::to_string(o.iterations) + " iterations; at most 1000000 are possible.";
+               std::to_string(o.iterations) + " iterations; at most 1000000 are supported.";
     }
     if (o.most_contacts == 0 || o.most_contacts > kMostListedContacts) {
-        return "Two bodies may have " + std::to_string(o.most_contacts) + " contacts; 1 to " +
-               std::to_string(kMostListedContacts) + " are possible.";
+        return "The maximum number of contacts of two bodies is " +
+               std::to_string(o.most_contacts) + ", but it must be 1 to " +
+               std::to_string(kMostListedContacts) + ".";
     }
     if (!positive(o.rest_gap)) {
         return "The rest gap is " + text(o.rest_gap) + ", but it must be above 0.";
@@ -59,7 +60,7 @@ std::string fault_of(const DynamicsOptions& o) {
     if (!(o.most_speed >= 0) || !(o.tolerance >= needed) || !std::isfinite(o.tolerance)) {
         return "The contact tolerance is " + text(o.tolerance) + ", but at a speed of " +
                text(o.most_speed) + " it must be at least " + text(needed) +
-               ": the rest gap and the way of a substep.";
+               ": the rest gap plus the distance moved in a substep.";
     }
     return {};
 }
@@ -228,7 +229,7 @@ Result<std::uint32_t> BulletBodies::add_body(const RigidBody& body) {
 Result<Done> BulletBodies::drive(std::uint32_t number, const Pose& world_from_model) {
     BulletBody& body = *bodies_[number];
     if (body.given.kind != BodyKind::driven) {
-        return refused(body.given.name + ": only a driven body has its poses set.");
+        return refused(body.given.name + ": only the pose of a driven body can be set.");
     }
     Result<Motion> motion = Motion::between(body.pose, world_from_model, body.mass.centre);
     if (!motion) return refused(body.given.name + ": " + motion.error().message);
@@ -304,8 +305,8 @@ Result<std::uint32_t> BulletBodies::turn_parts(const BulletBody& body, const Dou
         (most_spin(body.mass, body.state, spin) + mesh::length(body.push_turn)) * substep_s;
     if (turn <= kMostTurn) return static_cast<std::uint32_t>(std::max(turn / kPartTurn, 0.0)) + 1;
     return refused(body.given.name + ": may turn by " + text(turn) +
-                   " radians in a substep, but impacts are found up to " + text(kMostTurn) +
-                   ". Take more substeps.");
+                   " radians in a substep, but impacts are only found up to " + text(kMostTurn) +
+                   ". Use more substeps.");
 }
 
 /// Returns in how many steps moved_freely() computes one of some equal parts of a turn. Beyond
@@ -348,7 +349,7 @@ Result<Done> BulletBodies::fly(std::uint32_t number, double substep_s, std::vect
         }
         const Result<Pose> next = pose_of(motion.state, body.mass.centre);
         if (!next) {
-            return refused(body.given.name + ": the body flew away. " + next.error().message);
+            return refused(body.given.name + ": the body moved too far. " + next.error().message);
         }
         if (Result<Done> added_to = add_motion(body, pose, *next, way); !added_to) return added_to;
         pose = *next;

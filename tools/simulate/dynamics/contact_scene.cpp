@@ -51,7 +51,7 @@ Result<Done> ContactScene::add(const RigidBody& body) {
         layers_.resize(before);
         return Error{ErrorCode::bad_argument, body.name + ": the groups and kinds of bodies need " +
                                                   std::to_string(needed) + " layers; at most " +
-                                                  std::to_string(kLayers) + " are possible."};
+                                                  std::to_string(kLayers) + " are supported."};
     }
     objects_.push_back({body.model, number, body.world_from_model});
     scene_.reset();

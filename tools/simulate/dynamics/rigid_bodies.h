@@ -122,8 +122,8 @@ public:
 
     /// Adds a body and returns its number: 0, 1, and so on. Fails with bad_argument if the model
     /// does not serve the contacts, or a moving body has no mass. Also fails if there are too many
-    /// groups. A closed model's mass is in the file. An open model needs body.mass; its centre and
-    /// inertia are then those of its box.
+    /// groups. A balanced model's mass is in the file. An unbalanced model needs body.mass; its
+    /// centre and inertia are then those of its box.
     [[nodiscard]] virtual Result<std::uint32_t> add_body(const RigidBody& body) = 0;
 
     /// Says where a driven body is at the end of the next step(). Fails with bad_argument if the

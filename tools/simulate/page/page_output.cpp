@@ -27,8 +27,8 @@ Result<Done> check_outputs(const std::vector<std::filesystem::path>& inputs,
     for (const std::filesystem::path& path : outputs) {
         if (path == "-") {
             return Error{ErrorCode::bad_argument,
-                         "An output is named '-'. The report alone goes to standard output, "
-                         "without -o. Choose a file."};
+                         "'-' is not supported as an output file. Only the report can go to "
+                         "standard output: leave out -o."};
         }
         if (Result<Done> added = used.add_output(path); !added) return added;
     }

@@ -18,7 +18,7 @@ namespace {
 constexpr double kLeft = 76;
 constexpr double kRight = kSceneChartWidth - 20;
 constexpr double kBottom = kSceneChartHeight - 48;
-constexpr double kKeyWidth = 191;  ///< of "changes of models" in the page's letters
+constexpr double kKeyWidth = 191;  ///< of "model changes" in the page's letters
 constexpr double kKeyHeight = 19;
 constexpr std::size_t kKeyColumns = 4;
 constexpr int kTicks = 6;
@@ -159,7 +159,7 @@ std::string scene_chart_words(const SceneTimeline& timeline) {
     const std::uint64_t frames = timeline.frames_per_span();
     if (frames == 1) return "Microseconds of each frame, by stage.";
     return "Microseconds a frame, by stage: the mean of each " + std::to_string(frames) +
-           " frames. The line is their longest frame.";
+           " frames. The line is the longest of these frames.";
 }
 
 std::string scene_chart_style() {

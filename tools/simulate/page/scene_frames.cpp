@@ -255,7 +255,7 @@ void SceneFrames::choose_live_models(const scenes::Simulation& simulation) {
     for (std::size_t i = 0; i < changing.size(); ++i) {
         if (changing[i].objects.front() >= objects()) continue;  // not on the page
         const scenes::Cut& cut = changing[i].live.cut();
-        sizes.emplace_back(changing[i].live.live().triangle_count() + cut.parts.size(), i);
+        sizes.emplace_back(changing[i].live.live().triangle_count() + cut.appended.size(), i);
     }
     std::ranges::sort(sizes);
     std::size_t sum = 0;

@@ -32,12 +32,12 @@ class Lanes {
   make_lane(effect, number) {
     const swatch = make('span', {class: 'swatch', 'aria-hidden': 'true'});
     swatch.style.setProperty('--mark', effect_colour(effect));
-    const now = make('span', {class: 'now', title: 'pairs of objects for which it holds now'});
+    const now = make('span', {class: 'now', title: 'pairs of objects for which the effect holds now'});
     const time = this.run.time_of(number);
     const picture = svg('svg', {role: 'img', 'aria-label': this.words(effect, number)});
     this.holder.append(make('div', {class: 'lane', id: 'lane-' + effect.name},
         make('div', {class: 'lane-name'}, swatch, effect.name, now,
-             make('small', {}, time.of + ' to ' + in_time(most_of(time.us)))),
+             make('small', {}, time.of + ' \u2264 ' + in_time(most_of(time.us)))),
         make('div', {class: 'lane-body'}, picture)));
     picture.addEventListener('click', (event) => this.go(this.frame_at(event)));
     picture.addEventListener('pointermove', (event) => this.hint(event, number));

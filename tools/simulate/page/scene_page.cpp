@@ -276,7 +276,7 @@ public:
         }
         if (objects > frames.objects()) {
             add("The page has " + std::to_string(frames.objects()) + " of " +
-                std::to_string(objects) + " objects, the first ones of the file.");
+                std::to_string(objects) + " objects: the first ones in the file.");
         }
         ShownFrame sum;
         for (const ShownFrame& shown : frames.frames()) {
@@ -298,15 +298,13 @@ public:
             const std::string name = printable(file.models[i].filename().string());
             if (!model.is_drawn && models[i].needs.asks == Ask::nothing) {
                 add(name +
-                    " is not drawn: no pair of layers asks for its objects, so it was not "
-                    "opened.");
+                    " is not drawn: no pair of layers uses its objects, so it was not opened.");
             } else if (!model.is_drawn && models[i].model && model.triangles > 0) {
                 add(name +
-                    " is not drawn: it has no positions, or none of its objects is on the "
-                    "page.");
+                    " is not drawn: it has no positions, or the page has no object that uses it.");
             } else if (!model.is_exact) {
-                add(name + " is drawn coarsely: " + std::to_string(model.triangles) +
-                    " triangles are too many. Its touching triangles are exact.");
+                add(name + " is drawn coarsely because it has " + std::to_string(model.triangles) +
+                    " triangles. Its touching triangles are exact.");
             }
             if (model.lit_left_out > 0) {
                 add(sentence(model.lit_left_out, "triangle", "triangles", "of ") + name +
@@ -327,9 +325,8 @@ public:
             if (frames.live_models()[i].is_drawn) continue;
             if (changing[i].objects.front() >= frames.objects()) continue;  // told above
             const std::string name = printable(file.objects[changing[i].objects.front()].name);
-            add("'" + name + "' deforms or tears, but is drawn as it was at rest: " +
-                std::to_string(changing[i].live.live().triangle_count()) +
-                " triangles are too many.");
+            add("'" + name + "' deforms or tears, but is drawn at rest because it has " +
+                std::to_string(changing[i].live.live().triangle_count()) + " triangles.");
         }
     }
 
@@ -338,7 +335,8 @@ private:
         sentences.push_back(std::move(text));
     }
     void add_parts(std::uint64_t count, const char* one, const char* many) {
-        if (count > 0) add(sentence(count, one, many, "in shown frames, summed, are not drawn."));
+        if (count > 0)
+            add(sentence(count, one, many, "in all shown frames together are not drawn."));
     }
 };
 

@@ -154,9 +154,9 @@ function effect_table() {
              make('td', {}, cell(spans.ends, k)),
              make('td', {}, whole(now.calls[k])))
       : make('tr', {class: 'off'}, make('td', {}, effect.name),
-             make('td', {colspan: 4}, effect.is_replayed ? 'not computed: poses of the recording'
-                                   : effect.is_dropped ? 'not computed: --drop leaves it out'
-                                                       : 'not computed: no pair of layers asks')));
+             make('td', {colspan: 4}, effect.is_replayed ? 'not computed: the poses are from the recording'
+                                   : effect.is_dropped ? 'left out by --drop'
+                                                       : 'not requested by any pair of layers')));
   const head = ['Effect', 'Pairs', 'Begin', 'End', 'Calls'].map((name) => make('th', {scope: 'col'}, name));
   return make('table', {class: 'plain', id: 'effect-table'}, make('thead', {}, make('tr', {}, ...head)),
               make('tbody', {}, ...rows));
@@ -166,8 +166,8 @@ function work_table() {
   const {counts, us, contacts, awake} = run.now;
   const rows = [['Objects that moved', whole(counts.moved)],
                 ['Pairs whose boxes meet', whole(counts.candidates)],
-                ['of which nothing moved', whole(counts.kept)],
-                ['of which root boxes are apart', whole(counts.apart)]];
+                ['Of these, results kept', whole(counts.kept)],
+                ['Of these, root boxes apart', whole(counts.apart)]];
   if (counts.unknown) rows.push(['Pairs for which it is unknown whether they collide', whole(counts.unknown)]);
   const asks = (name) => asked.some((effect) => effect.name === name);
   if (asks('overlap')) rows.push(['Pairs of triangles that touch', whole(counts.triangle_pairs)]);
@@ -255,7 +255,7 @@ function paint_object({i}, element) {
   const [name, model, layer, is_asked] = run.objects[i];
   element.setAttribute('aria-selected', state.chosen === i ? 'true' : 'false');
   element.append(layer_swatch(layer), make('span', {class: 'name wide'}, name),
-                 make('span', {class: 'quiet'}, run.layers[layer] + (is_asked ? '' : ', not asked')),
+                 make('span', {class: 'quiet'}, run.layers[layer] + (is_asked ? '' : ', not queried')),
                  make('span', {class: 'quiet'}, run.models[model].name));
   element.title = name + ', layer ' + run.layers[layer] + ', ' + run.models[model].name;
 }
@@ -290,7 +290,7 @@ function pair_options(pair) {
   const words = [];
   if (pair.effects.includes('within')) words.push('tolerance ' + number(pair.tolerance));
   if (pair.effects.includes('distance')) words.push('at most ' + number(pair.max_distance));
-  if (pair.rung) words.push('error at most ' + number(pair.rung.error) + ', by ' + (pair.rung.name === 'parts' ? 'enclosing parts' : 'the walk'));
+  if (pair.rung) words.push('error at most ' + number(pair.rung.error) + ', by ' + (pair.rung.name === 'parts' ? 'enclosing parts' : 'BVH traversal'));
   if (pair.contacts) words.push('contacts within ' + number(pair.contacts.tolerance) + ', most ' + whole(pair.contacts.most));
   if (pair.body === 'solid') words.push('solids');
   if (pair.overlap === 'proper') words.push('proper overlap');
@@ -301,7 +301,7 @@ function model_sections(model) {
   const name = model.path.split('/').pop();
   const title = make('h3', {title: model.path}, name);
   if (!model.serves.length) {
-    return [title, make('p', {class: 'none'}, 'Not opened: no pair of layers asks for its objects.')];
+    return [title, make('p', {class: 'none'}, 'Not opened: no pair of layers uses its objects.')];
   }
   const all = model.read_bytes + model.untouched_bytes;
   const share = make('div', {class: 'share', 'aria-hidden': 'true'}, make('i', {}));
@@ -322,12 +322,12 @@ function write_plan() {
       make('td', {}, pair.layers.join(' \u2013 ')), make('td', {class: 'text'}, pair.effects.join(', ')),
       make('td', {class: 'text'}, pair_options(pair))));
   $('panel-plan').replaceChildren(
-      make('h3', {}, 'What is asked'),
+      make('h3', {}, 'Requested effects'),
       make('table', {class: 'plain'}, make('thead', {}, make('tr', {}, ...head)), make('tbody', {}, ...rows)),
       make('p', {}, not_computed_words() || 'Every effect is computed for some pair of layers.'),
-      make('p', {class: 'note'}, 'Other pairs of layers are never looked at.'),
-      make('h3', {}, 'What is read'),
-      make('p', {class: 'note'}, 'Sections of the models, as the plan needs them. Grey ones are in the file, but never touched.'),
+      make('p', {class: 'note'}, 'Other pairs of layers are never tested.'),
+      make('h3', {}, 'Sections read'),
+      make('p', {class: 'note'}, 'Sections of the models that the plan needs. Grey sections are in the file, but are never read.'),
       ...plan.models.flatMap(model_sections),
       make('details', {}, make('summary', {}, 'The same as text'),
            make('pre', {class: 'plan-text'}, read_json('plan-text'))));
@@ -338,12 +338,11 @@ function not_computed_words() {
   const unasked = plan.not_computed.filter((name) => !dropped.includes(name));
   const words = [];
   if (unasked.length) {
-    words.push('Not computed: ' + unasked.join(', ') + '. No pair of layers asks for ' +
-               (unasked.length === 1 ? 'it' : 'them') + ': 0 calls.');
+    words.push('Not requested by any pair of layers: ' + unasked.join(', ') + '.');
   }
   if (dropped.length) words.push('Left out by --drop: ' + dropped.join(', ') + '.');
   if (run.effects.some((effect) => effect.is_replayed)) {
-    words.push('Response was not computed here: the poses are those of the recording.');
+    words.push('Response was not computed here: the poses are from the recording.');
   }
   return words.join(' ');
 }
@@ -358,7 +357,7 @@ function write_costs() {
   const head = ['Stage', 'Mean, us a frame', most].map((name) => make('th', {scope: 'col'}, name));
   $('costs').replaceChildren(make('table', {class: 'plain'}, make('thead', {}, make('tr', {}, ...head)),
                                   make('tbody', {}, ...rows)),
-      make('p', {class: 'note'}, 'The time that the library took on this run. Poses, output and the page are not in it.'),
+      make('p', {class: 'note'}, 'Time of the library in this run, without poses, output and this page.'),
       ...changes_of_time());
 }
 
@@ -371,11 +370,11 @@ function changes_of_time() {
       make('td', {}, (effect.change_of_time > 0 ? '+' : '') + percent(effect.change_of_time)),
       make('td', {}, percent(effect.spread_of_time))));
   const head = ['Without', 'Change of time', 'Spread'].map((name) => make('th', {scope: 'col'}, name));
-  return [make('h3', {}, 'The price of each effect'),
+  return [make('h3', {}, 'Cost of each effect'),
           make('table', {class: 'plain', id: 'effect-costs'}, make('thead', {}, make('tr', {}, ...head)),
                make('tbody', {}, ...rows)),
-          make('p', {class: 'note'}, 'The time of all frames when the scene runs without the effect, against the whole ' +
-               'scene: the median of rounds that alternate. The spread is the largest change minus the smallest.')];
+          make('p', {class: 'note'}, 'Change of the time of all frames if the scene runs without the effect. It is the ' +
+               'median of alternating rounds. The spread is the largest change minus the smallest.')];
 }
 
 // ---- The address: #frame=12&object=3
@@ -422,7 +421,7 @@ function start_view() {
   }
   const {view} = state;
   view.on_draw = place_label;
-  view.canvas.setAttribute('aria-label', 'The objects of ' + run.name + '. The tab Frame lists what holds.');
+  view.canvas.setAttribute('aria-label', 'The objects of ' + run.name + '. The tab Frame lists the effects that hold.');
   $('fit').onclick = () => { choose(null, false); view.fit(true); };
   $('edges').onclick = () => press('edges', view.toggle('edges'));
   $('glass').onclick = () => press('glass', view.toggle('glass'));

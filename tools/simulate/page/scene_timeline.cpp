@@ -56,7 +56,7 @@ std::vector<StageTime> stage_times(const scenes::Simulation& simulation) {
         times.push_back({"response", simulation.response_seconds()});
     }
     if (!simulation.changing().empty()) {
-        times.push_back({"changes of models", simulation.change_work().seconds});
+        times.push_back({"model changes", simulation.change_work().seconds});
     }
     times.push_back({"boxes", seconds(counts.box_ticks)});
     for (std::size_t i = 0; i < kSceneEffects.size(); ++i) {
@@ -64,7 +64,7 @@ std::vector<StageTime> stage_times(const scenes::Simulation& simulation) {
         times.push_back(
             {scenes::effect_name(kSceneEffects[i]), seconds(counts.ticks[i] / threads)});
     }
-    times.push_back({"rest of pairs", seconds(rest_of_pairs(counts, threads))});
+    times.push_back({"pair overhead", seconds(rest_of_pairs(counts, threads))});
     times.push_back({"lists", seconds(counts.list_ticks)});
     return times;
 }

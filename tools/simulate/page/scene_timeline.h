@@ -14,7 +14,7 @@
 namespace cdprep::report {
 
 /// Returns the parts of the last frame's time, the same ones for each frame. They are the response,
-/// changes of models, boxes, the queries of each effect, the rest of the pairs, and lists. Queries
+/// model changes, boxes, the queries of each effect, the rest of the pairs, and lists. Queries
 /// are means over the threads. A part with the name of an effect is drawn in its lane.
 [[nodiscard]] std::vector<StageTime> stage_times(const scenes::Simulation& simulation);
 

@@ -76,7 +76,7 @@ struct EffectCost {
     return names;
 }
 
-/// Returns them as lines of text: those that nobody asks for, and those that --drop left out. Then
+/// Returns them as lines of text: those that no pair requests, and those that --drop left out. Then
 /// come those that no version computes yet.
 [[nodiscard]] inline std::string not_computed_lines(const scenes::SceneFile& scene,
                                                     std::span<const std::string> names) {
@@ -90,9 +90,9 @@ struct EffectCost {
     }
     for (const std::string& name : not_built()) add(unbuilt, name);
     std::string text;
-    if (!unasked.empty()) text += "not computed, for no pair of layers asks: " + unasked + "\n";
-    if (!dropped.empty()) text += "not computed, for --drop leaves it out: " + dropped + "\n";
-    return text + "not computed, for it is not built: " + unbuilt + "\n";
+    if (!unasked.empty()) text += "not requested by any pair of layers: " + unasked + "\n";
+    if (!dropped.empty()) text += "left out by --drop: " + dropped + "\n";
+    return text + "not supported yet: " + unbuilt + "\n";
 }
 
 }  // namespace cdprep::report

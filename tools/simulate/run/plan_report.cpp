@@ -38,7 +38,7 @@ const char* origin_name(ModelOrigin origin) {
 const char* origin_text(ModelOrigin origin) {
     switch (origin) {
         case ModelOrigin::unused:
-            return "not opened, for no pair of layers asks for its objects";
+            return "not opened: no pair of layers uses its objects";
         case ModelOrigin::baked:
             return "a baked file";
         case ModelOrigin::in_memory:
@@ -82,7 +82,7 @@ std::string model_text(const std::string& path, const SceneModel& model) {
     const SectionUse use = use_of(*model.model);
     text += "  must serve: " + joined(names_of(model.needs.asks));
     const Ask wishes = without(model.needs.wishes, model.needs.asks);
-    if (wishes != Ask::nothing) text += "; uses if it can: " + joined(names_of(wishes));
+    if (wishes != Ask::nothing) text += "; also uses, if present: " + joined(names_of(wishes));
     text += "\n";
     text += sections_text("read", use.read);
     text += sections_text("never touched", use.untouched);
@@ -226,7 +226,7 @@ std::string not_computed_text(const SceneFile& scene, const Plan& plan) {
         alone += (alone.empty() ? "" : ", ") + printable(name);
     }
     if (!alone.empty())
-        text += "layers in no pair, whose objects are never looked at: " + alone + "\n";
+        text += "layers in no pair, whose objects are never tested: " + alone + "\n";
     return text + unpaired_text(scene);
 }
 
@@ -253,10 +253,10 @@ const char* deform_word(const Change& change) {
 }
 
 std::string tear_text(const Change& change, const scenes::Cut& cut) {
-    if (cut.misses) return "does not tear, for the plane misses it";
+    if (cut.misses) return "does not tear: the plane misses it";
     return "tears at " + number_text(change.tear->time_s) +
-           " s: " + counted(cut.removed.size(), "triangle", "triangles") + " into " +
-           counted(cut.parts.size(), "part", "parts") + ", with " +
+           " s: " + counted(cut.removed.size(), "triangle", "triangles") + " removed and " +
+           std::to_string(cut.appended.size()) + " appended, with " +
            counted(cut.vertices.size(), "new vertex", "new vertices");
 }
 
@@ -287,7 +287,7 @@ Json change_json(const SceneFile& scene, const ChangingObjects& changing) {
         json["tear"] = {{"time_s", change.tear->time_s},
                         {"misses", cut.misses},
                         {"torn", cut.removed.size()},
-                        {"parts", cut.parts.size()},
+                        {"appended", cut.appended.size()},
                         {"vertices", cut.vertices.size()}};
     }
     return json;

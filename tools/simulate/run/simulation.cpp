@@ -183,7 +183,7 @@ Result<Done> Simulation::make_room(const SceneStep& step, std::uint64_t frame) {
     }
     const std::uint64_t most =
         std::max({step.needed_pairs, step.needed_triangle_pairs, step.needed_contacts});
-    if (most > kMostRoom) return refuse("items in lists, but the most", most, kMostRoom);
+    if (most > kMostRoom) return refuse("items in lists, but the maximum", most, kMostRoom);
     limits_.pairs = room_for(step.needed_pairs, limits_.pairs);
     limits_.triangle_pairs = room_for(step.needed_triangle_pairs, limits_.triangle_pairs);
     limits_.contacts = room_for(step.needed_contacts, limits_.contacts);

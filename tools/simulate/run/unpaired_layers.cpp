@@ -40,7 +40,7 @@ nlohmann::ordered_json unpaired_json(const scenes::SceneFile& scene) {
 std::string unpaired_text(const scenes::SceneFile& scene) {
     std::string text;
     for (const UnpairedLayers& layers : unpaired_layers(scene)) {
-        text += (text.empty() ? "layers that are never looked at together: " : ", ") +
+        text += (text.empty() ? "layers never tested against each other: " : ", ") +
                 printable(scene.layers[layers.a]) + "-" + printable(scene.layers[layers.b]) + " (" +
                 counted(layers.pairs, "pair", "pairs") + " of objects)";
     }

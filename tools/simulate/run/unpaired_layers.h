@@ -17,7 +17,7 @@ struct UnpairedLayers {
     std::uint64_t pairs;  ///< of their objects
 };
 
-/// Returns the layers whose objects are never looked at together, if they have any.
+/// Returns the layers whose objects are never tested against each other, if they have any.
 [[nodiscard]] std::vector<UnpairedLayers> unpaired_layers(const scenes::SceneFile& scene);
 
 /// Returns the same as JSON (simulate.schema.json), and as a line of text or nothing.

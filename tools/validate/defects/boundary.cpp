@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "cdprep/advanced/disjoint_sets.h"
 #include "mesh/close_groups.h"
-#include "mesh/disjoint_sets.h"
 #include "mesh/half_edges.h"
 #include "validate/defects/source_places.h"
 
@@ -109,7 +109,7 @@ Boundary find_boundary(const Mesh& mesh, std::vector<FlawedEdge> edges) {
     std::sort(boundary.edge.begin(), boundary.edge.end(), comes_before);
     list_ends(mesh, boundary);
     list_edges_at_ends(boundary);
-    DisjointSets sets(boundary.vertex.size());
+    build::DisjointSets sets(boundary.vertex.size());
     for (const FlawedEdge& edge : boundary.edge) {
         sets.unite(boundary.end_at(edge.from), boundary.end_at(edge.to));
     }

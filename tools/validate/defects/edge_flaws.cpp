@@ -5,7 +5,7 @@
 #include <span>
 #include <tuple>
 
-#include "mesh/disjoint_sets.h"
+#include "cdprep/advanced/disjoint_sets.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 /// Returns the lowest triangle of each fan. Corners with a common edge belong to one fan.
 std::vector<std::uint32_t> fans_of(std::span<const StarCorner> star,
                                    const std::vector<EdgeUse>& uses) {
-    DisjointSets fans(star.size());
+    build::DisjointSets fans(star.size());
     for (std::size_t i = 1; i < uses.size(); ++i) {
         if (uses[i].other == uses[i - 1].other) fans.unite(uses[i].corner, uses[i - 1].corner);
     }

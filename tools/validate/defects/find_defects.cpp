@@ -207,8 +207,7 @@ private:
 
     /// Measures areas and volumes; lists triangles of zero area and slivers (CDP0202, CDP0203).
     void measure() {
-        measures_ = measure_surface(sound_, components_, balanced_, options_.sliver_ratio,
-                                    findings_, counts());
+        measures_ = measure_surface(sound_, components_, balanced_, findings_, counts());
     }
 
     /// Lists components (CDP0401, CDP0404).

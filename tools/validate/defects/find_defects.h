@@ -17,7 +17,6 @@ namespace cdprep::mesh {
 struct DefectOptions {
     double weld_distance = 0;       ///< near_vertex; model units; 0 disables it
     double seam_width = 0;          ///< near_seam; model units; 0 disables it
-    double sliver_ratio = 1e-10;    ///< sliver: area below this times the squared longest edge
     std::size_t max_places = 1000;  ///< kept per finding
     bool crossings = true;          ///< rules 403 and 501 to 503
     /// The limit on pairs of triangles that meet; the search for them ends soon after it.

@@ -45,14 +45,13 @@ constexpr std::array kRules = {
              "No repair is necessary; weld in repair leaves it out.", kExact, ""},
     RuleText{Rule::duplicate_vertex, "duplicate-vertex", Severity::note,
              "Vertices have equal positions",
-             "A vertex of the file, used or not, whose three coordinates equal those of a "
-             "vertex with a lower number (-0 equals 0). For all rules from CDP0201 on, the two "
-             "are one vertex.",
+             "A vertex of the file, used or not, with the coordinates of one with a lower number "
+             "(-0 equals 0). For all rules from CDP0201 on, the two are one vertex.",
              "No effect on collision: baking joins them. By index alone, the mesh has more "
              "components than its surface.",
              "No repair is necessary; weld joins them.", kExact, ""},
     RuleText{Rule::near_vertex, "near-vertex", Severity::warning,
-             "Vertices nearly have equal positions",
+             "Vertices have nearly equal positions",
              "A vertex that welding at the given distance would join to a vertex with a lower "
              "number and another position. Examined only if a weld distance is given.",
              "Triangles that should share a vertex do not: the surface has cracks, and inside "
@@ -65,7 +64,7 @@ constexpr std::array kRules = {
              "CDP0201 leave out all of them.",
              "Nothing is hit, nothing is inside, and no other rule can find anything: a mesh "
              "that lost its triangles looks flawless.",
-             "Export the file again, with its faces: it holds only points or lines, or it was "
+             "Export the file again, with its faces: it contains only points or lines, or it was "
              "cut short.",
              kExact, ""},
     RuleText{Rule::repeated_corner, "repeated-corner", Severity::warning,
@@ -81,8 +80,8 @@ constexpr std::array kRules = {
              "Drop zero-area triangles, then resolve T-junctions.", kExact,
              "its longest edge, in model units"},
     RuleText{Rule::sliver, "sliver", Severity::note, "Triangle is a sliver",
-             "A triangle whose area is not zero, but less than the sliver ratio (default "
-             "1e-10) times the square of its longest edge.",
+             "A triangle with a positive area, less than 1e-10 times the square of its longest "
+             "edge.",
              "Answers stay exact. Normals and contact points computed from it in floating "
              "point are unreliable.",
              "Flip or collapse its longest edge in the modelling program, or weld.",
@@ -91,15 +90,15 @@ constexpr std::array kRules = {
              "its area divided by the square of its longest edge"},
     RuleText{Rule::duplicate_triangle, "duplicate-triangle", Severity::warning,
              "Triangle occurs twice",
-             "A triangle with the same three corners as one with a lower number, in the same "
-             "winding as the lowest of them.",
+             "A triangle with the same corners as one with a lower number, wound like the lowest "
+             "of them.",
              "Every contact is reported twice, the edges are non-manifold, and the winding "
              "number inside is 2.",
              "Drop duplicate triangles.", kExact, ""},
     RuleText{Rule::opposite_triangle, "opposite-triangle", Severity::warning,
              "Triangle occurs with both windings",
-             "A triangle with the same three corners as one with a lower number, in the "
-             "winding opposite to that of the lowest of them.",
+             "A triangle with the same corners as one with a lower number, wound opposite to the "
+             "lowest of them.",
              "The two together enclose nothing: a two-sided sheet has no inside, and every "
              "contact is reported twice.",
              "Drop duplicate triangles if the sheet was meant to be one-sided.", kExact, ""},
@@ -164,7 +163,7 @@ constexpr std::array kRules = {
              "Component is inside out",
              "A component with negative volume that uses every edge equally often in both "
              "directions. This is correct for the wall of a cavity.",
-             "Its winding number inside is -1. Solid queries still count that as inside; "
+             "The winding number inside it is -1. Solid queries still count that as inside; "
              "normals point the wrong way.",
              "Orient outward.",
              "exact: where the sum of volumes in double is within its error bound of zero, "
@@ -173,17 +172,17 @@ constexpr std::array kRules = {
     RuleText{Rule::nested_component, "nested-component", Severity::note,
              "Component lies in another",
              "Each pair of components, one inside the other. Both have a defined inside (every "
-             "edge is used equally often in both directions). The outer one has a winding "
-             "number other than 0 around the first vertex of the inner one that is not on its "
-             "surface. Where crossings are examined, the triangles of the two do not cross.",
+             "edge is used equally often in both directions). The winding number of the outer "
+             "one is not 0 at the first inner vertex that is off its surface. Where crossings "
+             "are examined, the triangles of the two do not cross.",
              "The inner one is the wall of a cavity if it is wound inwards. Otherwise the "
              "winding number inside is 2, and contacts within a solid are reported.",
              "Orient it inwards for a cavity; delete it if it is hidden.", kExact,
              "the winding number of the outer component around the inner one"},
     RuleText{Rule::overlapping_components, "overlapping-components", Severity::warning,
              "Components overlap",
-             "Two components with triangles that cross (CDP0501, or CDP0502 where an edge crosses "
-             "an edge) or share area in a plane (CDP0503). Examined only if crossings are.",
+             "Two components whose triangles cross (CDP0501, or CDP0502 where edges cross) or "
+             "share area in a plane (CDP0503). Examined only if crossings are examined.",
              "Volume and inertia count the common part twice.",
              "Remove self-intersections, or bake the components as separate models.", kExact,
              "the number of pairs of triangles"},

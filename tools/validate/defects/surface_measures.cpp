@@ -19,6 +19,10 @@ double finite(double value) {
     return std::isnan(value) ? 0 : std::clamp(value, -kLargest, kLargest);
 }
 
+/// A sliver's area is below this times its squared longest edge. Its height is then less than
+/// 2e-10 of that edge: too little for normals in floating point.
+constexpr double kSliverRatio = 1e-10;
+
 /// A component of a cross product; `certain` if it is proved not to be zero.
 struct Minor {
     double value;
@@ -132,8 +136,7 @@ public:
         sums_.resize(components.count);
     }
 
-    void add_triangles(const SoundMesh& sound, double sliver_ratio, FindingList& findings,
-                       DefectCounts& counts) {
+    void add_triangles(const SoundMesh& sound, FindingList& findings, DefectCounts& counts) {
         anchor_.resize(components_.count);
         for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
             const Corners t = corners_of(i);
@@ -143,7 +146,7 @@ public:
             if (sums_[component].terms == 0) anchor_[component] = t[0];
             const Double3& o = anchor_[component];
             sums_[component].add(minus(t[0], o), minus(t[1], o), minus(t[2], o));
-            judge(sound.source_triangle[i], t, shape, sliver_ratio, findings, counts);
+            judge(sound.source_triangle[i], t, shape, findings, counts);
         }
     }
 
@@ -192,7 +195,7 @@ private:
     }
 
     static void judge(std::uint32_t source, const Corners& t, const Shape& shape,
-                      double sliver_ratio, FindingList& findings, DefectCounts& counts) {
+                      FindingList& findings, DefectCounts& counts) {
         if (!shape.has_area && exact::is_degenerate(t)) {
             ++counts.zero_area_triangles;
             findings.add(Rule::zero_area, [&] {
@@ -202,7 +205,7 @@ private:
             return;
         }
         const double area = shape.double_area / 2;
-        if (!(area < sliver_ratio * shape.longest_squared)) return;
+        if (!(area < kSliverRatio * shape.longest_squared)) return;
         ++counts.sliver_triangles;
         findings.add(Rule::sliver,
                      [&] { return place_of(source, t, area / shape.longest_squared); });
@@ -261,10 +264,10 @@ private:
 }  // namespace
 
 SurfaceMeasures measure_surface(const SoundMesh& sound, const ComponentNumbers& components,
-                                const std::vector<bool>& balanced, double sliver_ratio,
-                                FindingList& findings, DefectCounts& counts) {
+                                const std::vector<bool>& balanced, FindingList& findings,
+                                DefectCounts& counts) {
     Measurer measurer(sound, components);
-    measurer.add_triangles(sound, sliver_ratio, findings, counts);
+    measurer.add_triangles(sound, findings, counts);
     return measurer.finish(balanced);
 }
 

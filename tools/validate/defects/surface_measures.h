@@ -27,7 +27,6 @@ struct SurfaceMeasures {
 [[nodiscard]] SurfaceMeasures measure_surface(const SoundMesh& sound,
                                               const ComponentNumbers& components,
                                               const std::vector<bool>& balanced,
-                                              double sliver_ratio, FindingList& findings,
-                                              DefectCounts& counts);
+                                              FindingList& findings, DefectCounts& counts);
 
 }  // namespace cdprep::mesh

@@ -54,23 +54,23 @@ TEST(StudyAccuracy, ProgressRisesFromNothingToAllButTheLastStep) {
                                                "poses",
                                                "self-check",
                                                "shapes",
-                                               "2 pieces",
-                                               "8 pieces",
+                                               "2 parts",
+                                               "8 parts",
                                                "tetra-tree level 0",
                                                "tetra-tree level 2",
                                                "tetra-tree level 4",
                                                "octree level 3",
                                                "octree level 5",
-                                               "geometry: asking",
-                                               "distance: asking",
-                                               "predicates: asking",
+                                               "geometry: queries",
+                                               "distance: queries",
+                                               "predicates: queries",
                                                "storage: 16-bit grid",
                                                "storage: 21-bit grid",
                                                "storage: 24-bit grid",
                                                "storage: float",
                                                "storage: double",
-                                               "storage: asking",
-                                               "coherence: asking"};
+                                               "storage: queries",
+                                               "coherence: queries"};
     EXPECT_EQ(told().steps, expected);
 }
 
@@ -103,7 +103,7 @@ TEST(StudyAccuracy, EveryRungSaysWhatIsAskedAndHow) {
     }
 }
 
-// A hull lies in its sphere and box, and pieces in the hull: they err less, or as much.
+// A hull lies in its sphere and box, and parts in the hull: they err less, or as much.
 TEST(StudyAccuracy, ShapesThatFitBetterErrLess) {
     const Ladder& ladder = studied().ladders[0];
     EXPECT_GE(*rung_of(ladder, "sphere").error, *rung_of(ladder, "hull").error);
@@ -111,7 +111,7 @@ TEST(StudyAccuracy, ShapesThatFitBetterErrLess) {
     EXPECT_GE(*rung_of(ladder, "box").outer, *rung_of(ladder, "26-DOP").outer);
     EXPECT_GE(*rung_of(ladder, "box").error, *rung_of(ladder, "hull").error);
     EXPECT_GT(*rung_of(ladder, "sphere").error, 0);
-    EXPECT_GT(*rung_of(ladder, "hull").outer, *rung_of(ladder, "8 pieces").outer);
+    EXPECT_GT(*rung_of(ladder, "hull").outer, *rung_of(ladder, "8 parts").outer);
     EXPECT_GT(*rung_of(ladder, "octree 3").outer, *rung_of(ladder, "octree 5").outer);
     EXPECT_EQ(*rung_of(ladder, "exact").error, 0);
     EXPECT_EQ(rung_of(ladder, "float, doubt hits").pairs->recall.share, 1);

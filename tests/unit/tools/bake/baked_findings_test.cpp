@@ -25,12 +25,11 @@ report::ValidationReport ended_after(std::uint64_t pairs) {
 TEST(StrictRefusal, SaysWhichLimitEndedTheSearch) {
     EXPECT_EQ(strict_refusal(ended_after(1), 1),
               "the search for crossing triangles ended early, at --max-pairs 1, after 1 pair that "
-              "meets, and --strict allows only a mesh that was fully examined: raise --max-pairs, "
-              "or bake without --strict.");
+              "meets. --strict requires a complete search: raise --max-pairs, or bake without "
+              "--strict.");
     EXPECT_EQ(strict_refusal(ended_after(999), 1000),
               "the search for crossing triangles ended early, at the limit of its work, after 999 "
-              "pairs that meet, and --strict allows only a mesh that was fully examined: bake "
-              "without --strict.");
+              "pairs that meet. --strict requires a complete search: bake without --strict.");
 }
 
 /// Pairs of closed tetrahedra, as OFF text. The tip of one touches the top of the other, within its

@@ -2,13 +2,19 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <string>
+#include <utility>
 
+#include "bake/effects.h"
 #include "bake/pipeline.h"
 #include "cdprep/advanced/build_model.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/model.h"
+#include "info/info_report.h"
 #include "study/memory_model.h"
+#include "support/meshes.h"
 #include "support/scratch_folder.h"
+#include "write/mesh_file.h"
 
 namespace cdprep::cli {
 namespace {
@@ -80,6 +86,37 @@ TEST(BakedModel, ANormalizedOneHasNoUnit) {
         ASSERT_TRUE(model) << model.error().message;
         EXPECT_EQ(model.value().header().metres_per_unit, normalize ? 0 : 0.001);
     }
+}
+
+// By hand: if one triangle of a cube is reversed, each edge still has two triangles, but the
+// directed uses of three edges do not cancel.
+TEST(BakedModel, ACubeWithAReversedTriangleIsClosedAndUnbalanced) {
+    test::TestMesh cube = test::unit_cube();
+    std::swap(cube.triangles[5].vertex[0], cube.triangles[5].vertex[1]);
+    const test::ScratchFolder folder;
+    const std::string input = folder.file("cube.obj");
+    const std::string output = folder.file("cube.cdp.h5");
+    const auto written = write::write_mesh_file(input, write::MeshFormat::obj,
+                                                {cube.positions, cube.triangles, false, {}});
+    ASSERT_TRUE(written) << written.error().message;
+    BakeOptions options;
+    options.effects = parse_effects("collide").value();
+    const auto baked = bake(input, output, options, Threads(1), [](const char*) {});
+    ASSERT_TRUE(baked) << baked.error().message;
+    EXPECT_FALSE(baked->balanced);
+    const std::string line = report::bake_text(*baked, report::Timings::hide);
+    EXPECT_NE(line.find(", unbalanced, "), std::string::npos) << line;
+    const auto model = Model::open(output);
+    ASSERT_TRUE(model) << model.error().message;
+    ASSERT_FALSE(model.value().record().verdicts.empty());
+    const std::uint32_t facts = model.value().record().verdicts[0].facts;
+    EXPECT_NE(facts & format::verdict_closed, 0U);
+    EXPECT_EQ(facts & format::verdict_balanced, 0U);
+    const std::string text = report::info_text(output, model.value(), {});
+    EXPECT_NE(text.find("because the mesh is unbalanced\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("mesh: closed, "), std::string::npos) << text;
+    const std::string json = report::info_json(output, model.value(), {});
+    EXPECT_NE(json.find("\"balanced\": false"), std::string::npos) << json;
 }
 
 }  // namespace

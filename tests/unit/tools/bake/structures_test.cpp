@@ -158,7 +158,7 @@ TEST(ChooseStructures, UnknownNamesAreRefusedWithThoseThatAreKnown) {
         }
     }
     EXPECT_EQ(fault({.list = "kd-tree"}),
-              "--structures: 'kd-tree' cannot be baked; these can: octree, octree-adaptive, "
+              "--structures: unknown structure 'kd-tree'. Choose from octree, octree-adaptive, "
               "hashed-octree, tetra-tree, hull, all or none.");
 }
 

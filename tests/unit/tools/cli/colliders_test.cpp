@@ -56,9 +56,9 @@ TEST(FindColliders, FindsWhatWouldBeLeftOut) {
     EXPECT_EQ(find_colliders(with_instances({"a", "b", "c"})), Names{});
     EXPECT_EQ(find_colliders(with_instances({"UCX_a", "UCX_b", "c-colonly"})), Names{});
     EXPECT_EQ(kept_text(Names{"UCX_b"}, "--without-colliders"),
-              "1 collider is a part of the mesh: UCX_b. Leave it out by --without-colliders.");
+              "1 collider is a part of the mesh: UCX_b. Leave it out with --without-colliders.");
     EXPECT_EQ(kept_text(Names{"a", "b", "c", "d", "e"}, "--without-colliders"),
-              "5 colliders are a part of the mesh: a, b, c and 2 more. Leave them out by "
+              "5 colliders are a part of the mesh: a, b, c and 2 more. Leave them out with "
               "--without-colliders.");
 }
 
@@ -137,13 +137,13 @@ TEST(LeaveOutColliders, FindsTheirPrecisionAnew) {
 
 TEST(LeftOutText, NamesThreeAtMost) {
     EXPECT_EQ(left_out_text(Names{"a"}),
-              "1 collider was left out: a. Keep it by --with-colliders.");
+              "1 collider was left out: a. Keep it with --with-colliders.");
     EXPECT_EQ(left_out_text(Names{"a", "b"}),
-              "2 colliders were left out: a and b. Keep them by --with-colliders.");
+              "2 colliders were left out: a and b. Keep them with --with-colliders.");
     EXPECT_EQ(left_out_text(Names{"a", "b", "c"}),
-              "3 colliders were left out: a, b and c. Keep them by --with-colliders.");
+              "3 colliders were left out: a, b and c. Keep them with --with-colliders.");
     EXPECT_EQ(left_out_text(Names{"a", "b", "c", "d", "e"}),
-              "5 colliders were left out: a, b, c and 2 more. Keep them by --with-colliders.");
+              "5 colliders were left out: a, b, c and 2 more. Keep them with --with-colliders.");
 }
 
 TEST(LeaveOutColliders, RemovesNothingFromWhatHasNothingElse) {

@@ -39,5 +39,28 @@ TEST(CommandPage, NotesMayHoldTheWordThatTitlesTheExamples) {
     }
 }
 
+TEST(CommandPage, ShowsTheWordsOfAChoiceAndOfAList) {
+    std::string shape, steps;
+    const Program program("p", "1", "A program");
+    program.root().add_option("--shape", shape, "A shape").check(one_of({"box", "hull"}));
+    program.root().add_option("--steps", steps, "Steps").check(list_of({"weld", "orient"}));
+    const CommandPage page = page_of(program.root(), "p");
+    const auto entry = [&](const std::string& name) {
+        for (const OptionGroup& group : page.groups) {
+            for (const OptionEntry& option : group.options) {
+                if (option.names.front() == name) return option;
+            }
+        }
+        ADD_FAILURE() << name;
+        return OptionEntry{};
+    };
+    EXPECT_EQ(entry("--shape").words, (Lines{"box", "hull"}));
+    EXPECT_FALSE(entry("--shape").is_list);
+    EXPECT_EQ(full_text(entry("--shape")), "A shape. [box or hull]");
+    EXPECT_EQ(entry("--steps").words, (Lines{"weld", "orient"}));
+    EXPECT_TRUE(entry("--steps").is_list);
+    EXPECT_EQ(full_text(entry("--steps")), "Steps. [a list of weld, orient]");
+}
+
 }  // namespace
 }  // namespace cdprep::cli

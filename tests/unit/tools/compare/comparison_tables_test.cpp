@@ -191,7 +191,7 @@ TEST(PairChecks, OverlapMayTakeAsLongAsCollide) {
         });
     };
     set_times(1, 1);
-    EXPECT_EQ(check().evidence, "by every strategy, deep and shallow");
+    EXPECT_EQ(check().evidence, "for every strategy, at deep and shallow poses");
     set_times(1, std::nextafter(1, 0));
     EXPECT_EQ(check().verdict, Verdict::fails);
 }

@@ -57,15 +57,15 @@ TEST(FeatureCheck, CountsTicksThatThePaperDoesNotHave) {
     const Check holds = feature_check(table);
     EXPECT_EQ(holds.verdict, Verdict::holds);
     EXPECT_EQ(holds.evidence,
-              "4 probes passed, 1 of them for features that the paper does not have");
+              "4 probes passed, 1 of them for features that the comparative study does not have");
     table.rows.push_back(
         {"missing",
          {cell_of(false, "X"), cell_of(false, "-"), cell_of(false, nullptr), cell_of(true, "-")}});
     const Check fails = feature_check(table);
     EXPECT_EQ(fails.verdict, Verdict::fails);
     EXPECT_EQ(fails.evidence,
-              "missing, A: by hand; 5 probes passed, 2 of them for features that the paper does "
-              "not have");
+              "missing, A: by hand; 5 probes passed, 2 of them for features that the comparative "
+              "study does not have");
 }
 
 }  // namespace

@@ -26,9 +26,9 @@ TEST(CollidersJson, HasPointsTrianglesAndMass) {
     colliders.name = "box";
     colliders.metres_per_unit = 0.001;
     colliders.mass = write::BodyMass{6, {1, 2, 3}, {11, 22, 33, 12, 23, 31}};
-    colliders.is_closed = true;
+    colliders.is_of_solid = true;
     colliders.error = 0.25;
-    colliders.pieces = {{"box_00", &box}, {"box_01", &box}};
+    colliders.parts = {{"box_00", &box}, {"box_01", &box}};
     const Json json = Json::parse(colliders_json(colliders));
     EXPECT_EQ(json["format"], "cdprep colliders");
     EXPECT_EQ(json["version"], 1);
@@ -38,30 +38,30 @@ TEST(CollidersJson, HasPointsTrianglesAndMass) {
     EXPECT_EQ(json["mass"]["volume"], 6);
     EXPECT_EQ(json["mass"]["centre"], Json({1, 2, 3}));
     EXPECT_EQ(json["mass"]["inertia"], Json({{11, 12, 31}, {12, 22, 23}, {31, 23, 33}}));
-    EXPECT_EQ(json["mass"]["closed"], true);
+    EXPECT_EQ(json["mass"]["of_solid"], true);
     EXPECT_EQ(json["mass"]["moments"].size(), 3U);
     EXPECT_EQ(json["mass"]["axes"].size(), 4U);
-    ASSERT_EQ(json["pieces"].size(), 2U);
-    const Json& piece = json["pieces"][1];
-    EXPECT_EQ(piece["name"], "box_01");
-    ASSERT_EQ(piece["points"].size(), 24U);
+    ASSERT_EQ(json["parts"].size(), 2U);
+    const Json& part = json["parts"][1];
+    EXPECT_EQ(part["name"], "box_01");
+    ASSERT_EQ(part["points"].size(), 24U);
     for (std::size_t i = 0; i < 8; ++i) {
-        EXPECT_EQ(piece["points"][3 * i].get<double>(), box.points[i].x);
-        EXPECT_EQ(piece["points"][3 * i + 1].get<double>(), box.points[i].y);
-        EXPECT_EQ(piece["points"][3 * i + 2].get<double>(), box.points[i].z);
+        EXPECT_EQ(part["points"][3 * i].get<double>(), box.points[i].x);
+        EXPECT_EQ(part["points"][3 * i + 1].get<double>(), box.points[i].y);
+        EXPECT_EQ(part["points"][3 * i + 2].get<double>(), box.points[i].z);
     }
-    ASSERT_EQ(piece["triangles"].size(), 3 * box.facets.size());
+    ASSERT_EQ(part["triangles"].size(), 3 * box.facets.size());
     for (std::size_t i = 0; i < 36; ++i) {
-        EXPECT_EQ(piece["triangles"][i], box.facets[i / 3][i % 3]);
+        EXPECT_EQ(part["triangles"][i], box.facets[i / 3][i % 3]);
     }
-    EXPECT_NEAR(piece["volume"].get<double>(), 6, 1e-14);
+    EXPECT_NEAR(part["volume"].get<double>(), 6, 1e-14);
 }
 
 TEST(CollidersJson, UnknownsAreNull) {
     const Json json = Json::parse(colliders_json({}));
     EXPECT_TRUE(json["metres_per_unit"].is_null());
     EXPECT_TRUE(json["mass"].is_null());
-    EXPECT_TRUE(json["pieces"].empty());
+    EXPECT_TRUE(json["parts"].empty());
 }
 
 }  // namespace

@@ -166,7 +166,7 @@ TEST_F(AssimpChild, ASparseAccessorAsksForNoMoreThanTheFileCanHold) {
     const auto result = import_file(write("s.gltf", sparse_gltf("", "100000000")));
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.error().code, ErrorCode::unreadable) << result.error().message;
-    EXPECT_NE(result.error().message.find("a count in it is wrong"), std::string::npos)
+    EXPECT_NE(result.error().message.find("a count in the file is wrong"), std::string::npos)
         << result.error().message;
 }
 

@@ -155,10 +155,10 @@ TEST_F(ReadGltf, ElementsMayLieApartFromOffsetsOn) {
     ASSERT_TRUE(soup.ok()) << soup.error().message;
     EXPECT_EQ(soup->positions, (std::vector<Double3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     expect_refused(document,
-                   "accessor 0 counts 3 elements from byte 4 of buffer 0, which has 47 bytes",
+                   "accessor 0 declares 3 elements from byte 4 of buffer 0, which has 47 bytes",
                    bytes.substr(0, 47));
     document.accessors = accessor + "4}";
-    expect_refused(document, "accessor 0 counts 4 elements from byte 4", bytes);
+    expect_refused(document, "accessor 0 declares 4 elements from byte 4", bytes);
     document.accessors = accessor + "3}";
     document.views = R"({"buffer":0,"byteOffset":2,"byteStride":11})";
     expect_refused(document, "accessor 0 has elements that overlap", bytes);
@@ -279,7 +279,7 @@ TEST_F(ReadGltf, WhatAnAccessorMayNotBeIsNamed) {
     }
     expect_refused(with(R"({"bufferView":0,"componentType":5126,"type":"VEC3",)"
                         R"("count":9007199254740992})"),
-                   "accessor 0 counts 9007199254740992 elements");
+                   "accessor 0 declares 9007199254740992 elements");
     Document nowhere;
     nowhere.views = R"({"buffer":1})";
     expect_refused(nowhere, "accessor 0 is in a buffer that does not exist");
@@ -347,7 +347,7 @@ TEST_F(ReadGltf, NodesAreReadFromTheChosenScene) {
     document.nodes = R"({"mesh":1})";
     expect_refused(document, "mesh 1 does not exist");
     document.nodes = R"({"children":[1]},{"children":[2]},{"children":[1],"mesh":0})";
-    expect_refused(document, "is below itself");
+    expect_refused(document, "is its own descendant");
     document.nodes = R"({"children":[1]},{"children":[2]},{"mesh":0})";  // as deep as can be
     EXPECT_TRUE(read(document).ok());
 }
@@ -417,9 +417,9 @@ TEST_F(ReadGltf, TextMayBeInAnotherEncodingAndDeepToALimit) {
     document.more = R"(,"extras":)" + std::string(99, '[') + std::string(99, ']');
     EXPECT_TRUE(read(document).ok());
     document.more = R"(,"extras":)" + std::string(101, '[') + std::string(101, ']');
-    expect_refused(document, "its JSON nests deeper than 100");
+    expect_refused(document, "its JSON is nested deeper than 100 levels");
     document.more = ",";
-    expect_refused(document, " of its JSON is wrong");
+    expect_refused(document, "its JSON is invalid at byte ");
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ TEST(ReadObj, NamesBecomeUtf8) {
 
 TEST(ReadObj, SaysWhichLineIsBroken) {
     EXPECT_EQ(kObjReader.refusal("v 0 0 0\nv 1 2\n"),
-              "t.obj: line 2: a vertex has 2 coordinates; 3 are needed.");
+              "t.obj: line 2: a vertex has 2 coordinates; expected 3.");
     EXPECT_EQ(kObjReader.refusal("v 0 0 0\r\n\r\nv 1 x 2\n"),
               "t.obj: line 3: 'x' is not a number.");
     EXPECT_EQ(kObjReader.refusal(kFour + "f 1 2 three\n"),

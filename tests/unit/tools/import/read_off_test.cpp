@@ -70,8 +70,8 @@ TEST(ReadOff, WrappedRowsThatDoNotAddUpAreUnreadable) {
 // The count is that of a real file; nothing may be allocated by it.
 TEST(ReadOff, CountsThatTheFileIsTooShortForAreUnreadable) {
     EXPECT_EQ(kOffReader.refusal("OFF\n353535235358 6 0\n" + kBody),
-              "t.off: the file has 6 lines after the header, which counts 353535235358 vertices "
-              "and 6 faces; the file is cut off, or its header is wrong.");
+              "t.off: the file has 6 lines after the header, which declares 353535235358 "
+              "vertices and 6 faces; the file is cut off, or its header is wrong.");
     EXPECT_EQ(
         kOffReader.refusal("OFF\n4 3 0\n" + kBody),
         "t.off: the file ends after face 2 of 3; the file is cut off, or its header is wrong.");
@@ -85,17 +85,17 @@ TEST(ReadOff, SaysWhatIsWrongAndWhere) {
               "t.off: line 2: '-2' is not a count of an OFF header.");
     EXPECT_EQ(kOffReader.refusal("OFF\n"), "t.off: line 2: the file ends inside the OFF header.");
     EXPECT_EQ(kOffReader.refusal("OFF\n2 0 0\n0 0 0\n1 0\n"),
-              "t.off: line 4: the line ends where a coordinate of a vertex is needed.");
+              "t.off: line 4: found the end of the line; expected a coordinate of a vertex.");
     EXPECT_EQ(kOffReader.refusal("OFF\n1 1 0\n0 0 0\n3 0 0 z\n"),
-              "t.off: line 4: 'z' stands where corner 3 of 3 of a face is needed.");
+              "t.off: line 4: found 'z'; expected corner 3 of 3 of a face.");
     EXPECT_EQ(kOffReader.refusal("OFF\n1 1 0\n0 0 0\n3 0 0\n"),
-              "t.off: line 4: the line ends where corner 3 of 3 of a face is needed.");
+              "t.off: line 4: found the end of the line; expected corner 3 of 3 of a face.");
     EXPECT_EQ(kOffReader.refusal("OFF\n1 1 0\n0 0 0\n-3 0 0\n"),
-              "t.off: line 4: '-3' stands where the number of corners of a face is needed.");
+              "t.off: line 4: found '-3'; expected the number of corners of a face.");
     EXPECT_EQ(kOffReader.refusal("4OFF\n1 1 0\n"),
               "t.off: line 2: the dimension of the OFF file is not 3.");
     EXPECT_EQ(kOffReader.refusal("OFF BINARY\n"),
-              "t.off: line 1: binary OFF files are not read. Save it as text.");
+              "t.off: line 1: binary OFF files are not supported. Save the file as text.");
 }
 
 TEST(ReadOff, BadIndicesAndNumbersAreData) {

@@ -221,13 +221,13 @@ TEST(ReadPly, BadIndicesAndNumbersAreData) {
 TEST(ReadPly, CountsThatTheFileIsTooShortForAreUnreadable) {
     EXPECT_EQ(
         kPlyReader.refusal(header("ascii", "element vertex 999999999999\n" + kFloats) + "0 0 0\n"),
-        "t.ply: the file ends after 1 of the 999999999999 lines that the header counts for "
+        "t.ply: the file ends after 1 of the 999999999999 lines that the header declares for "
         "element 'vertex'.");
     EXPECT_EQ(kPlyReader.refusal(
                   header("binary_little_endian", "element vertex 999999999999\n" + kFloats) +
                   "0123456789ab"),
-              "t.ply: the header counts 999999999999 of element 'vertex', which take at least 12 "
-              "bytes each, but only 12 bytes follow.");
+              "t.ply: the header declares 999999999999 of element 'vertex', which take at least "
+              "12 bytes each, but only 12 bytes follow.");
     std::string bytes = header("binary_big_endian", "element vertex 0\n" + kFloats +
                                                         "element face 1\nproperty list int int "
                                                         "vertex_indices\n");
@@ -260,12 +260,12 @@ TEST(ReadPly, SaysWhatIsWrongWithTheHeader) {
     EXPECT_EQ(kPlyReader.refusal("ply\nelement vertex 1\nproperty quad x\n"),
               "t.ply: line 3: a property has an unknown type.");
     EXPECT_EQ(kPlyReader.refusal("ply\nelephant\n"),
-              "t.ply: line 2: 'elephant' does not begin a line of a PLY header.");
+              "t.ply: line 2: the PLY header has an invalid line that begins with 'elephant'.");
     EXPECT_EQ(kPlyReader.refusal(
                   header("ascii", "element vertex 1\nproperty float x\nproperty float y\n")),
-              "t.ply: line 7: the vertices have no x, y and z.");
+              "t.ply: line 7: the vertices lack x, y or z.");
     EXPECT_EQ(kPlyReader.refusal(header("ascii", "")),
-              "t.ply: line 4: the PLY header has 0 elements 'vertex'; 1 is needed.");
+              "t.ply: line 4: the PLY header has 0 elements 'vertex'; expected 1.");
     EXPECT_EQ(
         kPlyReader.refusal(header("ascii", "element vertex 0\n" + kFloats +
                                                "element face 0\nproperty list uchar float "
@@ -277,11 +277,12 @@ TEST(ReadPly, SaysWhichRowIsBroken) {
     const std::string start =
         header("ascii", "element vertex 1\n" + kFloats + "element face 1\n" + kFaces);
     EXPECT_EQ(kPlyReader.refusal(start + "0 0\n3 0 0 0\n"),
-              "t.ply: line 11: the line ends where 'z' of element 'vertex' is needed.");
+              "t.ply: line 11: found the end of the line; expected 'z' of element 'vertex'.");
     EXPECT_EQ(kPlyReader.refusal(start + "0 0 0\n3 0 0\n"),
-              "t.ply: line 12: the line ends where 'vertex_indices' of element 'face' is needed.");
+              "t.ply: line 12: found the end of the line; expected 'vertex_indices' of element "
+              "'face'.");
     EXPECT_EQ(kPlyReader.refusal(start + "0 0 0\n3 0 a 0\n"),
-              "t.ply: line 12: 'a' stands where 'vertex_indices' of element 'face' is needed.");
+              "t.ply: line 12: found 'a'; expected 'vertex_indices' of element 'face'.");
 }
 
 TEST(ReadPly, EveryTruncationIsASentence) {

@@ -66,12 +66,14 @@ TEST(ReadStl, ManyBinaryTrianglesComeInAnyOrderOfBlocks) {
 }
 
 TEST(ReadStl, ABinaryCountThatDisagreesWithTheLengthIsUnreadable) {
-    EXPECT_EQ(kStlReader.refusal(binary(4, 3)),
-              "t.stl: the header counts 4 triangles, which take 284 bytes, but the file has 234.");
-    EXPECT_EQ(kStlReader.refusal(binary(2, 3)),
-              "t.stl: the header counts 2 triangles, which take 184 bytes, but the file has 234.");
+    EXPECT_EQ(
+        kStlReader.refusal(binary(4, 3)),
+        "t.stl: the header declares 4 triangles, which take 284 bytes, but the file has 234.");
+    EXPECT_EQ(
+        kStlReader.refusal(binary(2, 3)),
+        "t.stl: the header declares 2 triangles, which take 184 bytes, but the file has 234.");
     EXPECT_EQ(kStlReader.refusal(binary(0xffffffff, 1)),
-              "t.stl: the header counts 4294967295 triangles, which take 214748364834 bytes, but "
+              "t.stl: the header declares 4294967295 triangles, which take 214748364834 bytes, but "
               "the file has 134.");
 }
 
@@ -140,7 +142,7 @@ TEST(ReadStl, SaysWhichFacetIsBroken) {
     EXPECT_EQ(kStlReader.refusal(start +
                                  "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\n"
                                  "endsolid\n"),
-              "t.stl: line 9: a facet has 1 vertices; 3 are needed.");
+              "t.stl: line 9: a facet has 1 vertices; expected 3.");
     EXPECT_EQ(kStlReader.refusal(start +
                                  "facet normal 0 0 1\nouter loop\nvertex 0 0\nendloop\nendfacet\n"),
               "t.stl: line 12: 'endloop' is not a number.");

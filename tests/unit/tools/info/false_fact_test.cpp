@@ -66,7 +66,7 @@ std::string field_of(const std::optional<FalseFact>& fact) {
     return fact ? fact->field : "nothing";
 }
 
-/// A torus and a cube beside it: two closed components, the first of genus 1.
+/// A torus and a cube beside it: two balanced components, the first of genus 1.
 TestMesh two_solids() {
     return test::joined(test::torus(2, 0.5, 12, 8),
                         test::moved_by(test::unit_cube(), 1, {5, 0, 0}));
@@ -128,14 +128,14 @@ TEST(FalseFact, IsNotFoundInWhatBakeWrites) {
 // A sheet has a border, and two solids have none.
 TEST(FalseFact, IsAForgedFlag) {
     const AlignedBytes sheet = baked(test::grid_sheet(3, 2));
-    const auto closed = false_fact(with_flags(sheet, format::model_balanced));
-    ASSERT_TRUE(closed);
-    EXPECT_EQ(closed->field, "the user block, field flags, flag balanced");
-    EXPECT_EQ(closed->found + closed->expected, "10");
+    const auto balanced = false_fact(with_flags(sheet, format::model_balanced));
+    ASSERT_TRUE(balanced);
+    EXPECT_EQ(balanced->field, "the user block, field flags, flag balanced");
+    EXPECT_EQ(balanced->found + balanced->expected, "10");
     const AlignedBytes solids = baked(two_solids());
-    const auto open = false_fact(with_flags(solids, format::model_balanced));
-    ASSERT_TRUE(open);
-    EXPECT_EQ(open->found + open->expected, "01");
+    const auto unbalanced = false_fact(with_flags(solids, format::model_balanced));
+    ASSERT_TRUE(unbalanced);
+    EXPECT_EQ(unbalanced->found + unbalanced->expected, "01");
     // Two solids are longer than a model of diagonal 1.
     EXPECT_EQ(field_of(false_fact(with_flags(solids, format::model_normalized))),
               "the user block, field flags, flag normalized");
@@ -304,8 +304,8 @@ TEST(FalseFact, IsAForgedMassProperty) {
               "nothing");
 }
 
-// An open mesh encloses nothing.
-TEST(FalseFact, IsMassOfAnOpenMesh) {
+// An unbalanced mesh encloses nothing.
+TEST(FalseFact, IsMassOfAnUnbalancedMesh) {
     const AlignedBytes solid = baked(two_solids());
     const AlignedBytes sheet = baked(test::grid_sheet(3, 2));
     std::vector<test::TinySection> sections;
@@ -335,7 +335,7 @@ TEST(FalseFact, IsAVertexOutOfOrder) {
               "section triangles, element 0, field vertex");
 }
 
-// The finding of the outside review: a sheet that says it is closed passed.
+// The finding of the outside review: a sheet that says it is balanced passed.
 TEST(FalseFact, IsToldByInfoInOneSentence) {
     const test::ScratchFolder folder;
     const AlignedBytes sheet = baked(test::grid_sheet(3, 2));
@@ -355,7 +355,7 @@ TEST(FalseFact, IsToldByInfoInOneSentence) {
     EXPECT_EQ(exit, Exit::unreadable);
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
               "cdprep info: " + path +
-                  ": the user block, field flags, flag balanced is not true of the mesh: found 1, "
+                  ": the user block, field flags, flag balanced does not match the mesh: found 1, "
                   "expected 0. Copy the file again, or bake it again.\n");
 }
 

@@ -44,9 +44,9 @@ HullSections with_parts(const test::TestMesh& mesh, std::size_t parts, std::uint
     const mesh::Mesh welded = test::mesh_of(mesh);
     HullSections sections = *make_hull_sections(welded, {}, vertices, serial_for);
     ApproximateOptions how;
-    how.parts = parts;
+    how.max_parts = parts;
     how.max_vertices = vertices;
-    add_parts(sections, find_approximate_pieces(welded, how).pieces);
+    add_parts(sections, find_approximate_parts(welded, how).parts);
     return sections;
 }
 
@@ -97,10 +97,10 @@ TEST(HullParts, AreSoundAndHoldEveryVertex) {
 TEST(HullParts, ThatLeaveAVertexOutAreFound) {
     HullSections sections = *make_hull_sections(test::mesh_of(ring()), {}, 0, serial_for);
     ApproximateOptions how;
-    how.parts = 8;
-    auto pieces = find_approximate_pieces(test::mesh_of(ring()), how).pieces;
-    pieces.pop_back();
-    add_parts(sections, pieces);
+    how.max_parts = 8;
+    auto parts = find_approximate_parts(test::mesh_of(ring()), how).parts;
+    parts.pop_back();
+    add_parts(sections, parts);
     const test::AlignedBytes file = baked(ring(), sections);
     EXPECT_FALSE(format::find_damage(file.span()));
     const auto opened = test::open_tiny(test::AlignedBytes(file.span()));
@@ -120,17 +120,17 @@ Told told_of(test::TestMesh mesh, const std::vector<Box>& boxes, double angle = 
     };
     for (Double3& p : mesh.positions) p = turn(p);
     HullSections sections = *make_hull_sections(test::mesh_of(mesh), {}, 0, serial_for);
-    std::vector<ApproximatePiece> pieces(boxes.size());
+    std::vector<ApproximatePart> parts(boxes.size());
     for (std::size_t i = 0; i < boxes.size(); ++i) {
         std::vector<Double3> corners;
         for (unsigned k = 0; k < 8; ++k) {
             corners.push_back(
                 turn({boxes[i][k & 1U].x, boxes[i][k >> 1U & 1U].y, boxes[i][k >> 2U].z}));
         }
-        pieces[i].hull = convex_hull(corners);
-        pieces[i].hull.numbers.clear();
+        parts[i].hull = convex_hull(corners);
+        parts[i].hull.numbers.clear();
     }
-    add_parts(sections, pieces);
+    add_parts(sections, parts);
     const auto opened = test::open_tiny(baked(mesh, sections));
     const auto file = opened.bytes.span();
     EXPECT_FALSE(format::find_damage(file));

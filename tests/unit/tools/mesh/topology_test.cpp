@@ -19,15 +19,15 @@ Topology topology_of(const test::TestMesh& mesh) {
     return find_topology(test::mesh_of(mesh));
 }
 
-bool is_closed(const format::Component& component) {
+bool is_balanced(const format::Component& component) {
     return (component.flags & format::component_balanced) != 0;
 }
 
-TEST(Topology, ACubeIsOneClosedComponentOfVolumeOne) {
+TEST(Topology, ACubeIsOneBalancedComponentOfVolumeOne) {
     const Topology topology = topology_of(test::unit_cube());
     EXPECT_TRUE(topology.balanced);
     ASSERT_EQ(topology.components.size(), 1U);
-    EXPECT_TRUE(is_closed(topology.components[0]));
+    EXPECT_TRUE(is_balanced(topology.components[0]));
     EXPECT_EQ(topology.components[0].triangle_count, 12U);
     EXPECT_EQ(topology.components[0].signed_volume, 1.0);
     EXPECT_EQ(topology.components[0].reserved, 0U);
@@ -39,35 +39,35 @@ TEST(Topology, AnInvertedCubeHasNegativeVolume) {
     EXPECT_EQ(topology.components[0].signed_volume, -1.0);
 }
 
-TEST(Topology, ASheetIsOpenAndHasNoVolume) {
+TEST(Topology, ASheetIsUnbalancedAndHasNoVolume) {
     const Topology topology = topology_of(test::grid_sheet(3, 2));
     EXPECT_FALSE(topology.balanced);
     ASSERT_EQ(topology.components.size(), 1U);
-    EXPECT_FALSE(is_closed(topology.components[0]));
+    EXPECT_FALSE(is_balanced(topology.components[0]));
     EXPECT_EQ(topology.components[0].signed_volume, 0.0);
 }
 
-TEST(Topology, OneTriangleLessOpensOnlyItsComponent) {
+TEST(Topology, OneTriangleLessUnbalancesOnlyItsComponent) {
     test::TestMesh mesh =
         test::joined(test::unit_cube(), test::moved_by(test::unit_cube(), 2, {10, 0, 0}));
     mesh.triangles.erase(mesh.triangles.begin());
     const Topology topology = topology_of(mesh);
     EXPECT_FALSE(topology.balanced);
     ASSERT_EQ(topology.components.size(), 2U);
-    EXPECT_FALSE(is_closed(topology.components[0]));
+    EXPECT_FALSE(is_balanced(topology.components[0]));
     EXPECT_EQ(topology.components[0].triangle_count, 11U);
-    EXPECT_TRUE(is_closed(topology.components[1]));
+    EXPECT_TRUE(is_balanced(topology.components[1]));
     EXPECT_EQ(topology.components[1].signed_volume, 8.0);
 }
 
-TEST(Topology, OneTurnedTriangleOpensTheCube) {
+TEST(Topology, OneTurnedTriangleUnbalancesTheCube) {
     test::TestMesh mesh = test::unit_cube();
     std::swap(mesh.triangles[5].vertex[0], mesh.triangles[5].vertex[1]);
     EXPECT_FALSE(topology_of(mesh).balanced);
 }
 
 // The uses cancel, four at the shared edge: winding numbers are defined.
-TEST(Topology, CubesThatShareAnEdgeAreOneClosedComponent) {
+TEST(Topology, CubesThatShareAnEdgeAreOneBalancedComponent) {
     const Welded welded = weld(test::soup_of(
         test::joined(test::unit_cube(), test::moved_by(test::unit_cube(), 1, {1, 1, 0}))));
     const Topology topology = find_topology(welded.mesh);
@@ -105,7 +105,7 @@ TEST(Topology, CornersThatRepeatAddNothing) {
     EXPECT_EQ(topology.components[0].signed_volume, 1.0);
 }
 
-TEST(Topology, AMeshWithoutTrianglesIsClosed) {
+TEST(Topology, AMeshWithoutTrianglesIsBalanced) {
     const Topology topology = find_topology({});
     EXPECT_TRUE(topology.balanced);
     EXPECT_TRUE(topology.components.empty());
@@ -160,10 +160,10 @@ bool edges_cancel(const test::TestMesh& mesh, const std::set<std::size_t>& compo
     return true;
 }
 
-// Few vertices, many triangles: edges with many uses, components that close by
+// Few vertices, many triangles: edges with many uses, components that balance by
 // chance.
 TEST(TopologyLaws, RandomMeshesAgreeWithSpreadingAndCounting) {
-    int closed = 0, open = 0;
+    int balanced = 0, others = 0;
     for (std::uint32_t seed = 1; seed <= 300; ++seed) {
         std::mt19937 random(seed);
         test::TestMesh mesh;
@@ -174,27 +174,27 @@ TEST(TopologyLaws, RandomMeshesAgreeWithSpreadingAndCounting) {
         for (std::uint32_t i = 0; i < 1 + seed % 9; ++i) {
             const Triangle triangle{{any(random), any(random), any(random)}};
             mesh.triangles.push_back(triangle);
-            if (random() % 2 == 0) continue;  // with its back, so that some close
+            if (random() % 2 == 0) continue;  // with its back, so that some balance
             mesh.triangles.push_back(
                 {{triangle.vertex[0], triangle.vertex[2], triangle.vertex[1]}});
         }
         const Topology topology = topology_of(mesh);
         const auto expected = components_by_spreading(mesh);
         ASSERT_EQ(topology.components.size(), expected.size()) << "seed " << seed;
-        bool all_closed = true;
+        bool all_balanced = true;
         for (std::size_t i = 0; i < expected.size(); ++i) {
             const format::Component& found = topology.components[i];
             EXPECT_EQ(found.triangle_count, expected[i].size()) << "seed " << seed;
-            EXPECT_EQ(is_closed(found), edges_cancel(mesh, expected[i])) << "seed " << seed;
+            EXPECT_EQ(is_balanced(found), edges_cancel(mesh, expected[i])) << "seed " << seed;
             const auto& vertex = mesh.triangles[*expected[i].begin()].vertex;
             EXPECT_NE(std::find(vertex.begin(), vertex.end(), found.vertex), vertex.end());
-            (is_closed(found) ? closed : open) += 1;
-            all_closed = all_closed && is_closed(found);
+            (is_balanced(found) ? balanced : others) += 1;
+            all_balanced = all_balanced && is_balanced(found);
         }
-        EXPECT_EQ(topology.balanced, all_closed) << "seed " << seed;
+        EXPECT_EQ(topology.balanced, all_balanced) << "seed " << seed;
     }
-    EXPECT_GT(closed, (closed + open) / 5);
-    EXPECT_GT(open, (closed + open) / 5);
+    EXPECT_GT(balanced, (balanced + others) / 5);
+    EXPECT_GT(others, (balanced + others) / 5);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ TEST(ClashReport, ALineHasTheMembersOfTheQuery) {
               "{\"a\": \"a\", \"b\": \"b\", \"effect\": \"within\", \"within\": true}\n");
 }
 
-TEST(ClashReport, TextNamesBothParts) {
+TEST(ClashReport, TextNamesBothObjects) {
     ClashReport report(Ask::overlap, AnswerFormat::text);
     EXPECT_EQ(report.line("a\nb", "c", two_pairs()), "a\\nb and c: hit, 2 pairs\n  17 4\n  18 4\n");
     EXPECT_EQ(report.finish(summary()),

@@ -105,9 +105,9 @@ TestMesh crossing_triangles() {
             {{{0, 1, 2}}, {{3, 4, 5}}}};
 }
 
-// One pair. The large triangle cut along y = 2 and above it: three pieces that touch the
+// One pair. The large triangle cut along y = 2 and above it: three fragments that touch the
 // small one are still one pair.
-TEST(RepairGoal, PiecesOfATriangleCountAsOne) {
+TEST(RepairGoal, FragmentsOfATriangleCountAsOne) {
     const TestMesh whole = crossing_triangles();
     TestMesh cut = whole;
     cut.positions.insert(cut.positions.end(), {{0, 2, 0}, {6, 2, 0}});
@@ -115,8 +115,8 @@ TEST(RepairGoal, PiecesOfATriangleCountAsOne) {
     const SelfCrossing before = find_self_crossing(soup_of(whole));
     EXPECT_EQ(before.pairs, 1U);
     EXPECT_EQ(before.apart, 1U);
-    const RepairMesh pieces = output_of(cut, {0, 1, 0, 0});
-    const SelfCrossing after = find_output_crossing(soup_of(whole), pieces);
+    const RepairMesh fragments = output_of(cut, {0, 1, 0, 0});
+    const SelfCrossing after = find_output_crossing(soup_of(whole), fragments);
     EXPECT_GE(after.pairs, 2U);
     EXPECT_EQ(after.apart, 1U);
     EXPECT_EQ(worse_crossing(before, after), "");
@@ -128,8 +128,8 @@ TEST(RepairGoal, PiecesOfATriangleCountAsOne) {
     EXPECT_NE(worse_crossing(before, as_new), "");
 }
 
-// Pieces of neighbours that touch where the triangles did touch nothing worse.
-TEST(RepairGoal, PiecesOfNeighboursAreNoPair) {
+// Fragments of neighbours that touch where the triangles did touch nothing worse.
+TEST(RepairGoal, FragmentsOfNeighboursAreNoPair) {
     const TestMesh whole = {{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 1}},
                             {{{0, 1, 2}}, {{2, 1, 3}}}};
     TestMesh cut = whole;
@@ -150,13 +150,13 @@ TEST(RepairGoal, CopiesOfATriangleCountAsOne) {
     const SelfCrossing as_output = find_output_crossing(soup_of(mesh), output_of(mesh, {0, 1, 2}));
     EXPECT_EQ(as_output.pairs, 3U);
     EXPECT_EQ(as_output.apart, 1U);
-    // Also when a piece is all that is left of the copy.
+    // Also when a fragment is all that is left of the copy.
     TestMesh cut = mesh;
     cut.positions.push_back({0, 4, 0});
     cut.triangles[2] = {{0, 1, 6}};
-    const SelfCrossing as_piece = find_output_crossing(soup_of(mesh), output_of(cut, {0, 1, 2}));
-    EXPECT_EQ(as_piece.pairs, 3U);
-    EXPECT_EQ(as_piece.apart, 1U);
+    const SelfCrossing as_fragment = find_output_crossing(soup_of(mesh), output_of(cut, {0, 1, 2}));
+    EXPECT_EQ(as_fragment.pairs, 3U);
+    EXPECT_EQ(as_fragment.apart, 1U);
 }
 
 TEST(RepairGoal, MoreCrossingsThanBeforeAreNoGoal) {
@@ -168,12 +168,13 @@ TEST(RepairGoal, MoreCrossingsThanBeforeAreNoGoal) {
     for (const char* preset : {"safe", "closed"}) {
         EXPECT_EQ(missed_goal(preset, closed, some, some), "");
         EXPECT_EQ(missed_goal(preset, closed, more, some), "");
-        EXPECT_EQ(missed_goal(preset, closed, some, more),
-                  "worse than the input: 5 pairs of triangles cross or touch, and 3 before; the "
-                  "pieces of a triangle count as one");
+        EXPECT_EQ(
+            missed_goal(preset, closed, some, more),
+            "worse than the input: 5 pairs of triangles cross or touch, compared with 3 before; "
+            "the fragments of a triangle count as one");
         EXPECT_EQ(missed_goal(preset, closed, none, some),
-                  "worse than the input: 3 pairs of triangles cross or touch, and none before; "
-                  "the pieces of a triangle count as one");
+                  "worse than the input: 3 pairs of triangles cross or touch, compared with none "
+                  "before; the fragments of a triangle count as one");
         // Of an input that was not examined to the end nothing is known.
         some.is_complete = false;
         EXPECT_EQ(missed_goal(preset, closed, some, more), "");

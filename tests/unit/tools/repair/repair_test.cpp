@@ -435,16 +435,16 @@ TEST(CutCrossings, ATriangleThatIsMetButNotCutNamesNoStep) {
     EXPECT_EQ(cut.failed, "");
     EXPECT_FALSE(cut.left);
     ASSERT_EQ(cut.mesh.triangle_origin.size(), 4U);
-    std::size_t pieces = 0;
+    std::size_t fragments = 0;
     for (const Origin& origin : cut.mesh.triangle_origin) {
         if (origin.source == 1) {
             EXPECT_FALSE(origin.step);
         } else {
             EXPECT_EQ(origin.step, RepairStep::resolve_self_intersections);
-            ++pieces;
+            ++fragments;
         }
     }
-    EXPECT_EQ(pieces, 3U);
+    EXPECT_EQ(fragments, 3U);
 }
 
 // Two unit cubes with half a face in common: in one plane, and no crossing at all.

@@ -19,7 +19,7 @@ TriangleSoup two_nodes() {
     return soup;
 }
 
-/// Triangle 2 in two pieces, 0 dropped, one made.
+/// Triangle 2 in two fragments, 0 dropped, one made.
 RepairMesh cut_and_closed() {
     RepairMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0, 0}};

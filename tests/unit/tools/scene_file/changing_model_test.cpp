@@ -52,7 +52,7 @@ public:
         const Cut& cut = made_->cut();
         auto next = static_cast<std::uint32_t>(triangles_.size());
         for (const std::uint32_t number : cut.removed) triangles_.erase(number);
-        for (const format::Triangle& part : cut.parts) triangles_[next++] = part;
+        for (const format::Triangle& added : cut.appended) triangles_[next++] = added;
     }
 
     /// Expects that the model answers as a new one of the mesh with these positions, and that its
@@ -191,10 +191,10 @@ TEST(ChangingModel, KeepsNumbersAndVertices) {
     ASSERT_EQ(ball.model().live().triangles(found), found.size());
     std::vector<LiveTriangle> expected;
     const std::vector<format::Triangle>& triangles = ball.mesh().triangles;
-    for (std::uint32_t i = 0; i < triangles.size() + cut.parts.size(); ++i) {
+    for (std::uint32_t i = 0; i < triangles.size() + cut.appended.size(); ++i) {
         if (std::ranges::binary_search(cut.removed, i)) continue;
         expected.push_back({i, i < triangles.size() ? triangles[i].vertex
-                                                    : cut.parts[i - triangles.size()].vertex});
+                                                    : cut.appended[i - triangles.size()].vertex});
     }
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {

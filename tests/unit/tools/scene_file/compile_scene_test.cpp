@@ -72,10 +72,11 @@ TEST(CompileScene, ListsAllRefusals) {
     EXPECT_FALSE(compiled.plan);
     ASSERT_EQ(compiled.refusals.size(), 2u);
     const std::string place = "s.json: Pair 0 of layers, 'a' and 'b': ";
-    EXPECT_EQ(compiled.refusals[0],
-              place +
-                  "inside is not built in a scene. Choose from collide, overlap, distance, within, "
-                  "contacts, response, continuous, self, deform, tear, haptic.");
+    EXPECT_EQ(
+        compiled.refusals[0],
+        place +
+            "inside is not supported in a scene. Choose from collide, overlap, distance, within, "
+            "contacts, response, continuous, self, deform, tear, haptic.");
     EXPECT_EQ(compiled.refusals[1], place +
                                         "response needs bodies, but no object of these layers has "
                                         "the motion \"body\".");
@@ -190,8 +191,8 @@ TEST(CompileScene, RefusesBodiesThatNothingPushes) {
         "s.json: Object 'y' in layer 'b' deforms. Add deform to the effects of pair 0 of layers, "
         "'a' and 'b'.",
         "s.json: Object 'y' in layer 'b' deforms or tears. The response of such models is not "
-        "built: pieces do not follow the surface.",
-        "s.json: Object 'z' in layer 'c' is a body, but no pair of this layer asks for response."};
+        "supported: pieces do not follow the surface.",
+        "s.json: Object 'z' in layer 'c' is a body, but no pair of this layer requests response."};
     EXPECT_EQ(compiled.refusals, expected);
 }
 
@@ -223,7 +224,7 @@ TEST(CompileScene, RefusesContactsOfModelsThatChange) {
         scene_of({{.asked = {.a = 0, .b = 1, .effects = Ask::contacts | Ask::deform}}});
     const Plan::Compiled compiled = compile_scene(scene, kLimits);
     ASSERT_EQ(compiled.refusals.size(), 1u);
-    EXPECT_NE(compiled.refusals[0].find("contacts of models that deform or tear"),
+    EXPECT_NE(compiled.refusals[0].find("contacts is not supported for models that deform or tear"),
               std::string::npos)
         << compiled.refusals[0];
 }

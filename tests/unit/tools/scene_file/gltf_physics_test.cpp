@@ -138,7 +138,7 @@ void expect_finding(const std::string& node, const std::string& words, const std
     const PhysicsText read = read_physics(document({node}, shared));
     EXPECT_EQ(read.errors, std::vector<std::string>{}) << node;
     EXPECT_EQ(read.findings,
-              (std::vector<std::string>{"a.gltf: not taken: " + words + " (" + place + ")."}))
+              (std::vector<std::string>{"a.gltf: ignored: " + words + " (" + place + ")."}))
         << node;
 }
 
@@ -159,8 +159,7 @@ TEST(GltfPhysics, ListsWhatItDoesNotTake) {
     expect_finding(motion(R"("inertiaOrientation":[0,0,0,1])"),
                    "a rotation of the inertia; that of the model is used",
                    at + "motion/inertiaOrientation: [0,0,0,1]");
-    expect_finding(motion(R"("spin":1)"), "the key 'spin', which is not known here",
-                   at + "motion/spin");
+    expect_finding(motion(R"("spin":1)"), "the unknown key 'spin'", at + "motion/spin");
     expect_finding(R"({"joint":{"joint":0,"connectedNode":0}})", "a joint", at + "joint",
                    R"({"physicsJoints":[{}]})");
     expect_finding(R"({"collider":{"geometry":{"mesh":0,"convexHull":true}}})",
@@ -169,7 +168,7 @@ TEST(GltfPhysics, ListsWhatItDoesNotTake) {
                    "an implicit shape (box); the mesh of its node is used",
                    at + "collider/geometry/shape");
     expect_finding(R"({"collider":{"geometry":{"mesh":1}}})",
-                   "a mesh that is not the node's; the mesh of its node is used",
+                   "a mesh other than the node's; the mesh of its node is used",
                    at + "collider/geometry/mesh");
     expect_finding(R"({"collider":{"shape":0}})",
                    "the shape of an older draft; the mesh of its node is used",
@@ -183,10 +182,10 @@ TEST(GltfPhysics, ListsWhatItDoesNotTake) {
                    R"({"physicsMaterials":[{"staticFriction":0.7}]})");
     expect_finding(collider(), "a restitution above 1; 1 is used", shared + "/restitution: 2",
                    R"({"physicsMaterials":[{"restitution":2}]})");
-    expect_finding(collider(), "a rule for two frictions; their geometric mean is used",
+    expect_finding(collider(), "a friction combine mode; the geometric mean is used",
                    shared + "/frictionCombine: \"average\"",
                    R"({"physicsMaterials":[{"frictionCombine":"average"}]})");
-    expect_finding(collider(), "a rule for two restitutions; the larger one is used",
+    expect_finding(collider(), "a restitution combine mode; the larger restitution is used",
                    shared + "/restitutionCombine: \"minimum\"",
                    R"({"physicsMaterials":[{"restitutionCombine":"minimum"}]})");
 }
@@ -198,9 +197,9 @@ TEST(GltfPhysics, ACycleOfNodesEnds) {
         R"({"node":1}}}}},{"mesh":0,"children":[2]},{"children":[3]},{"children":[2]}],)"
         R"("meshes":[{"weights":[0.5]}]})");
     EXPECT_TRUE(read.physics.nodes[0].trigger);
-    EXPECT_EQ(read.findings, (std::vector<std::string>{
-                                 "a.gltf: not taken: morph weights; the mesh is used as it is "
-                                 "stored (/meshes/0/weights)."}));
+    EXPECT_EQ(read.findings,
+              (std::vector<std::string>{"a.gltf: ignored: morph weights; the mesh is used as it is "
+                                        "stored (/meshes/0/weights)."}));
 }
 
 TEST(GltfPhysics, ListsEqualFindingsOnce) {
@@ -208,7 +207,7 @@ TEST(GltfPhysics, ListsEqualFindingsOnce) {
     const PhysicsText read = read_physics(document({joint, joint, joint}));
     EXPECT_EQ(read.findings,
               (std::vector<std::string>{
-                  "a.gltf: not taken: a joint (/nodes/0/extensions/KHR_physics_rigid_bodies/joint "
+                  "a.gltf: ignored: a joint (/nodes/0/extensions/KHR_physics_rigid_bodies/joint "
                   "and 2 more)."}));
 }
 
@@ -222,11 +221,11 @@ TEST(GltfPhysics, ANodeWithoutAMeshHasNoGeometry) {
     const std::string at = "/nodes/0/extensions/KHR_physics_rigid_bodies/trigger/geometry/node";
     EXPECT_EQ(read.findings,
               (std::vector<std::string>{
-                  "a.gltf: not taken: meshes below the node of a geometry (" + at + ").",
-                  "a.gltf: not taken: a mesh that is not the node's; its node has no mesh, so the "
+                  "a.gltf: ignored: meshes below the node of a geometry (" + at + ").",
+                  "a.gltf: ignored: a mesh other than the node's; its node has no mesh, so the "
                   "trigger is left out (" +
                       at + ").",
-                  "a.gltf: not taken: an animation of a node (/animations/0/channels/0 and 1 "
+                  "a.gltf: ignored: an animation of a node (/animations/0/channels/0 and 1 "
                   "more)."}));
 }
 
@@ -281,7 +280,7 @@ TEST(GltfPhysics, NamesThePlaceOfMistakes) {
                  "\"a\"; expected an array.");
     expect_error(document({}, R"({"physicsMaterials":[{"frictionCombine":"mean"}]})"),
                  "/extensions/KHR_physics_rigid_bodies/physicsMaterials/0/frictionCombine: 'mean' "
-                 "is not a rule. Choose from average, minimum, maximum or multiply.");
+                 "is not a combine mode. Choose from average, minimum, maximum or multiply.");
     expect_error("[]", "found []; expected an object.");
     expect_error(R"({"nodes":[3]})", "/nodes/0: found 3; expected an object.");
     expect_error(R"({"nodes":[{"children":[0,2]}]})",

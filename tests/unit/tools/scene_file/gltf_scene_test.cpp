@@ -115,7 +115,7 @@ TEST(GltfScene, FiltersBecomeLayers) {
                                       {"bodies of birds", "bodies of birds", Ask::response}}));
     EXPECT_TRUE(scene.has_pairs);
     EXPECT_TRUE(has_finding(reading,
-                            "not taken: a node with triangles but without a collider or "
+                            "ignored: a node with triangles but without a collider or "
                             "trigger (/nodes/5)."));
     ASSERT_EQ(scene.models.size(), 1u);
     EXPECT_EQ(reading.assembly->models.size(), 1u);
@@ -185,7 +185,7 @@ TEST(GltfScene, ABodyHasItsVelocitiesInTheWorld) {
         EXPECT_EQ(scene.dynamics.gravity->z, 0);
         EXPECT_EQ(scene.metres_per_unit, unit);
         EXPECT_TRUE(has_finding(reading, "assumed: gravity is 9.81 m/s^2 along -y."));
-        EXPECT_FALSE(has_finding(reading, "not taken"));
+        EXPECT_FALSE(has_finding(reading, "ignored"));
     }
 }
 
@@ -231,24 +231,23 @@ TEST(GltfScene, SomeBodiesAreNotTaken) {
     for (const FileObject& object : scene.objects) are_bodies.push_back(object.body != kNoBody);
     EXPECT_EQ(are_bodies, (std::vector<bool>{false, false, true, false, true, false}));
     EXPECT_TRUE(has_finding(reading,
-                            "not taken: a body of several colliders that differ in filter or "
+                            "ignored: a body of several colliders that differ in filter or "
                             "material, or whose node is sheared, mirrored or flat; they stay where "
                             "they are (/nodes/0" +
                                 at + "motion)."));
-    EXPECT_TRUE(
-        has_finding(reading,
-                    "not taken: a body without a collider; its triggers stay where they are "
-                    "(/nodes/3" +
-                        at + "motion)."));
+    EXPECT_TRUE(has_finding(reading,
+                            "ignored: a body without a collider; its triggers stay where they are "
+                            "(/nodes/3" +
+                                at + "motion)."));
     EXPECT_TRUE(has_finding(
-        reading, "not taken: a motion without a collider or trigger that is taken (/nodes/4" + at +
+        reading, "ignored: a motion without a collider or trigger that is used (/nodes/4" + at +
                      "motion)."));
     EXPECT_TRUE(has_finding(
-        reading, "not taken: a trigger that moves with a body; it stays where it is (/nodes/6" +
-                     at + "trigger)."));
+        reading, "ignored: a trigger that moves with a body; it stays where it is (/nodes/6" + at +
+                     "trigger)."));
     EXPECT_TRUE(has_finding(
-        reading, "not taken: a collider of scale 0, which the draft disables (/nodes/7" + at +
-                     "collider)."));
+        reading,
+        "ignored: a collider of scale 0, which the draft disables (/nodes/7" + at + "collider)."));
 }
 
 // By hand: a quarter turn about z maps x to y, so what is at x = 5 of the node is at y = 5 beside
@@ -280,15 +279,15 @@ TEST(GltfScene, CollidersOfABodyBecomeOneObject) {
     const Pose pose = pose_of(scene, car, 0).value();
     EXPECT_NEAR(transform_point(pose, {5, 0, 0}).x, 1, 1e-14);
     EXPECT_NEAR(transform_point(pose, {5, 0, 0}).y, 7, 1e-14);
-    std::vector<import::PlacedNode> parts;
-    for (const AssemblyPart& part : model) {
-        parts.push_back({&assembly.file.nodes()[part.node], part.model_from_mesh});
+    std::vector<import::PlacedNode> nodes;
+    for (const AssemblyNode& node : model) {
+        nodes.push_back({&assembly.file.nodes()[node.node], node.model_from_mesh});
     }
-    const auto one = assembly.file.triangles(std::span(parts).first(1));
-    const auto both = assembly.file.triangles(parts);
+    const auto one = assembly.file.triangles(std::span(nodes).first(1));
+    const auto both = assembly.file.triangles(nodes);
     ASSERT_TRUE(one && both);
     EXPECT_EQ(both->triangles.size(), 2 * one->triangles.size());
-    EXPECT_TRUE(has_finding(reading, "assumed: colliders of a body do not overlap"));
+    EXPECT_TRUE(has_finding(reading, "assumed: the colliders of a body do not overlap"));
 }
 
 TEST(GltfScene, ABodyThatNothingPushesStays) {
@@ -297,7 +296,7 @@ TEST(GltfScene, ABodyThatNothingPushesStays) {
                    R"({"collisionFilters":[{"collisionSystems":["a"],"collideWithSystems":["b"]},)"
                    R"({"collisionSystems":["b"],"notCollideWithSystems":["a"]}]})");
     EXPECT_EQ(reading.assembly->scene.objects[0].body, kNoBody);
-    EXPECT_TRUE(has_finding(reading, "not taken: a body that no collider can push"));
+    EXPECT_TRUE(has_finding(reading, "ignored: a body that no collider can push"));
     EXPECT_TRUE(has_finding(reading, "assumed: nothing is computed"));
     EXPECT_TRUE(reading.assembly->scene.bodies.empty());
     EXPECT_FALSE(has_finding(reading, "assumed: gravity"));
@@ -308,7 +307,8 @@ TEST(GltfScene, TellsThatTransformsWereRounded) {
     const GltfReading reading =
         read_nodes(node(R"("rotation":[0,0,0.7071068,0.7071069],)", kTrigger));
     EXPECT_GT(reading.assembly->rounding, 0);
-    EXPECT_TRUE(has_finding(reading, "assumed: transforms were rounded to rigid ones, by "));
+    EXPECT_TRUE(has_finding(
+        reading, "assumed: transforms were rounded to rigid ones; the largest change is "));
 }
 
 Pose pose_of_object(const GltfReading& reading, std::size_t number, double time_s) {
@@ -345,15 +345,15 @@ TEST(GltfScene, WhatIsBesideTheAxisDoesNotTurn) {
     EXPECT_TRUE(
         has_finding(reading, "assumed: a trigger also detects the colliders of its own body."));
     EXPECT_TRUE(has_finding(reading,
-                            "not taken: a turn of a kinematic node whose axis is not "
-                            "through the origin of its collider or trigger (/nodes/2/"));
+                            "ignored: a rotation of a kinematic node about an axis that misses the "
+                            "origin of its collider or trigger (/nodes/2/"));
 }
 
 TEST(GltfScene, AMirroredNodeHasNoVelocities) {
     const GltfReading reading = read_nodes(node(R"("scale":[-1,1,1],)", kKinematic + kCollider));
     EXPECT_FALSE(reading.assembly->scene.motions.at(0).moves());
     EXPECT_TRUE(has_finding(
-        reading, "not taken: velocities of a node that is sheared, mirrored or flat (/nodes/0/"));
+        reading, "ignored: velocities of a node that is sheared, mirrored or flat (/nodes/0/"));
 }
 
 // Node 1 is used twice.

@@ -63,7 +63,7 @@ TEST(PointCache, NamesEachMistake) {
         {"PC2",
          "c.pc2: byte 0: found 'PC2' as the first of 3 bytes; expected 'POINTCACHE2' and a "
          "zero."},
-        {good.substr(0, 31), "c.pc2: the file ends at byte 31, within the first 32."},
+        {good.substr(0, 31), "c.pc2: the file ends at byte 31, within its header of 32 bytes."},
         {cache_bytes(2, 2, kNumbers, 2), "c.pc2: byte 12: found version 2; expected version 1."},
         {cache_bytes(0, 2, kNumbers), "c.pc2: byte 16: found 0 points; expected at least 1."},
         {cache_bytes(0xfffffffeU, 2, kNumbers),
@@ -71,13 +71,13 @@ TEST(PointCache, NamesEachMistake) {
         {cache_bytes(2, 0, kNumbers), "c.pc2: byte 28: found 0 samples; expected at least 1."},
         {cache_bytes(2, 3, kNumbers),
          "c.pc2: byte 28: found 3 samples of 24 bytes; expected as "
-         "many as the 48 bytes behind the first 32 hold."},
+         "many as fit in the 48 bytes after the header."},
         {cache_bytes(2, 1, kNumbers),
          "c.pc2: byte 28: found 1 sample of 24 bytes; expected as "
-         "many as the 48 bytes behind the first 32 hold."},
+         "many as fit in the 48 bytes after the header."},
         {cache_bytes(0x7fffffffU, 0x7fffffffU, kNumbers),
-         "c.pc2: byte 28: found 2147483647 samples of 25769803764 bytes; expected as many as the "
-         "48 bytes behind the first 32 hold."},
+         "c.pc2: byte 28: found 2147483647 samples of 25769803764 bytes; expected as many as fit "
+         "in the 48 bytes after the header."},
         {cache_bytes(2, 2, not_a_number),
          "c.pc2: sample 1: coordinate y of point 1 is not a "
          "number; expected a finite number."},

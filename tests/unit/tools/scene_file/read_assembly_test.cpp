@@ -66,7 +66,7 @@ TEST(ReadAssembly, RigidTransformsArePoses) {
         folder.read(R"({"mesh":0,"name":"a"},{"mesh":1,"name":"b","translation":[1,2,3]},)"
                     R"({"mesh":0,"name":"a","matrix":[0,1,0,0,-1,0,0,0,0,0,1,0,7,8,9,1]})");
     const SceneFile& scene = read.scene;
-    EXPECT_EQ(scene.layers, std::vector<std::string>{"parts"});
+    EXPECT_EQ(scene.layers, std::vector<std::string>{"objects"});
     EXPECT_EQ(models_of(scene), (std::vector<std::uint32_t>{0, 1, 0}));
     EXPECT_EQ(scene.objects[2].name, "a#2");
     EXPECT_EQ(pose_at(scene, 1).translation(), (Double3{1, 2, 3}));

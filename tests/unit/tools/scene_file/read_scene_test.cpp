@@ -184,7 +184,7 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
         {"{\n\"cdprep_scene\": \"1\"}",
          {"line 2: /cdprep_scene: found \"1\"; expected a whole number from 0 to 2147483648."}},
         {"{\"cdprep_scene\": 1,\n\"layer\": [],\n\"step_s\": 0, \"duration_s\": -1}",
-         {"line 2: /layer: 'layer' is not a key here. Choose from $schema, cdprep_scene, "
+         {"line 2: /layer: unknown key 'layer'. Choose from $schema, cdprep_scene, "
           "metres_per_unit, step_s, duration_s, gravity, dynamics, limits, layers, pairs or "
           "objects. Did you mean 'layers'?",
           "line 3: /step_s: found 0; expected a number above 0.",
@@ -194,14 +194,14 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
          "\"layers\": [\"a\", \"a\", \"\"]}",
          {"line 1: /limits/pairs: found 0.5; expected a whole number from 1 to 2147483648.",
           "line 2: /layers/1: the layer 'a' occurs twice.",
-          "line 2: /layers/2: found \"\"; expected a text that is not empty.",
+          "line 2: /layers/2: found \"\"; expected a non-empty string.",
           "line 1: /objects: found an empty object; expected an array."}},
         {one_object("", "\"effects\": [\"colide\", 3], \"body\": \"hull\", \"overlap\": 1"),
          {"line 3: /pairs/0/effects/0: 'colide' is not an effect. Choose from " + words +
               " Did you mean 'collide'?",
           "line 3: /pairs/0/effects/1: found 3; expected an effect: " + words,
           "line 3: /pairs/0/body: 'hull' is not a body. Choose from surface or solid.",
-          "line 3: /pairs/0/overlap: found 1; expected a meaning of overlap: closed or proper."}},
+          "line 3: /pairs/0/overlap: found 1; expected a kind of overlap: closed or proper."}},
         {one_object("",
                     "\"tolerance\": -1, \"max_distance\": [], \"max_error\": -2, \"events\": "
                     "[\"pauses\"]"),
@@ -212,9 +212,9 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
           "line 3: /pairs/0/events/0: 'pauses' is not an event. Choose from begins, ends or "
           "stays."}},
         {one_object("", "\"effects\": [\"collide\"], \"contacts\": {}"),
-         {"line 3: /pairs/0/contacts: the pair does not ask for contacts."}},
+         {"line 3: /pairs/0/contacts: the pair does not request contacts."}},
         {one_object("", "\"effects\": [\"collide\"], \"impact\": {}, \"work\": 0"),
-         {"line 3: /pairs/0/impact: the pair does not ask for continuous.",
+         {"line 3: /pairs/0/impact: the pair does not request continuous.",
           "line 3: /pairs/0/work: found 0; expected a whole number from 1 to 2147483648."}},
         {one_object("",
                     "\"effects\": [\"continuous\"], \"impact\": {\"most_steps\": 0, "
@@ -223,7 +223,7 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
           "line 3: /pairs/0/impact/most_steps: found 0; expected a whole number from 1 to "
           "2147483648."}},
         {one_object("", "\"effects\": [\"contacts\"], \"contacts\": {\"depth\": 2}"),
-         {"line 3: /pairs/0/contacts/depth: 'depth' is not a key here. Choose from tolerance, "
+         {"line 3: /pairs/0/contacts/depth: unknown key 'depth'. Choose from tolerance, "
           "manifold, most, work or cluster_deg."}},
         {one_object("",
                     "\"effects\": [\"contacts\"], \"contacts\": {\"manifold\": 4,\n"
@@ -233,8 +233,7 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
         {one_object("",
                     "\"effects\": [\"contacts\"], \"contacts\": {\"most\": 0, \"tolerance\": -1}"),
          {"line 3: /pairs/0/contacts/tolerance: found -1; expected a number, 0 or more.",
-          "line 3: /pairs/0/contacts/most: found 0; expected a whole number from 1 to "
-          "256."}},
+          "line 3: /pairs/0/contacts/most: found 0; expected a whole number from 1 to 256."}},
         {one_object(", \"pose\": {\"translation\": [1, 2]}"),
          {"line 4: /objects/0/pose/translation: found [1,2]; expected an array of 3 numbers."}},
         {one_object(", \"pose\": {\"quaternion\": [0, 0, 0, 0]}"),
@@ -251,21 +250,21 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
          {"line 1: /layers: found an empty object; expected an array."}},
         {"{\"cdprep_scene\": 1, \"layers\": [],\n\"objects\": [],\n\"pairs\": "
          "[{\"layers\": [\"a\", \"a\"], \"effects\": []}]}",
-         {"line 3: /pairs/0/layers/0: found \"a\"; expected a layer, but the scene has none.",
-          "line 3: /pairs/0/layers/1: found \"a\"; expected a layer, but the scene has none."}},
+         {"line 3: /pairs/0/layers/0: found \"a\"; expected a layer, but the scene has no layers.",
+          "line 3: /pairs/0/layers/1: found \"a\"; expected a layer, but the scene has no "
+          "layers."}},
         {one_object(", \"motion\": {}"),
          {"line 4: /objects/0/motion: a motion has a path, a velocity, a turn_rad_per_s, a deform, "
-          "a "
-          "tear or a body."}},
+          "a tear or a body."}},
         {one_object(", \"motion\": {\"path\": [], \"velocity\": [0, 0, 1]}, \"pose\": {}"),
-         {"line 4: /objects/0/motion: a path excludes velocity and turn_rad_per_s.",
-          "line 4: /objects/0/motion: an object with a path has no pose of its own; its keys "
-          "have.",
-          "line 4: /objects/0/motion: the path has no key."}},
+         {"line 4: /objects/0/motion: a path cannot be combined with velocity or turn_rad_per_s.",
+          "line 4: /objects/0/motion: an object with a path cannot have a pose; the keys of the "
+          "path have poses.",
+          "line 4: /objects/0/motion: the path has no keys."}},
         {one_object(", \"motion\": {\"path\": [{\"time_s\": 1, \"pose\": {}}, {\"time_s\": 1}]}"),
          {"line 4: /objects/0/motion/path/1: the key 'pose' is missing.",
           "line 4: /objects/0/motion/path/1/time_s: found 1; expected a time after that of the "
-          "key before it."}},
+          "previous key."}},
         {one_object(", \"instances\": {\"counts\": [1, 0, 2], \"spacing\": 3}"),
          {"line 4: /objects/0/instances/spacing: found 3; expected an array of 3 numbers.",
           "line 4: /objects/0/instances/counts/1: found 0; expected a whole number from 1 to "
@@ -275,12 +274,12 @@ TEST(ReadScene, NamesEachMistakeAndItsLine) {
           "have 4000000."}},
         {one_object("},\n{\"name\": \"c\", \"layer\": \"crate\", \"model\": \"none.obj\""),
          {"line 5: /objects/1/model: there is no file ",
-          "line 5: /objects/1/layer: 'crate' is "
-          "not a layer. Choose from crates or gates. Did you mean 'crates'?",
+          "line 5: /objects/1/layer: 'crate' is not a layer. Choose from crates or gates. Did you "
+          "mean 'crates'?",
           "line 5: /objects/1/name: another object has the name 'c'."}},
         {one_object(", \"mass\": 3"),
-         {"line 4: /objects/0/mass: 'mass' is not a key here. Choose from name, model, layer, "
-          "pose, motion, material or instances."}},
+         {"line 4: /objects/0/mass: unknown key 'mass'. Choose from name, model, layer, pose, "
+          "motion, material or instances."}},
     };
     for (const Mistake& mistake : mistakes) {
         const SceneReading reading = folder.read(mistake.text);
@@ -366,12 +365,12 @@ TEST(ReadScene, NamesMistakesOfBodies) {
           body + "/angular_damping: found -1; expected a number from 0 to 1.",
           body + "/continuous: found 1; expected true or false.", no_gravity}},
         {falling("\"friction\": 1"),
-         {body + "/friction: 'friction' is not a key here. Choose from mass, density, "
+         {body + "/friction: unknown key 'friction'. Choose from mass, density, "
                  "linear_damping, angular_damping, velocity, turn_rad_per_s or continuous.",
           no_gravity}},
         {one_object(", \"motion\": {\"body\": {}, \"velocity\": [1, 2, 3]}"),
-         {"line 4: /objects/0/motion/velocity: a body excludes velocity: it is rigid, and contacts "
-          "and gravity move it. Its first velocities belong in 'body'.",
+         {"line 4: /objects/0/motion/velocity: a body cannot have velocity: it is rigid, and "
+          "contacts and gravity move it. Its initial velocities belong in 'body'.",
           no_gravity}},
         {one_object(", \"material\": {\"friction\": -1, \"restitution\": 2}"),
          {"line 4: /objects/0/material/friction: found -1; expected a number, 0 or more.",
@@ -379,7 +378,7 @@ TEST(ReadScene, NamesMistakesOfBodies) {
         {"{\"cdprep_scene\": 1, \"layers\": [], \"objects\": [], \"gravity\": 9.81,\n"
          "\"dynamics\": {\"substeps\": 0, \"rest_gap\": 0, \"sleeps\": 1, \"steps\": 3}}",
          {"line 1: /gravity: found 9.81; expected an array of 3 numbers.",
-          "line 2: /dynamics/steps: 'steps' is not a key here. Choose from substeps, iterations, "
+          "line 2: /dynamics/steps: unknown key 'steps'. Choose from substeps, iterations, "
           "rest_gap, most_speed, tolerance, sleep_speed, most_contacts or sleeps."}},
         {"{\"cdprep_scene\": 1, \"layers\": [], \"objects\": [],\n"
          "\"dynamics\": {\"substeps\": 0, \"rest_gap\": 0, \"sleeps\": 1}}",
@@ -455,7 +454,7 @@ TEST(ReadScene, NamesMistakesOfChanges) {
         {changing("\"deform\": {\"shear\": {}, \"twist\": {}}"),
          {motion + "/deform: a deform has exactly one of shear, twist and stream."}},
         {changing("\"deform\": {\"bend\": 1}"),
-         {motion + "/deform/bend: 'bend' is not a key here. Choose from shear, twist or stream."}},
+         {motion + "/deform/bend: unknown key 'bend'. Choose from shear, twist or stream."}},
         {changing("\"deform\": {\"shear\": {\"of\": \"x\", \"along\": \"x\"}}"),
          {motion + "/deform/shear: of and along are both x; they must differ.",
           motion + "/deform/shear: a shear has either a rate_per_s, or an amplitude and a "

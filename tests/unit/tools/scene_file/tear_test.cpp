@@ -46,7 +46,7 @@ TestMesh after_cut(const TestMesh& mesh, const Cut& cut) {
         if (!std::ranges::binary_search(cut.removed, i))
             after.triangles.push_back(mesh.triangles[i]);
     }
-    after.triangles.insert(after.triangles.end(), cut.parts.begin(), cut.parts.end());
+    after.triangles.insert(after.triangles.end(), cut.appended.begin(), cut.appended.end());
     return after;
 }
 
@@ -253,19 +253,19 @@ TEST(CutByPlane, CopiesVerticesInThePlane) {
     EXPECT_EQ(cut.vertices.size(), 2u) << "each vertex of the column has one copy";
     for (const CutVertex& vertex : cut.vertices) EXPECT_EQ(sheet.positions[vertex.a].x, 1);
     EXPECT_EQ(cut.removed.size(), 2u);
-    EXPECT_EQ(cut.parts.size(), 2u) << "both triangles of the far square touch the column";
+    EXPECT_EQ(cut.appended.size(), 2u) << "both triangles of the far square touch the column";
 }
 
-// By hand: a triangle in two parts through a corner, in three through its sides.
+// By hand: two fragments of a triangle through a corner, three through its sides.
 TEST(CutByPlane, SplitsATriangle) {
     const TestMesh triangle = test::right_triangle();
     const Laws corner(triangle, {.point = {0, 0, 0}, .normal = {1, -1, 0}});
     corner.check();
-    EXPECT_EQ(corner.cut().parts.size(), 2u);
+    EXPECT_EQ(corner.cut().appended.size(), 2u);
     EXPECT_EQ(corner.cut().vertices.size(), 3u) << "two at the side, one copy";
     const Laws sides(triangle, {.point = {1, 0, 0}, .normal = {1, 0, 0}});
     sides.check();
-    EXPECT_EQ(sides.cut().parts.size(), 3u);
+    EXPECT_EQ(sides.cut().appended.size(), 3u);
     EXPECT_EQ(sides.cut().vertices.size(), 4u);
 }
 
@@ -276,7 +276,7 @@ TEST(CutByPlane, ChangesNothingWhereItMisses) {
         for (const double direction : {1.0, -1.0}) {
             const Cut cut = cut_mesh(cube, {.point = {0, 0, height}, .normal = {0, 0, direction}});
             EXPECT_TRUE(cut.misses) << height << " " << direction;
-            EXPECT_TRUE(cut.removed.empty() && cut.parts.empty() && cut.vertices.empty());
+            EXPECT_TRUE(cut.removed.empty() && cut.appended.empty() && cut.vertices.empty());
         }
     }
     EXPECT_TRUE(cut_mesh(sheet, {}).misses);
@@ -289,7 +289,7 @@ TEST(CutByPlane, PartsBodiesThatItDoesNotCross) {
         test::joined(test::unit_cube(), test::moved_by(test::unit_cube(), 1, {3, 0, 0}));
     const Laws laws(two, {.point = {2, 0, 0}, .normal = {1, 0, 0}});
     laws.check();
-    EXPECT_TRUE(laws.cut().removed.empty() && laws.cut().parts.empty());
+    EXPECT_TRUE(laws.cut().removed.empty() && laws.cut().appended.empty());
     EXPECT_EQ(std::ranges::count(laws.cut().is_far, 1), 8);
 }
 

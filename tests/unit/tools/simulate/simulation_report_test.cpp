@@ -113,7 +113,7 @@ TEST(SimulationReport, StagesMakeUpTheFrame) {
     }
 }
 
-// By hand: nobody asks for the 60 pieces of debris. The 2 crates are paired with the gate, the
+// By hand: nobody asks for the 60 objects of debris. The 2 crates are paired with the gate, the
 // ground and each other.
 TEST(SimulationReport, TellsWhichLayersAreNeverPaired) {
     const SceneFile crates = sample_scenes()[0];

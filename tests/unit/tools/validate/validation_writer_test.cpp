@@ -175,7 +175,7 @@ TEST(ValidationText, WithABaselineListsOnlyNews) {
     old.judgements.clear();
     old.known = 4;
     old.exit = 0;
-    old.remarks = {"CDP0301 was compared by number."};
+    old.remarks = {"CDP0301 was compared by its count."};
     EXPECT_EQ(written(ValidationFormat::text, run, {known, old}),
               "2 files: 0 failed, 1 unreadable; 0 errors, 0 warnings, 0 notes, besides 5 known\n");
     ValidationReport fresh = with_a_hole();
@@ -184,7 +184,7 @@ TEST(ValidationText, WithABaselineListsOnlyNews) {
     const std::string text =
         written(ValidationFormat::text, run, {known, old, fresh, unreadable()});
     EXPECT_EQ(text.find("fresh.obj: FAILED"), 0U);
-    EXPECT_TRUE(holds(text, "  CDP0301 was compared by number.\n"));
+    EXPECT_TRUE(holds(text, "  CDP0301 was compared by its count.\n"));
     EXPECT_TRUE(holds(text, "none.obj: UNREADABLE\n"));
 }
 
@@ -263,7 +263,7 @@ TEST(Sarif, TellsOfPlacesThatAreNotListed) {
     const std::string text =
         written(ValidationFormat::sarif, run_of(), {unreadable(), with_a_hole()});
     EXPECT_TRUE(holds(text, "\"occurrenceCount\":1"));
-    EXPECT_TRUE(holds(text, "1 more of them are not listed"));
+    EXPECT_TRUE(holds(text, "1 more place is not listed"));
     EXPECT_TRUE(holds(text, "\"fullyQualifiedName\":\"root/hand/triangle 11\""));
     EXPECT_TRUE(holds(text, "\"executionSuccessful\":false,\"exitCode\":3"));
     EXPECT_TRUE(holds(text, "none.obj: cannot be opened."));

@@ -19,7 +19,7 @@ std::filesystem::path file_of(const test::ScratchFolder& folder, std::span<const
 
 TEST(FindLayout, SaysWhyNothingIsFound) {
     const test::ScratchFolder folder;
-    const std::string unreadable = "it is not an HDF5 file that can be read";
+    const std::string unreadable = "it is not a readable HDF5 file";
     const FoundLayout missing = find_layout(folder.file("missing"));
     EXPECT_EQ(missing.damage, unreadable);
     EXPECT_TRUE(missing.places.empty());
@@ -27,7 +27,7 @@ TEST(FindLayout, SaysWhyNothingIsFound) {
     EXPECT_EQ(text.damage, unreadable);
     EXPECT_TRUE(text.places.empty());
     const FoundLayout foreign = find_layout(file_of(folder, {}));
-    EXPECT_EQ(foreign.damage, "it holds no dataset of cdprep");
+    EXPECT_EQ(foreign.damage, "it contains no dataset of cdprep");
     EXPECT_TRUE(foreign.places.empty());
 }
 

@@ -115,7 +115,7 @@ TEST_P(OutputFileOf, AFolderThatTakesNoFilesIsNotCalledMissing) {
     ASSERT_FALSE(file);
     EXPECT_EQ(file.error().code, ErrorCode::unwritable);
     EXPECT_EQ(file.error().message,
-              "/proc/out: cannot be written, for the folder /proc takes no new files. "
+              "/proc/out: cannot be written, because the folder /proc accepts no new files. "
               "Nothing was written.");
 }
 

@@ -48,10 +48,10 @@ TEST(SparseMemory, BehavesLikePlainMemory) {
             plain.resize(offset);
             continue;
         }
-        const std::string piece(random() % 9000, static_cast<char>('a' + i % 26));
-        plain.resize(std::max(plain.size(), offset + piece.size()));
-        plain.replace(offset, piece.size(), piece);
-        memory.write(offset, test::bytes_of(piece));
+        const std::string block(random() % 9000, static_cast<char>('a' + i % 26));
+        plain.resize(std::max(plain.size(), offset + block.size()));
+        plain.replace(offset, block.size(), block);
+        memory.write(offset, test::bytes_of(block));
         ASSERT_EQ(memory.size(), plain.size());
         ASSERT_EQ(text_at(memory, 0, plain.size()), plain);
     }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cdprep/contacts.h"
-#include "decompose/enclose/approximate_pieces.h"
+#include "decompose/enclose/approximate_parts.h"
 #include "support/concave_solids.h"
 #include "unit/tools/tiny_hull_sections.h"
 #include "unit/tools/with_pieces.h"
@@ -26,8 +26,8 @@ OpenModel open_as(const TestMesh& mesh, Baked how, std::size_t parts = 8) {
     convex::HullSections hulls = *convex::make_hull_sections(mesh_of(mesh), {}, 0, serial_for);
     if (how == Baked::parts) {
         convex::ApproximateOptions options;
-        options.parts = parts;
-        convex::add_parts(hulls, convex::find_approximate_pieces(mesh_of(mesh), options).pieces);
+        options.max_parts = parts;
+        convex::add_parts(hulls, convex::find_approximate_parts(mesh_of(mesh), options).parts);
     }
     return open_tiny(with_sections(file, convex::tiny_sections(hulls)));
 }

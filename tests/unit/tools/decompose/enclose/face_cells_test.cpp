@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "decompose/enclose/join_cells.h"
@@ -22,9 +23,35 @@ Mesh l_prism(double angle) {
     return mesh_of(test::turned(test::l_prism(), angle));
 }
 
-std::optional<SolidCells> cells_of(const Mesh& mesh, const FaceCellOptions& options = {}) {
+/// Steps from the upper left to the lower right: their planes cut it into unit cubes.
+Mesh stairs(int steps) {
+    std::vector<std::array<double, 2>> outline = {{0, 0}, {static_cast<double>(steps), 0}};
+    for (int i = 1; i <= steps; ++i) {
+        const double x = steps - i, y = i;
+        outline.insert(outline.end(), {{x + 1, y}, {x, y}});
+    }
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t i = 1; i + 1 < outline.size(); ++i) triangles.push_back({0, i, i + 1});
+    return mesh_of(test::prism(outline, triangles));
+}
+
+/// Notches between teeth: two planes for each notch, and one through all their floors.
+Mesh comb(int notches) {
+    std::vector<std::array<double, 2>> outline = {{0, 0}, {2.0 * notches + 1, 0}};
+    std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}};
+    for (int left = notches; left >= 0; --left) {
+        const double x = 2 * left + 1;
+        const auto i = static_cast<std::uint32_t>(outline.size());
+        outline.insert(outline.end(), {{x, 1}, {x, 2}, {x - 1, 2}, {x - 1, 1}});
+        triangles.insert(triangles.end(), {{i, i + 1, i + 2}, {i, i + 2, i + 3}, {0, i, i + 3}});
+        if (left > 0) triangles.push_back({0, i + 3, i + 4});
+    }
+    return mesh_of(test::prism(outline, triangles));
+}
+
+std::optional<SolidCells> cells_of(const Mesh& mesh) {
     const Solid solid(mesh, Reference::solid, serial_for);
-    return cut_along_faces(mesh, solid, std::vector<bool>(solid.body_count(), true), options);
+    return cut_along_faces(mesh, solid, std::vector<bool>(solid.body_count(), true));
 }
 
 ConvexHull hull_of(const SolidCells& cells, const SolidCell& cell) {
@@ -103,10 +130,24 @@ TEST(FaceCells, OfWhatIsNotWantedAreNone) {
     EXPECT_TRUE(cells->cells.empty());
 }
 
+TEST(FaceCells, AreNothingBeyondALimit) {
+    const auto of_comb = cells_of(comb(15));
+    ASSERT_TRUE(of_comb);
+    EXPECT_EQ(of_comb->cells.size(), 47u);
+    EXPECT_FALSE(cells_of(comb(16)));  // 33 planes
+    const auto of_stairs = cells_of(stairs(15));
+    ASSERT_TRUE(of_stairs);
+    EXPECT_EQ(of_stairs->cells.size(), 120u);
+    EXPECT_FALSE(cells_of(stairs(16)));  // 136 cells
+    const Mesh fine = mesh_of(test::box_with_a_fine_side(30, 30));
+    const Mesh finer = mesh_of(test::box_with_a_fine_side(32, 32));
+    EXPECT_LE(fine.triangles.size(), 4000u);
+    EXPECT_GT(finer.triangles.size(), 4000u);
+    EXPECT_TRUE(cells_of(fine));
+    EXPECT_FALSE(cells_of(finer));
+}
+
 TEST(FaceCells, AreNothingWithManyFacesOrWithoutASolid) {
-    EXPECT_FALSE(cells_of(l_prism(0), {.most_planes = 1}));
-    EXPECT_FALSE(cells_of(l_prism(0), {.most_cells = 2}));
-    EXPECT_FALSE(cells_of(l_prism(0), {.most_triangles = 19}));
     Mesh open = l_prism(0);
     open.triangles.pop_back();
     EXPECT_FALSE(cells_of(open));

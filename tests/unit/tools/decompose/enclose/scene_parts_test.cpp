@@ -12,7 +12,7 @@
 #include "cdprep/hulls.h"
 #include "cdprep/live_model.h"
 #include "cdprep/scene.h"
-#include "decompose/enclose/approximate_pieces.h"
+#include "decompose/enclose/approximate_parts.h"
 #include "support/concave_solids.h"
 #include "support/guarded_pages.h"
 #include "support/random_pose.h"
@@ -26,9 +26,9 @@ AlignedBytes file_with_parts(const TestMesh& mesh, std::size_t parts) {
     const AlignedBytes bare = bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true});
     convex::HullSections hulls = *convex::make_hull_sections(mesh_of(mesh), {}, 0, serial_for);
     convex::ApproximateOptions options;
-    options.parts = parts;
+    options.max_parts = parts;
     options.work = 2'000'000;  // less than the best parts, in little time
-    convex::add_parts(hulls, convex::find_approximate_pieces(mesh_of(mesh), options).pieces);
+    convex::add_parts(hulls, convex::find_approximate_parts(mesh_of(mesh), options).parts);
     return with_sections(bare, convex::tiny_sections(hulls));
 }
 
@@ -413,13 +413,13 @@ TEST(ScenePartsDeathTest, ReadOnlyHullsAndBoxes) {
     EXPECT_DEATH(hash(*model), "");
 }
 
-TEST(EnclosingParts, AreThoseOfClosedModelsOfOneComponent) {
+TEST(EnclosingParts, AreThoseOfBalancedModelsOfOneComponent) {
     const OpenModel ring = open_with_parts(torus(1, 0.3, 16, 8), 4);
     const EnclosingParts parts = enclosing_parts(ring.model);
     EXPECT_GT(parts.count, 1U);
     EXPECT_EQ(parts.first + parts.count, ring.model.hulls().hulls.size());
     EXPECT_EQ(ring.model.hulls().hulls[parts.first].scope, format::HullScope::part);
-    // Open, of two components, without sections, and the bake of nothing.
+    // Unbalanced, of two components, without sections, and the bake of nothing.
     TestMesh pierced = torus(1, 0.3, 16, 8);
     pierced.triangles.pop_back();
     const OpenModel open = open_with_parts(pierced, 6);

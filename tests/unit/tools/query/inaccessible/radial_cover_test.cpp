@@ -220,8 +220,8 @@ TEST(RadialCover, EqualsAllCellsOfTheArrangement) {
 }
 
 // Each octant of the outer octahedron is split about a point of its own, so that borders
-// cross those of the inner one: many pieces, all covered, or all but one.
-TEST(RadialCover, CoverOfManyPiecesIsComplete) {
+// cross those of the inner one: many fragments, all covered, or all but one.
+TEST(RadialCover, CoverOfManyFragmentsIsComplete) {
     std::mt19937 random(11);
     std::uniform_int_distribution<int> weight(1, 9);
     TestMesh mesh;

@@ -42,7 +42,7 @@ TEST(PrincipalAxes, OfADiagonalTensorStay) {
 }
 
 // By hand: a cube of 2 kg with edges of 1 has the moments m / 6 about its centre.
-TEST(BodyMass, OfAClosedModelIsThatOfTheFile) {
+TEST(BodyMass, OfABalancedModelIsThatOfTheFile) {
     const auto made =
         study::make_memory_model(test::mesh_of(test::unit_cube()), {.pieces = true, .mass = true})
             .value();
@@ -61,13 +61,13 @@ TEST(BodyMass, OfAClosedModelIsThatOfTheFile) {
 }
 
 // By hand: a sheet of 2 x 1 as a flat box.
-TEST(BodyMass, OfAnOpenModelIsThatOfItsBox) {
+TEST(BodyMass, OfAnUnbalancedModelIsThatOfItsBox) {
     const auto made =
         study::make_memory_model(test::mesh_of(test::grid_sheet(2, 1)), {.pieces = true}).value();
     RigidBody body{.model = &made.model, .name = "sheet"};
     EXPECT_EQ(mass_of(body).error().message,
-              "sheet: response needs mass, and the mesh is open. Give a mass in the scene, or "
-              "repair it (--repair closed).");
+              "sheet: response needs mass, and the mesh is unbalanced. Give a mass in the scene, "
+              "or repair the mesh (bake --repair closed).");
     body.mass = 12;
     const BodyMass mass = mass_of(body).value();
     EXPECT_EQ(mass.mass, 12);

@@ -56,7 +56,7 @@ TEST_F(RigidBodiesTest, NeedAToleranceForTheirSpeed) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message,
               "The contact tolerance is 0.01, but at a speed of 3 it must be at least 0.0505: the "
-              "rest gap and the way of a substep.");
+              "rest gap plus the distance moved in a substep.");
     EXPECT_FALSE(make_rigid_bodies({.step_s = 0}));
     EXPECT_FALSE(make_rigid_bodies({.substeps = 0}));
     EXPECT_FALSE(make_rigid_bodies({.rest_gap = 0}));
@@ -159,7 +159,7 @@ TEST_F(RigidBodiesTest, RefuseTooManyGroups) {
     const auto refused = bodies->add_body(box);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message,
-              "box: the groups and kinds of bodies need 34 layers; at most 32 are possible.");
+              "box: the groups and kinds of bodies need 34 layers; at most 32 are supported.");
     box.group = 3;
     EXPECT_TRUE(bodies->add_body(box));
     EXPECT_EQ(bodies->body_count(), 17U);
@@ -329,7 +329,7 @@ TEST_F(RigidBodiesTest, AContinuousBodyTurnsFartherThanPi) {
     const auto refused = bodies->step();
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message.find("bar: may turn by 125"), 0u) << refused.error().message;
-    EXPECT_NE(refused.error().message.find("up to 1000. Take more substeps."), std::string::npos);
+    EXPECT_NE(refused.error().message.find("up to 1000. Use more substeps."), std::string::npos);
 }
 
 // Turns by more than a radian in a substep, about no principal axis.

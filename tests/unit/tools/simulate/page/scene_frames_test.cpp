@@ -94,7 +94,7 @@ TEST(SceneTimeline, HasAStageForEachEffectThatIsAsked) {
         1, [&](std::uint64_t, const scenes::Simulation& simulation) { timeline.add(simulation); });
     EXPECT_EQ(timeline.stages(),
               (std::vector<std::string>{"boxes", "collide", "overlap", "within", "distance",
-                                        "contacts", "rest of pairs", "lists"}));
+                                        "contacts", "pair overhead", "lists"}));
 }
 
 // By a run without limits: sums and maxima of the frames that a span joins.

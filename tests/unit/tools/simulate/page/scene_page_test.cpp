@@ -293,9 +293,8 @@ TEST(ScenePage, LargeLiveModelsAreDrawnAtRest) {
     const std::string page = page_of_run(scene, options, &left_out);
     EXPECT_TRUE(element_of(page, "scene-data")["changing"][0].is_null());
     EXPECT_TRUE(element_of(page, "frame-data")[1]["shapes"].empty());
-    const std::string expected = "'moving' deforms or tears, but is drawn as it was at rest: " +
-                                 std::to_string(scene.torus().triangle_count()) +
-                                 " triangles are too many.";
+    const std::string expected = "'moving' deforms or tears, but is drawn at rest because it has " +
+                                 std::to_string(scene.torus().triangle_count()) + " triangles.";
     EXPECT_EQ(std::ranges::count(left_out, expected), 1) << ::testing::PrintToString(left_out);
 }
 
@@ -307,8 +306,7 @@ TEST(ScenePage, SaysWhatItLeavesOut) {
         const std::string page = page_of_run(scene, options, &left_out);
         EXPECT_EQ(element_of(page, "scene-data")["left_out"], json(left_out));
         const std::string unused =
-            "unused.obj is not drawn: no pair of layers asks for its objects, so it was not "
-            "opened.";
+            "unused.obj is not drawn: no pair of layers uses its objects, so it was not opened.";
         EXPECT_EQ(std::ranges::count(left_out, unused), 1);
         std::erase(left_out, unused);
         return left_out;
@@ -320,12 +318,13 @@ TEST(ScenePage, SaysWhatItLeavesOut) {
     EXPECT_EQ(told({.events = 3}).size(), 1u);
     EXPECT_NE(told({.events = 3})[0].find("events of late frames are not listed"),
               std::string::npos);
-    EXPECT_NE(told({.limits = {.lit = 5}})[0].find("touching triangles in shown frames"),
+    EXPECT_NE(told({.limits = {.lit = 5}})[0].find("touching triangles in all shown frames"),
               std::string::npos);
     const std::vector<std::string> few = told({.limits = {.objects = 2}});
     ASSERT_EQ(few.size(), 5u);
-    EXPECT_EQ(few[0], "The page has 2 of 4 objects, the first ones of the file.");
-    EXPECT_NE(told({.triangles = 100})[0].find("torus.obj is drawn coarsely: 192 triangles"),
+    EXPECT_EQ(few[0], "The page has 2 of 4 objects: the first ones in the file.");
+    EXPECT_NE(told({.triangles = 100})[0].find(
+                  "torus.obj is drawn coarsely because it has 192 triangles"),
               std::string::npos);
 }
 
@@ -395,7 +394,7 @@ TEST(SceneChart, HasEachStageAndNoMarkup) {
     SceneTimeline timeline;
     scene.run(5, [&](std::uint64_t, const scenes::Simulation& now) { timeline.add(now); });
     const std::string svg = scene_svg(timeline, "<b>\x01.json", 0.25);
-    EXPECT_NE(svg.find(">rest of pairs</text>"), std::string::npos);
+    EXPECT_NE(svg.find(">pair overhead</text>"), std::string::npos);
     EXPECT_NE(svg.find("class=\"stage s0\""), std::string::npos);
     EXPECT_NE(svg.find("&lt;b&gt;\\x01.json"), std::string::npos);
     EXPECT_EQ(svg.find("<b>"), std::string::npos);

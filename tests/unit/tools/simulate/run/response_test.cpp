@@ -237,7 +237,8 @@ std::string text_of(const Falling& falling, const SceneFile& file) {
 
 // A cube without mass properties in its file, though it is closed.
 TEST_F(ResponseTest, ReportsTellWhichBodiesResistAsBoxes) {
-    constexpr const char* kTold = "1 body resists as a box: its file has no usable mass properties";
+    constexpr const char* kTold =
+        "1 body has the inertia of its box: its file has no usable mass properties";
     Falling falling(1);
     falling.file().bodies[0].mass = 3;
     EXPECT_EQ(text_of(falling, falling.file()).find(kTold), std::string::npos);
@@ -316,14 +317,15 @@ TEST_F(ResponseTest, RefusalsAreListed) {
     ASSERT_EQ(refusals.size(), 1u) << ::testing::PrintToString(refusals);
     EXPECT_EQ(refusals[0].find("s.json: response: The contact tolerance is 1e-06"), 0u);
     EXPECT_EQ(model_refusals(falling.file(), falling.models()).size(), 2u) << "one for each model";
-    // The mesh is open, and no bake of it has mass.
+    // The mesh is unbalanced, and no bake of it has mass.
     study::MemoryModel whole =
         study::make_memory_model(test::mesh_of(sheet), {.pieces = true}).value();
     falling.models()[1].model.emplace(std::move(whole.model));
     EXPECT_EQ(model_refusals(falling.file(), falling.models()).size(), 1u);
     const std::vector<std::string> more = response_refusals(falling.file(), falling.models());
     ASSERT_EQ(more.size(), 2u) << ::testing::PrintToString(more);
-    EXPECT_EQ(more[1].find("s.json: object 'cube': response needs mass, and the mesh is open"), 0u);
+    EXPECT_EQ(
+        more[1].find("s.json: object 'cube': response needs mass, and the mesh is unbalanced"), 0u);
     falling.file().pairs[0].asked.effects = falling.file().pairs[1].asked.effects = Ask::within;
     EXPECT_TRUE(response_refusals(falling.file(), falling.models()).empty()) << "nobody asks";
 }

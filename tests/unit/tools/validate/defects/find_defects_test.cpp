@@ -378,9 +378,16 @@ TEST(FindDefects, ShapesAreJudgedAtAnyScale) {
         EXPECT_EQ(finding_of(report, Rule::zero_area).places[0].measure, std::ldexp(8.0, exponent));
         EXPECT_DOUBLE_EQ(finding_of(report, Rule::sliver).places[0].measure, 0x1p-44);
     }
-    EXPECT_EQ(report_of(mesh, {.sliver_ratio = 0x1p-45}).counts.sliver_triangles, 0U);
-    EXPECT_EQ(report_of(mesh, {.sliver_ratio = 0x1p-44}).counts.sliver_triangles, 0U);
-    EXPECT_EQ(report_of(mesh, {.sliver_ratio = 1}).counts.sliver_triangles, 2U);
+}
+
+// Its height is twice the ratio of its area to the square of its longest edge, which is 1.
+TEST(FindDefects, ATriangleBelowTheSliverRatioIsASliver) {
+    const auto slivers = [](double height) {
+        return report_of({{{0, 0, 0}, {1, 0, 0}, {0.5, height, 0}}, {{{0, 1, 2}}}})
+            .counts.sliver_triangles;
+    };
+    EXPECT_EQ(slivers(2e-10), 0U);
+    EXPECT_EQ(slivers(std::nextafter(2e-10, 0)), 1U);
 }
 
 // By hand: twice the area is 2^-52, less than rounding of the products may hide.
