@@ -93,8 +93,8 @@ void add_timings(const Command& command, bool& timings) {
 void add_progress(const Command& command, std::string& progress) {
     command
         .add_option("--progress", progress,
-                    "Progress on stderr. auto: a bar on a terminal, otherwise none. bar: a bar. "
-                    "plain: lines of text. none: no progress")
+                    "Progress on stderr. auto: a bar on a terminal, otherwise none. bar: one line "
+                    "that is redrawn. plain: lines of text. none: no progress")
         .type_name("STYLE")
         .check(one_of({"auto", "bar", "plain", "none"}))
         .show_default()

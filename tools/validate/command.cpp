@@ -292,8 +292,8 @@ void add_judging_options(const Command& command, ValidateArguments& arguments) {
         .group(group);
     command
         .add_option("--baseline", arguments.baseline,
-                    "An earlier report of --format json. Only findings not in it are listed and "
-                    "count for --fail-on")
+                    "An earlier report, written with --format json. Only findings not in it are "
+                    "listed and count for --fail-on")
         .type_name("FILE")
         .group(group);
     command

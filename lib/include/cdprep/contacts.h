@@ -99,9 +99,9 @@ struct ContactOptions {
     std::uint32_t most = 0;
     /// The maximum work, 0 for no limit. Each pair of near triangles counts 1. Each contact counts
     /// kWorkOfContact and, between two pieces, 1 for every kTrianglesOfWork of their triangles. The
-    /// search for near triangles takes at most half of the work. The last contact may exceed the
-    /// work. If the work allows all contacts, but `most` allows fewer than half, some depths are
-    /// first bounded more closely. Each such bound counts kWorkOfBound.
+    /// search for near triangles takes at most half of the work. The last contact may bring the
+    /// total above it. If the work allows all contacts, but `most` allows fewer than half, some
+    /// depths are first bounded more closely. Each such bound counts kWorkOfBound.
     std::uint64_t work = 0;
     /// Joins contacts that are linked by common pieces, if their normals differ little. The value
     /// limits the angle to the normal of the deepest contact, in radians. A joined contact has at

@@ -48,7 +48,7 @@ struct LiveTriangle {
 /// triangle was added or removed, model().is_torn() is true. The model then counts as unbalanced,
 /// without winding numbers and components. So only boxes and surfaces decide about solids. Some
 /// places of its tree order have no triangle. model().triangle_count() counts places, but is 0
-/// without triangles. The mesh() and source() views have an element for each place.
+/// without triangles. The triangle arrays of mesh() and source() have an element for each place.
 ///
 /// A scene finds changes of an object's model itself if a LayerPair of the object's layer has
 /// Ask::deform or Ask::tear. Otherwise, after a change, call set_pose() for each object that uses

@@ -73,8 +73,9 @@ struct Pair {
 struct Containment {
     Answer answer = Answer::no;
     /// The winding number that decided: an integer if `answer` is yes, and 0 if it is no. If
-    /// `answer` is unknown, it is the generalised winding number, rounded: solid angle / 4 pi. It
-    /// is 0 if the model that may be inside is torn (Model::is_torn()).
+    /// `answer` is unknown, it is the generalised winding number, solid angle / 4 pi, up to
+    /// rounding. It is 0 if the model that may be inside is torn (Model::is_torn()), or if the
+    /// tested vertices are on the other surface.
     double winding = 0;
     bool a_inside_b = false;  ///< unless `answer` is no: true for A in B, false for B in A
 };

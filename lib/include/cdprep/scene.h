@@ -128,7 +128,7 @@ enum class EventReason : std::uint32_t {
 };
 
 /// An effect that begins, goes on or ceases to hold for two objects. For the same objects and
-/// effect, there is exactly one EventKind::ends between two EventKind::begins.
+/// effect, there is exactly one EventKind::ends between two successive EventKind::begins.
 struct SceneEvent {
     ObjectId a;
     ObjectId b;          ///< for `self`, the same object as a

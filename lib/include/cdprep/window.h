@@ -100,8 +100,9 @@ public:
     /// fill and of this call may be of any kind.
     ///
     /// Negative if the probe has moved too far. Minus infinity for another probe, or one that has
-    /// deformed since, or if filled().radius is negative. For the probe of the fill, infinity if
-    /// filled().radius is infinite or A was empty. Infinity for an empty probe. Takes O(1) time.
+    /// deformed since, or if filled().radius is negative. For the probe that filled the window,
+    /// infinity if filled().radius is infinite or A was empty. Infinity for an empty probe. Takes
+    /// O(1) time.
     [[nodiscard]] CDPREP_API double margin(const Model& probe,
                                            const Placement& placement) const noexcept;
 

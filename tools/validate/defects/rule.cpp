@@ -189,7 +189,7 @@ constexpr std::array kRules = {
     RuleText{Rule::several_components, "several-components", Severity::note,
              "Mesh has several components",
              "More than one set of triangles connected by shared vertices. The count includes "
-             "all components; each place is one component, by its lowest triangle.",
+             "all components; each place is one component, by its lowest-numbered triangle.",
              "No effect by itself; parts of an assembly are often meant to be separate models.",
              "No repair is necessary. Tiny components can be dropped on request.", kExact,
              "the number of its triangles"},

@@ -11,7 +11,7 @@
 
 namespace cdprep::format {
 
-/// The offset in the file of the bytes that FileHeader::superblock repeats.
+/// The offset in the file of the bytes that FileHeader::superblock copies.
 inline constexpr std::uint64_t kSuperblockOffset = kUserBlockSize + 8;
 
 using UserBlock = std::array<std::byte, kUserBlockSize>;

@@ -40,7 +40,7 @@ struct ConvexPoints {
     std::span<const format::Float3> floats{};
     std::span<const Double3> doubles{};
 
-    /// Returns the point with a number below `count`.
+    /// Returns point `number`, which must be below `count`.
     [[nodiscard]] CDPREP_API Double3 point(std::uint32_t number) const noexcept;
 };
 

@@ -33,7 +33,7 @@ struct TreeOrder {
 struct ComponentNumbers {
     std::size_t count = 0;
     /// The number of each vertex's component. Components are numbered in the order of their lowest
-    /// triangle. The number is TreeOrder::kUnused for a vertex that no triangle uses.
+    /// triangle numbers. The number is TreeOrder::kUnused for a vertex that no triangle uses.
     std::vector<std::uint32_t> of_vertex;
 };
 

@@ -80,9 +80,9 @@ typedef struct cdprep_contact_options {
     uint32_t most;     /* 256: the maximum length of a list, 1 to 256 */
     /* 0: no limit; otherwise the maximum work. Each pair of near triangles counts 1. Each contact
      * counts 32 and, between two pieces, 1 for every 8 of their triangles. The search for near
-     * triangles takes at most half of the work. The last contact may exceed the work. The work may
-     * allow all contacts, and `most` fewer than half of them. Then some depths are bounded more
-     * closely first, and each of these bounds counts 8. */
+     * triangles takes at most half of the work. The last contact may bring the total above it. The
+     * work may allow all contacts, and `most` fewer than half of them. Then some depths are bounded
+     * more closely first, and each of these bounds counts 8. */
     uint64_t work;
     /* 0: no clusters. Otherwise, contacts that are linked by common pieces are joined if their
      * normals differ little. The value limits the angle to the normal of the deepest one, in

@@ -265,8 +265,9 @@ CDPREP_API int cdprep_distance(const cdprep_pair* pair, const cdprep_distance_op
 
 /* A distance, or bounds of it if the search ended early. */
 typedef struct cdprep_bounded {
-    /* CDPREP_YES: `nearest` is the answer of cdprep_distance() or, with permitted errors, another
-     * one within them. CDPREP_NO: the answer is late. CDPREP_UNKNOWN: the call failed. */
+    /* CDPREP_YES: `nearest` is the answer of cdprep_distance(). With permitted errors, it may be
+     * another answer within those errors. CDPREP_NO: the answer is late. CDPREP_UNKNOWN: the call
+     * failed. */
     uint32_t complete;
     uint32_t reserved; /* 0 */
     uint64_t work;     /* the work done */
@@ -345,12 +346,12 @@ CDPREP_API int cdprep_self_overlaps_visit(const cdprep_self_query* query,
 
 /* --- Batches --------------------------------------------------------------------------------- */
 
-/* Each function runs `count` queries on the lanes of the workspace. The answers are those of single
- * calls, in the same order. All pairs are checked first. If one is invalid, no query runs, and
- * error.argument names it ("pairs[3].pose_b"). The size in the head of the first pair is the stride
- * of the array. No two pairs may share a cache or a front. With several lanes, a batch of about ten
- * queries or more is faster than single calls. Each function uses the same fields and needs the
- * same CDPREP_ASK_ bits as its single query. */
+/* Each function runs `count` queries on the lanes of the workspace. Element i of the answers is
+ * that of a single call for pairs[i]. All pairs are checked first. If one is invalid, no query
+ * runs, and error.argument names it ("pairs[3].pose_b"). The size in the head of the first pair is
+ * the stride of the array. No two pairs may share a cache or a front. With several lanes, a batch
+ * of about ten queries or more is faster than single calls. Each function uses the same fields and
+ * needs the same CDPREP_ASK_ bits as its single query. */
 CDPREP_API int cdprep_collide_many(const cdprep_pair* pairs, size_t count,
                                    cdprep_workspace* workspace, cdprep_collision* collisions,
                                    cdprep_error* error);

@@ -170,9 +170,9 @@ CDPREP_API int cdprep_touch_visit(const cdprep_shape_query* query, cdprep_worksp
 CDPREP_API int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                      cdprep_nearest* nearest, cdprep_error* error);
 
-/* Both functions run `count` queries on the lanes of the workspace, about one model or several. The
- * answers are those of cdprep_touch() and cdprep_shape_distance(), in the same order. All queries
- * are checked first. If one is invalid, none runs, and error.argument names it
+/* Both functions run `count` queries on the lanes of the workspace, about one model or several.
+ * Element i of the answers is that of cdprep_touch() or cdprep_shape_distance() for queries[i]. All
+ * queries are checked first. If one is invalid, none runs, and error.argument names it
  * ("queries[3].radius"). The size in the head of the first query is the stride of the array. With
  * several lanes, a batch of about ten queries or more is faster than single calls.
  * Needs: CDPREP_ASK_TOUCH */

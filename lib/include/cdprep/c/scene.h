@@ -483,7 +483,7 @@ enum {
     CDPREP_SCENE_TICKS_SELF = 21,
     CDPREP_SCENE_TICKS_HAPTIC = 22,
     /* The ticks of the stages of a step, one after the other. They add up to the whole step,
-     * without the copying of results for the C API. */
+     * excluding the time to copy results for the C API. */
     CDPREP_SCENE_TICKS_BOXES = 23,   /* of boxes, the broad phase and the reuse of results */
     CDPREP_SCENE_TICKS_QUERIES = 24, /* of all queries, from start to end */
     CDPREP_SCENE_TICKS_LISTS = 25    /* of lists and events */
@@ -601,7 +601,7 @@ typedef struct cdprep_layer_info {
     double reach;      /* the margin around boxes of its objects, model units */
 } cdprep_layer_info;
 
-/* Stores the requirements of a plan for the objects of a layer. Takes O(layer pairs) time. On
+/* Stores what a plan requires of the objects of a layer. Takes O(layer pairs) time. On
  * failure, *info is all 0.
  * Errors: CDPREP_WHY_OUT_OF_RANGE for a layer that does not exist. */
 CDPREP_API int cdprep_plan_layer(const cdprep_plan* plan, uint32_t layer, cdprep_layer_info* info,

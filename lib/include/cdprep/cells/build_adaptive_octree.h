@@ -48,10 +48,10 @@ inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
 /// triangles.
 ///
 /// An axis is not divided if its plane would cut every triangle's box, unless that holds for all
-/// three axes. A cell is a leaf if no plane is inside it. It is also a leaf if each child would
-/// list all of the cell's triangles or none. So a cell whose triangles are all equal is not
-/// divided. A level and those below it are not divided if the tree would get more references than
-/// build_octree() allows.
+/// three axes. A cell is a leaf if, along every axis, no double is strictly between its bounds. It
+/// is also a leaf if each child would list all of the cell's triangles or none. So a cell whose
+/// triangles are all equal is not divided. A level and those below it are not divided if the tree
+/// would get more references than build_octree() allows.
 ///
 /// Takes O(levels * references) time. On one thread, scratch memory is at most
 /// kAdaptiveScratchPerTriangle * triangles + kAdaptiveScratchPerReference * references +
