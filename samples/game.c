@@ -140,7 +140,7 @@ static int step(cdprep_scene* scene, cdprep_workspace* workspace, cdprep_error* 
     code = cdprep_scene_set_poses(scene, ids + 1, poses + 1, OBJECTS - 1, error);
     if (code || (code = cdprep_scene_step(scene, workspace, &done, error))) return code;
     line_count = contact_count = 0;
-    if (done.complete == CDPREP_NO) return puts("The scene needs room for more pairs."), CDPREP_OK;
+    if (done.complete == CDPREP_NO) return puts("The scene needs more room."), CDPREP_OK;
     cdprep_draw_init(&picture, sizeof picture);
     picture.what = CDPREP_DRAW_OVERLAPS; /* the triangles that touch */
     picture.triangle = draw_edges;

@@ -231,7 +231,7 @@ private:
     [[nodiscard]] bool is_large() const noexcept {
         return triangles_.size() > kMostPlacedTriangles;
     }
-    static constexpr std::size_t kMostInFan = 64;  ///< with more, all triangles are looked at
+    static constexpr std::size_t kMostInFan = 64;  ///< with more, all triangles are visited
     using Fan = std::array<std::uint32_t, kMostInFan>;
     /// Returns some triangles of the piece, among them all that have the vertex. Those of a small
     /// piece are all its triangles. Those of a large one have it and are put into `room`, if they

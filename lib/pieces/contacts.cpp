@@ -243,7 +243,7 @@ private:
         return verdict_.searched;
     }
     /// Returns the work of a contact of two pieces. It grows with their triangles, but slowly: few
-    /// of those of a large piece are looked at.
+    /// of those of a large piece are visited.
     [[nodiscard]] std::uint64_t work_of(const NearPieces& near) const noexcept {
         const auto triangles = [](const Model& model, std::uint32_t piece) {
             return part_of_piece(model.pieces().triangles, model, piece,

@@ -94,6 +94,16 @@ def other_shells_read_theirs(folder):
         must(done.returncode == 0 and not done.stderr, f"{shell}: {done.stderr}")
 
 
+def fish_completes(folder):
+    if not shutil.which("fish"):
+        return
+    for line, words in (("cdprep bake --effects ray,ov", ["ray,overlap"]),
+                        ("cdprep query overlap --structure tet", ["tetra-tree"])):
+        done = run("fish", "-c", f"source {folder}/completion/cdprep.fish; complete -C '{line}'")
+        offered = [each.split("\t")[0] for each in done.stdout.splitlines()]
+        must(offered == words, f"fish offers {offered} for {line}")
+
+
 def main():
     program = sys.argv[1]
     with tempfile.TemporaryDirectory() as scratch:
@@ -107,6 +117,7 @@ def main():
         man_pages_render(folder)
         bash_completes(folder)
         other_shells_read_theirs(folder)
+        fish_completes(folder)
         done = run(program, "--write-manuals", "/proc/none")
         must(done.returncode == 4 and done.stderr.count("\n") == 1, done.stderr)
 

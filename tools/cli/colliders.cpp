@@ -192,7 +192,7 @@ std::string left_out_text(std::span<const std::string> paths) {
 std::string kept_text(std::span<const std::string> paths, const std::string& way) {
     return report::counted(paths.size(), "collider is", "colliders are") +
            " a part of the mesh: " + first_names(paths) + ". Leave " +
-           (paths.size() == 1 ? "it" : "them") + " out with " + way + ".";
+           (paths.size() == 1 ? "it" : "them") + " out " + way + ".";
 }
 
 void add_with_colliders(const Command& command, bool& with_colliders) {

@@ -28,7 +28,7 @@ namespace cdprep::cli {
 /// Returns the sentences that tell what leave_out_colliders() returned.
 [[nodiscard]] std::string left_out_text(std::span<const std::string> paths);
 
-/// Returns the sentences that tell what find_colliders() returned. The last is "Leave them out with
+/// Returns the sentences that tell what find_colliders() returned. The last is "Leave them out
 /// WAY."
 [[nodiscard]] std::string kept_text(std::span<const std::string> paths, const std::string& way);
 

@@ -63,7 +63,7 @@ void heed_colliders(mesh::TriangleSoup& soup, const LoadOptions& options) {
         return;
     }
     const std::vector<std::string> kept = find_colliders(soup);
-    if (!kept.empty() && options.tell) options.tell(kept_text(kept, "--without-colliders"));
+    if (!kept.empty() && options.tell) options.tell(kept_text(kept, "with --without-colliders"));
 }
 
 }  // namespace

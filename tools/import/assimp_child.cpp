@@ -230,8 +230,8 @@ ChildResult::~ChildResult() {
 Result<ChildResult> read_in_child(const SourceFile& file, const std::filesystem::path& path,
                                   const ImportOptions& options) {
     if (const std::string outside = find_outside_reference(file.bytes()); !outside.empty()) {
-        return file.unreadable("refers to " + utf8_name(outside) +
-                               " in another file, which is not supported");
+        return file.unreadable("refers to another file, " + utf8_name(outside) +
+                               ", which is not supported");
     }
     const auto program = find_child_program();
     if (!program) {

@@ -114,14 +114,14 @@ std::string baked_hulls_text(const Model& model, std::size_t most_lines) {
     const auto hulls = model.hulls().hulls;
     for (const format::Hull& hull : hulls.first(std::min(most_lines, hulls.size()))) {
         text += std::string("  ") + scope_name(hull.scope);
-        if (hull.scope != format::HullScope::whole)
-            text.append(1, ' ').append(std::to_string(hull.number));
+        if (hull.scope != format::HullScope::whole) text += " " + std::to_string(hull.number);
+        const char* const inner = hull.scope == format::HullScope::part ? "mesh" : "exact hull";
         text += ": dimension " + std::to_string(hull.dimension) + ", " +
                 std::to_string(hull.point_count) + " points, " + std::to_string(hull.facet_count) +
                 " facets in " + std::to_string(hull.group_count) + " faces" +
-                (is_exact(hull)
-                     ? ", exact\n"
-                     : ", at most " + in_six_digits(hull.distance) + " outside the exact hull\n");
+                (is_exact(hull) ? ", exact\n"
+                                : ", at most " + in_six_digits(hull.distance) + " outside the " +
+                                      inner + "\n");
     }
     if (hulls.size() > most_lines) {
         text += "  and " + std::to_string(hulls.size() - most_lines) + " more\n";

@@ -439,7 +439,8 @@ const char* structure_text(PairQuestion question) {
         case PairQuestion::overlap:
             return "Structure of both files to search. pieces must be baked with --effects pieces, "
                    "all others but bvh with --structures. hashed-octree-literal is a published "
-                   "search that misses pairs; all others give the same answers";
+                   "search of the hashed-octree that misses pairs; all others give the same "
+                   "answers";
         case PairQuestion::distance:
             return "Structure of both files to search. pieces must be baked with --effects pieces, "
                    "hull with --structures hull. hull measures the distance of the convex hulls; "

@@ -27,7 +27,7 @@ std::optional<Error> find_idle_option(const StructureWords& words, Structure str
     };
     const bool is_hierarchy = structure == Structure::bvh || structure == Structure::pieces;
     if (!words.leaf_test.empty() && is_hierarchy) {
-        return idle("--leaf-test", "all structures except bvh and pieces");
+        return idle("--leaf-test", "octree, octree-adaptive, hashed-octree and tetra-tree");
     }
     if (!words.descent.empty() && (is_hierarchy || structure == Structure::hashed_octree)) {
         return idle("--descent", "octree, octree-adaptive and tetra-tree");

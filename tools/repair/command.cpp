@@ -226,7 +226,7 @@ void add_goal_options(const Command& command, Arguments& arguments) {
             .group(group);
     command
         .add_option("--steps", arguments.steps,
-                    "Comma-separated steps, instead of a preset. They run in the listed order, "
+                    "Comma-separated steps, instead of a preset. They run in the order below, "
                     "until nothing changes")
         .type_name("LIST")
         .check(list_of(step_names()))

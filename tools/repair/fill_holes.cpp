@@ -138,8 +138,8 @@ public:
         if (bad.empty()) return;
         for (const auto& [patch, meeting] : bad) {
             refuse(loops_[patch], diagonal_of(mesh_, loops_[patch]),
-                   "stays open, because with a patch " + triangle_in_words(mesh_, meeting.a) +
-                       " and " + triangle_in_words(mesh_, meeting.b) + " would meet");
+                   "stays open, because a patch would make " + triangle_in_words(mesh_, meeting.a) +
+                       " and " + triangle_in_words(mesh_, meeting.b) + " meet");
         }
         std::vector<bool> kept(mesh_.triangles.size(), true);
         for (std::size_t t = 0; t < kept.size(); ++t) {

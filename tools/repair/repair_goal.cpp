@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <limits>
-
 #include <numeric>
 #include <span>
 #include <utility>
-#include "repair/repair.h"
 
 #include "mesh/stars.h"
+#include "repair/repair.h"
 #include "validate/defects/component_pairs.h"
 #include "validate/defects/copies.h"
 #include "validate/defects/edge_flaws.h"

@@ -9,9 +9,9 @@
 
 namespace cdprep::scenes {
 
-/// What the objects of a model are asked for.
+/// The effects that the objects of a model need.
 struct ModelNeeds {
-    Ask asks = Ask::nothing;                    ///< nothing: no object of the model is looked at
+    Ask asks = Ask::nothing;                    ///< nothing: no object of the model is tested
     Ask wishes = Ask::nothing;                  ///< what is used if the model serves it
     std::uint32_t layers = 0;                   ///< of its objects: bit i for layer i
     std::uint32_t objects = 0;                  ///< all, also in layers without a pair

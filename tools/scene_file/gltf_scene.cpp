@@ -551,7 +551,7 @@ private:
         scene().step_s = 1.0 / 60;
         scene().duration_s = 1;
         if (assembly_.rounding > 0) {
-            findings_.assumed("transforms were rounded to rigid ones; the largest change is " +
+            findings_.assumed("transforms were rounded to rigid ones; the largest deviation is " +
                               report::number_text(assembly_.rounding));
         }
         findings_.assumed("a step is 1/60 s, and a run takes 1 s without --frames or --until");

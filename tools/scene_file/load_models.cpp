@@ -258,7 +258,7 @@ std::vector<std::string> kept_colliders(const SceneFile& scene,
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (models[i].colliders.empty()) continue;
         lines.push_back(scene.models[i].string() + ": " +
-                        cli::kept_text(models[i].colliders, "a file from 'cdprep bake'"));
+                        cli::kept_text(models[i].colliders, "by naming a baked file"));
     }
     return lines;
 }

@@ -36,8 +36,8 @@ struct PageOptions {
 /// `#CDP0301/3` opens the page at the third place of that rule, `#mesh=2&CDP0301/3` in the
 /// second mesh. `#camera=x,y,z,tx,ty,tz` looks from one point at another, in model units.
 ///
-/// The page lists and marks 50,000 places. Findings share them evenly; each has at least 10 and at
-/// most 1000. Counts always include all places.
+/// The page lists and marks at most about 50,000 places. Findings share them evenly; each has at
+/// least 10 and at most 1000. Counts always include all places.
 ///
 /// The page takes about 960 kB, plus 24 bytes per drawn triangle of a closed mesh and 500 per
 /// place. Coarse surfaces take up to 10 MB per page. A mesh of 871,414 triangles takes 22 MB.

@@ -73,7 +73,7 @@ std::string approximate_text(const ApproximateReport& report) {
                 counted(report.unbalanced_components,
                         "component is not balanced and counts as a surface",
                         "components are not balanced and count as surfaces") +
-                "; 'cdprep repair --preset closed' makes meshes balanced\n";
+                "; 'cdprep repair --preset closed' can make them balanced\n";
     }
     if (result.ran_out_of_work)
         text += "  the search budget was used up: a larger --work can give a tighter result\n";

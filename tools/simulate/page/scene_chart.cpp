@@ -18,7 +18,7 @@ namespace {
 constexpr double kLeft = 76;
 constexpr double kRight = kSceneChartWidth - 20;
 constexpr double kBottom = kSceneChartHeight - 48;
-constexpr double kKeyWidth = 191;  ///< of "model changes" in the page's letters
+constexpr double kKeyWidth = 191;  ///< room for the longest name in the page's letters
 constexpr double kKeyHeight = 19;
 constexpr std::size_t kKeyColumns = 4;
 constexpr int kTicks = 6;

@@ -55,9 +55,9 @@ TEST(FindColliders, FindsWhatWouldBeLeftOut) {
     EXPECT_EQ(find_colliders(with_groups({"a", "UCX_a_00", "b"})), Names{"UCX_a_00"});
     EXPECT_EQ(find_colliders(with_instances({"a", "b", "c"})), Names{});
     EXPECT_EQ(find_colliders(with_instances({"UCX_a", "UCX_b", "c-colonly"})), Names{});
-    EXPECT_EQ(kept_text(Names{"UCX_b"}, "--without-colliders"),
+    EXPECT_EQ(kept_text(Names{"UCX_b"}, "with --without-colliders"),
               "1 collider is a part of the mesh: UCX_b. Leave it out with --without-colliders.");
-    EXPECT_EQ(kept_text(Names{"a", "b", "c", "d", "e"}, "--without-colliders"),
+    EXPECT_EQ(kept_text(Names{"a", "b", "c", "d", "e"}, "with --without-colliders"),
               "5 colliders are a part of the mesh: a, b, c and 2 more. Leave them out with "
               "--without-colliders.");
 }

@@ -308,7 +308,7 @@ TEST(GltfScene, TellsThatTransformsWereRounded) {
         read_nodes(node(R"("rotation":[0,0,0.7071068,0.7071069],)", kTrigger));
     EXPECT_GT(reading.assembly->rounding, 0);
     EXPECT_TRUE(has_finding(
-        reading, "assumed: transforms were rounded to rigid ones; the largest change is "));
+        reading, "assumed: transforms were rounded to rigid ones; the largest deviation is "));
 }
 
 Pose pose_of_object(const GltfReading& reading, std::size_t number, double time_s) {

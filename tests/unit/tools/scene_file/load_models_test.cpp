@@ -156,8 +156,8 @@ TEST(LoadModels, TellsOfCollidersInAMesh) {
         if (!is_first) continue;
         EXPECT_EQ(lines.front(),
                   scene.models[0].string() +
-                      ": 1 collider is a part of the mesh: UCX_a_00. Leave it out with a file "
-                      "from 'cdprep bake'.");
+                      ": 1 collider is a part of the mesh: UCX_a_00. Leave it out by naming a "
+                      "baked file.");
     }
 }
 
