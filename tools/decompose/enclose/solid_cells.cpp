@@ -344,7 +344,9 @@ private:
             const Place& p = cells_.places[place];
             lying.below += p.upper.*axis <= at ? 1 : 0;
             lying.above += p.lower.*axis >= at ? 1 : 0;
-            lying.is_unclear = lying.is_unclear || (p.lower.*axis < at && p.upper.*axis > at);
+            // A box that only touches the plane is unclear too: its point need not be on the plane.
+            const bool is_met = p.lower.*axis <= at && p.upper.*axis >= at;
+            lying.is_unclear = lying.is_unclear || (is_met && p.lower.*axis < p.upper.*axis);
         }
         return lying;
     }
