@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "write/hulls_text.h"
@@ -87,6 +90,19 @@ std::vector<FileBytes> mesh_files(const fs::path& folder, HullsFormat format,
     return files;
 }
 
+/// Returns the largest coordinate in size.
+double largest_coordinate(const RobotFile& file) {
+    double largest = 0;
+    const auto look_at = [&](std::span<const Double3> points) {
+        for (const Double3& p : points) {
+            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+        }
+    };
+    for (const HullArrays& hull : file.hulls) look_at(hull.points);
+    if (file.options.visual) look_at(file.options.visual->positions);
+    return largest;
+}
+
 /// Returns the bytes of the arrays in a GLB, which counts them in 32 bits.
 std::uint64_t array_bytes(const RobotFile& file) {
     std::uint64_t elements = 0;
@@ -95,6 +111,24 @@ std::uint64_t array_bytes(const RobotFile& file) {
         elements += file.options.visual->positions.size() + file.options.visual->triangles.size();
     }
     return 12 * elements;
+}
+
+/// Returns an error for what a GLB cannot hold.
+std::optional<Error> find_beyond_glb(const fs::path& path, const RobotFile& file) {
+    constexpr std::uint64_t kMostBytes = 0xf0000000U;  // leaves room for the document
+    if (array_bytes(file) > kMostBytes) {
+        return Error{ErrorCode::bad_argument,
+                     path.string() + ": would have " + std::to_string(array_bytes(file)) +
+                         " bytes of corners, but a GLB has at most 4 GiB."};
+    }
+    constexpr double kMost = std::numeric_limits<float>::max();
+    const double largest = largest_coordinate(file);
+    if (largest <= kMost) return std::nullopt;
+    std::string sentence = path.string() + ": GLB stores floats only, and a coordinate is ";
+    append_number(sentence, largest);
+    sentence += " in size; the largest float is ";
+    append_number(sentence, kMost);
+    return Error{ErrorCode::bad_argument, sentence + ". Write OBJ."};
 }
 
 }  // namespace
@@ -145,11 +179,8 @@ Result<std::size_t> write_hulls(const fs::path& path, HullsFormat format,
     }
     const RobotFile file = {model_name(path), mesh_stem(path), written, options,
                             scale_text(options.metres_per_unit > 0 ? options.metres_per_unit : 1)};
-    constexpr std::uint64_t kMostBytes = 0xf0000000U;  // leaves room for the document
-    if (format == HullsFormat::glb && array_bytes(file) > kMostBytes) {
-        return Error{ErrorCode::bad_argument,
-                     path.string() + ": would have " + std::to_string(array_bytes(file)) +
-                         " bytes of corners, but a GLB has at most 4 GiB."};
+    if (format == HullsFormat::glb) {
+        if (const auto error = find_beyond_glb(path, file)) return *error;
     }
     std::vector<FileBytes> files = mesh_files(path.parent_path(), format, file);
     files.push_back({path, text_in(format, file)});

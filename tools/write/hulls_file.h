@@ -81,8 +81,8 @@ struct HullsFileOptions {
 /// URDF, SDF and MJCF show is written as STEM_visual.obj. STEM is model_name(); if that replaced
 /// characters, a number distinguishes such names. URDF, SDF and MJCF omit hulls of fewer than three
 /// dimensions, because their readers require a volume. Returns the number of omitted hulls. Fails
-/// with `bad_argument` if a GLB would exceed 4 GiB. All files appear when they are complete, or
-/// none does (write_all()).
+/// with `bad_argument` if a GLB would exceed 4 GiB, or one of its coordinates the largest float.
+/// All files appear when they are complete, or none does (write_all()).
 [[nodiscard]] Result<std::size_t> write_hulls(const std::filesystem::path& path, HullsFormat format,
                                               std::span<const HullArrays> hulls,
                                               const HullsFileOptions& options = {});

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -112,6 +113,28 @@ HullsFileOptions showing() {
     HullsFileOptions options;
     options.visual = MeshArrays{std::span(kCorners).first(3), kShown, false};
     return options;
+}
+
+// An infinite corner is none: no reader takes it, and JSON has no number for its bounds.
+TEST(HullsFile, AGlbHasNoCoordinateBeyondTheFloats) {
+    const test::ScratchFolder folder;
+    const auto path = folder.path() / "x.glb";
+    constexpr double kMost = std::numeric_limits<float>::max();
+    const auto written_with = [&](double x, const HullsFileOptions& options) {
+        std::vector<Double3> corners(kCorners.begin(), kCorners.begin() + 4);
+        corners[1].x = x;
+        const std::vector<HullArrays> hulls = {{"large", corners, kFacets, 3}};
+        return write_hulls(path, HullsFormat::glb, hulls, options);
+    };
+    EXPECT_TRUE(written_with(kMost, {}).ok());
+    const auto refused = written_with(-1e160, {});
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::bad_argument);
+    EXPECT_NE(refused.error().message.find("a coordinate is 1e+160 in size"), std::string::npos);
+    const std::array<Double3, 3> shown = {{{0, 0, 0}, {1, 0, 0}, {0, 0x1p128, 0}}};
+    HullsFileOptions options;
+    options.visual = MeshArrays{shown, kShown, false};
+    EXPECT_FALSE(written_with(1, options).ok());
 }
 
 /// The document of a GLB.
