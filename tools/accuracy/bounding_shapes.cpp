@@ -133,10 +133,16 @@ double reach(const std::array<Double3, 3>& axes, const Double3& half, const Doub
 BoundingSphere bounding_sphere(const mesh::Mesh& mesh) {
     BoundingSphere sphere;
     if (mesh.positions.empty()) return sphere;
-    sphere.centre = aligned_box(mesh).centre;
+    const BoundingBox box = aligned_box(mesh);
+    sphere.centre = box.centre;
+    // Squares of very large or small distances leave the range of double. A power of two changes no
+    // order.
+    constexpr int kMostExponent = 1000;
+    const int exponent = std::ilogb(mesh::largest_of(box.half));
+    const double unit = std::ldexp(1.0, -std::clamp(exponent, -kMostExponent, kMostExponent));
     const auto farthest = [&] {
         return *std::ranges::max_element(mesh.positions, {}, [&](const Double3& p) {
-            const Double3 d = minus(p, sphere.centre);
+            const Double3 d = mesh::scaled(minus(p, sphere.centre), unit);
             return dot(d, d);
         });
     };

@@ -21,6 +21,7 @@
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
 #include "decompose/enclose/hull_error.h"
+#include "decompose/enclose/search_scale.h"
 #include "decompose/enclose/solid.h"
 #include "hull/convex_hull.h"
 
@@ -70,8 +71,8 @@ class Outside {
 public:
     explicit Outside(const Climb& climb)
         : climb_(climb),
-          solid_a_(climb.mesh_a, convex::Reference::solid, climb.parallel_for),
-          solid_b_(climb.mesh_b, convex::Reference::solid, climb.parallel_for) {}
+          solid_a_(climb.mesh_a, climb.parallel_for),
+          solid_b_(climb.mesh_b, climb.parallel_for) {}
 
     /// Returns how far the hulls of these points stick out, the larger of both models.
     [[nodiscard]] double of_points(const std::vector<Double3>& around_a,
@@ -81,17 +82,27 @@ public:
     }
 
 private:
-    [[nodiscard]] double error_of(const std::vector<Double3>& points,
-                                  const convex::Solid& solid) const {
+    /// A solid and the map to its coordinates.
+    struct Scaled {
+        Scaled(const mesh::Mesh& mesh, ParallelFor parallel_for)
+            : scale(mesh.positions),
+              solid(scale.inwards(mesh), convex::Reference::solid, parallel_for) {}
+
+        convex::SearchScale scale;
+        convex::Solid solid;
+    };
+
+    [[nodiscard]] double error_of(const std::vector<Double3>& points, const Scaled& of) const {
         convex::HullErrorOptions options;
         options.relative = climb_.is_quick ? 0.1 : 0.02;
         options.most_cells = climb_.is_quick ? 4'000 : 50'000;
-        return convex::find_hull_error(convex::convex_hull(points), solid, options).upper;
+        const convex::ConvexHull hull = of.scale.inwards(convex::convex_hull(points));
+        return of.scale.outwards(convex::find_hull_error(hull, of.solid, options)).upper;
     }
 
     const Climb& climb_;
-    convex::Solid solid_a_;
-    convex::Solid solid_b_;
+    Scaled solid_a_;
+    Scaled solid_b_;
 };
 
 std::vector<Double3> corners_of(const BoundingBox& box) {

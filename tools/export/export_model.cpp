@@ -130,8 +130,9 @@ void drop_low_points(Body& body, const EngineForm& form, bool keeps_points, cons
 /// Measures how far the hull of the whole sticks out: a file states only how far it is from the
 /// exact hull.
 void measure_whole(const Body& body, const Threads& threads, report::ExportReport& report) {
-    const convex::Solid solid(body.mesh, convex::Reference::solid, threads.parallel_for());
-    report.outer_error = convex::find_hull_error(body.parts.front(), solid).upper;
+    report.outer_error = convex::find_hull_error(body.parts.front(), body.mesh,
+                                                 convex::Reference::solid, threads.parallel_for())
+                             .upper;
 }
 
 /// Turns the body to the up axis of the file. Measures its size along the axes.

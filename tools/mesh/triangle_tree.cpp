@@ -32,6 +32,8 @@ constexpr double kFurther = 1 + 0x1p-19;  ///< factor of a square: a box beyond 
 constexpr double kMostSquare = 1e38;      ///< so that floats hold it
 constexpr float kNowhere = 1e30F;         ///< sides of empty boxes, reversed
 constexpr double kOutside = 4;            ///< equivalent to any coordinate farther out
+constexpr double kFarthest = 1e18;        ///< coordinate: so that kMostSquare exceeds its squares
+constexpr int kMostExponent = 1000;       ///< of the scale: so that it is finite
 
 using Floats = float __attribute__((vector_size(32)));
 using Mask = std::int32_t __attribute__((vector_size(32)));
@@ -215,7 +217,9 @@ void TriangleTree::choose_unit(std::span<const Double3> positions,
                box_.lower.z / 2 + box_.upper.z / 2};
     const Double3 half = minus(box_.upper, centre_);
     const double size = std::max({half.x, half.y, half.z});
-    if (size > 0 && std::isfinite(size)) scale_ = std::ldexp(1.0, -std::ilogb(size) - 1);
+    if (size > 0 && std::isfinite(size)) {
+        scale_ = std::ldexp(1.0, std::min(-std::ilogb(size) - 1, kMostExponent));
+    }
 }
 
 TriangleTree::FloatBox TriangleTree::to_floats(const Box& box) const {
@@ -300,9 +304,12 @@ TriangleTree::Nearest TriangleTree::nearest(const Double3& p, std::uint32_t hint
         found = order_[place];
     };
     if (hint < order_.size()) look_at(place_[hint]);
-    const std::array<float, 3> at = {static_cast<float>((p.x - centre_.x) * scale_),
-                                     static_cast<float>((p.y - centre_.y) * scale_),
-                                     static_cast<float>((p.z - centre_.z) * scale_)};
+    // A point farther out is moved nearer to all boxes, so none is skipped.
+    const auto as_float = [this](double x, double centre) {
+        return static_cast<float>(std::clamp((x - centre) * scale_, -kFarthest, kFarthest));
+    };
+    const std::array<float, 3> at = {as_float(p.x, centre_.x), as_float(p.y, centre_.y),
+                                     as_float(p.z, centre_.z)};
     struct Waiting {
         Place place;
         float square;

@@ -27,8 +27,8 @@ using Corners = std::array<Double3, 3>;
 /// points, so that nothing is missed.
 class TriangleTree {
 public:
-    /// Copies the corners. O(n log n). The result is the same for any parallel_for. Fourth
-    /// powers of the box's sides must be within the range of double.
+    /// Copies the corners. O(n log n). The result is the same for any parallel_for. Sixth powers
+    /// of the sides of triangles must be within the range of double.
     TriangleTree(std::span<const Double3> positions, std::span<const Triangle> triangles,
                  ParallelFor parallel_for);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "cdprep/format/checksum.h"
@@ -126,7 +127,9 @@ private:
     /// Returns nothing if there is no touch within the band of touching poses.
     [[nodiscard]] std::optional<double> between(double apart, double gap,
                                                 Workspace& workspace) const {
-        double step = std::max(gap, 0x1p-40 * pair_.diagonal);
+        // A step of 0, which a share of a subnormal diagonal may be, would lead nowhere.
+        double step =
+            std::max({gap, 0x1p-40 * pair_.diagonal, std::numeric_limits<double>::denorm_min()});
         double inside = apart - step;
         while (!touches(inside, workspace)) {
             apart = inside;

@@ -19,6 +19,7 @@
 #include "decompose/enclose/merge_corners.h"
 #include "decompose/enclose/part_cover.h"
 #include "decompose/enclose/part_points.h"
+#include "decompose/enclose/search_scale.h"
 #include "decompose/enclose/separate_nodes.h"
 #include "decompose/enclose/solid_cells.h"
 #include "hull/enclosing_hull.h"
@@ -96,6 +97,11 @@ struct Stage {
     std::vector<CoverCell> cover;
 };
 
+bool is_request_met(const ApproximateParts& found, const ApproximateOptions& options) {
+    return (!options.max_parts || found.parts.size() <= *options.max_parts) &&
+           (!options.max_error || found.outer_error <= *options.max_error);
+}
+
 /// Parts as sets of cells.
 struct Found {
     std::shared_ptr<const Stage> stage;
@@ -145,8 +151,7 @@ public:
             ApproximateParts exact = finish(*exact_);
             if (exact.outer_error < result.outer_error) result = std::move(exact);
         }
-        result.is_as_asked = result.parts.size() <= most &&
-                             (!options_.max_error || result.outer_error <= *options_.max_error);
+        result.is_as_asked = is_request_met(result, options_);
         result.work = work_done_;
         // Bounds that are loose for lack of work matter only then.
         result.ran_out_of_work =
@@ -624,11 +629,51 @@ private:
     bool ran_out_of_work_ = false;
 };
 
+/// Returns an upper bound of the sum of a bound and a growth; the bound itself if that is 0.
+double grown_bound(double bound, double by) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return by > 0 ? std::nextafter(bound + by, kInfinity) : bound;
+}
+
+/// Brings a part of a search to model units. If rounding adds vertices, the part is enclosed again.
+void bring_outwards(ApproximatePart& part, const SearchScale& scale, std::uint32_t max_vertices) {
+    OuterHull outer = scale.outwards(part.hull);
+    part.hull = std::move(outer.hull);
+    part.error = scale.outwards(part.error);
+    part.error.upper = grown_bound(part.error.upper, outer.growth);
+    if (outer.growth == 0 || max_vertices == 0 || part.hull.points.size() <= max_vertices) return;
+    auto few = enclosing_hull(part.hull, std::max(max_vertices, kFewestEnclosingVertices));
+    if (!few) return;
+    part.hull = std::move(few->hull);
+    part.error.upper = grown_bound(part.error.upper, few->distance);
+}
+
+/// Searches at another scale. The proof of enclosure stays valid, since hulls only grow.
+ApproximateParts find_at_scale(const SearchScale& scale, const mesh::Mesh& mesh,
+                               const ApproximateOptions& options) {
+    ApproximateOptions how = options;
+    if (options.max_error) how.max_error = scale.inwards(*options.max_error);
+    ApproximateParts found = PartSearch(scale.inwards(mesh), how).run();
+    const auto bring = [&](std::size_t i) {
+        bring_outwards(found.parts[i], scale, options.max_vertices);
+    };
+    options.parallel_for(found.parts.size(), bring);
+    found.outer_error = found.outer_lower = 0;
+    for (const ApproximatePart& part : found.parts) {
+        found.outer_error = std::max(found.outer_error, part.error.upper);
+        found.outer_lower = std::max(found.outer_lower, part.error.lower);
+    }
+    found.is_as_asked = is_request_met(found, options);
+    return found;
+}
+
 }  // namespace
 
 ApproximateParts find_approximate_parts(const mesh::Mesh& mesh, const ApproximateOptions& options) {
     if (mesh.triangles.empty()) return {};
-    return PartSearch(mesh, options).run();
+    const SearchScale scale(mesh.positions);
+    return scale.is_needed() ? find_at_scale(scale, mesh, options)
+                             : PartSearch(mesh, options).run();
 }
 
 }  // namespace cdprep::convex

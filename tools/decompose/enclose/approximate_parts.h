@@ -81,8 +81,9 @@ struct ApproximateParts {
 /// search finds no fewer within the error. Components that are not balanced count as surfaces. No
 /// triangles give no parts.
 ///
-/// `mesh` may be open, cross itself or have no volume. The parts are the same, to the last bit,
-/// for any parallel_for.
+/// `mesh` may be open, cross itself or have no volume. Coordinates may have any size up to
+/// format::kMaxCoordinate. At a size of less than 2^-1000, hulls and errors are rounded outwards to
+/// subnormal numbers. The parts are the same, to the last bit, for any parallel_for.
 [[nodiscard]] ApproximateParts find_approximate_parts(const mesh::Mesh& mesh,
                                                       const ApproximateOptions& options);
 

@@ -9,6 +9,7 @@
 
 #include "cdprep/exact/triangles.h"
 #include "decompose/enclose/flush_bound.h"
+#include "decompose/enclose/search_scale.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {
@@ -353,6 +354,15 @@ private:
 HullError find_hull_error(const ConvexHull& hull, const Solid& solid,
                           const HullErrorOptions& options) {
     return ErrorSearch(solid, options).run(hull);
+}
+
+HullError find_hull_error(const ConvexHull& hull, const mesh::Mesh& mesh, Reference reference,
+                          ParallelFor parallel_for) {
+    std::vector<Double3> all = mesh.positions;
+    all.insert(all.end(), hull.points.begin(), hull.points.end());
+    const SearchScale scale(all);
+    const Solid solid(scale.inwards(mesh), reference, parallel_for);
+    return scale.outwards(find_hull_error(scale.inwards(hull), solid));
 }
 
 }  // namespace cdprep::convex

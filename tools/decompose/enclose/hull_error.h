@@ -34,7 +34,13 @@ struct HullErrorOptions {
 /// middle by more than the half's radius. Then cubes within the hull are cut, for points deeper
 /// than 2 % of the error under the surface. Hulls that lie on the surface and in the solid, up to
 /// rounding, are recognised at once.
+///
+/// Lengths must be of usual size, as SearchScale brings them.
 [[nodiscard]] HullError find_hull_error(const ConvexHull& hull, const Solid& solid,
                                         const HullErrorOptions& options = {});
+
+/// The same for the solid of a mesh. Lengths may have any size.
+[[nodiscard]] HullError find_hull_error(const ConvexHull& hull, const mesh::Mesh& mesh,
+                                        Reference reference, ParallelFor parallel_for);
 
 }  // namespace cdprep::convex

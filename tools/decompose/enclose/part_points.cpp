@@ -42,19 +42,6 @@ std::vector<std::uint32_t> places_of(const SolidCells& cells, const SolidCell& c
     return places;
 }
 
-/// Adds the corners of the box that contains the place: usually one.
-void add_place(const Place& place, std::vector<Double3>& points) {
-    for (unsigned k = 0; k < 8; ++k) {
-        const bool is_new = ((k & 1U) == 0 || place.upper.x != place.lower.x) &&
-                            ((k & 2U) == 0 || place.upper.y != place.lower.y) &&
-                            ((k & 4U) == 0 || place.upper.z != place.lower.z);
-        if (!is_new) continue;
-        points.push_back({(k & 1U) == 0 ? place.lower.x : place.upper.x,
-                          (k & 2U) == 0 ? place.lower.y : place.upper.y,
-                          (k & 4U) == 0 ? place.lower.z : place.upper.z});
-    }
-}
-
 /// Returns, for each cell, the largest part that contains it.
 std::vector<std::uint32_t> choose_owners(std::size_t cell_count,
                                          std::span<const std::vector<std::uint32_t>> parts) {
@@ -176,6 +163,18 @@ private:
 
 }  // namespace
 
+void add_corners(const Place& place, std::vector<Double3>& points) {
+    for (unsigned k = 0; k < 8; ++k) {
+        const bool is_new = ((k & 1U) == 0 || place.upper.x != place.lower.x) &&
+                            ((k & 2U) == 0 || place.upper.y != place.lower.y) &&
+                            ((k & 4U) == 0 || place.upper.z != place.lower.z);
+        if (!is_new) continue;
+        points.push_back({(k & 1U) == 0 ? place.lower.x : place.upper.x,
+                          (k & 2U) == 0 ? place.lower.y : place.upper.y,
+                          (k & 4U) == 0 ? place.lower.z : place.upper.z});
+    }
+}
+
 std::vector<Double3> extreme_points(const SolidCells& cells, const SolidCell& cell) {
     static const std::vector<Double3> kDirections = make_directions();
     std::vector<Double3> points = cell.corners;
@@ -237,7 +236,7 @@ std::vector<PartPoints> gather_points(const SolidCells& cells, const mesh::Mesh&
         for (const std::uint32_t fragment : list) count[cells.fragments[fragment].triangle] = 0;
         std::sort(places.begin(), places.end());
         places.erase(std::unique(places.begin(), places.end()), places.end());
-        for (const std::uint32_t place : places) add_place(cells.places[place], of.points);
+        for (const std::uint32_t place : places) add_corners(cells.places[place], of.points);
         std::sort(of.triangles.begin(), of.triangles.end());
         of.triangles.erase(std::unique(of.triangles.begin(), of.triangles.end()),
                            of.triangles.end());

@@ -17,6 +17,9 @@ struct PartPoints {
     std::uint64_t fragments = 0;           ///< that this part has to contain
 };
 
+/// Adds the corners of the box that contains the place: usually one.
+void add_corners(const Place& place, std::vector<Double3>& points);
+
 /// Returns the points of a cell that lie farthest along many directions: nearly its hull.
 [[nodiscard]] std::vector<Double3> extreme_points(const SolidCells& cells, const SolidCell& cell);
 

@@ -9,6 +9,7 @@
 
 #include "cdprep/pairs.h"
 #include "study/memory_model.h"
+#include "support/concave_solids.h"
 #include "support/random_pose.h"
 #include "unit/tools/soup_of.h"
 
@@ -43,6 +44,19 @@ TEST(BoundingShapes, OfAUnitCubeAreKnown) {
     EXPECT_FALSE(may_touch_aligned(box, box, shifted(1.001)));
     EXPECT_TRUE(may_touch(sphere, sphere, shifted(std::sqrt(3.0))));
     EXPECT_FALSE(may_touch(sphere, sphere, shifted(1.75)));
+}
+
+// Powers of two change exponents alone, and subnormal numbers little.
+TEST(BoundingShapes, SpheresOfAnySizeAreThoseOfSizeOne) {
+    const test::TestMesh prism = test::l_prism();
+    const BoundingSphere plain = bounding_sphere(test::mesh_of(prism));
+    for (const int exponent : {-1060, -1000, -600, 600, 999}) {
+        const double size = std::ldexp(1.0, exponent);
+        const BoundingSphere sphere =
+            bounding_sphere(test::mesh_of(test::moved_by(prism, size, {})));
+        EXPECT_NEAR(std::ldexp(sphere.radius, -exponent), plain.radius, 0.01) << exponent;
+        EXPECT_NEAR(std::ldexp(sphere.centre.x, -exponent), plain.centre.x, 0.01) << exponent;
+    }
 }
 
 // By hand: the smallest sphere around a right triangle has its longest side as diameter, and that

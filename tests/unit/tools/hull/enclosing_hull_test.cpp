@@ -159,6 +159,27 @@ TEST(EnclosingHull, DistancesAreAsRecorded) {
     EXPECT_EQ(test::hash_of_text(text), 0x496c9fc62cde8139) << text;
 }
 
+// Among subnormal numbers only whole units are left: it is looser, and a bound nevertheless.
+TEST(EnclosingHull, OfAnySizeHoldsAllPoints) {
+    const Points points = test::icosphere(2).positions;
+    for (const int exponent : {-1070, -1030, -700, 700, 999}) {
+        Points at_size;
+        for (const Double3& p : points) {
+            at_size.push_back(
+                {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)});
+        }
+        const ConvexHull exact = convex_hull(at_size);
+        for (const std::uint32_t most : {4U, 9U, 20U}) {
+            const auto outer = enclosing_hull(exact, most);
+            ASSERT_TRUE(outer) << exponent << " " << most;
+            EXPECT_LE(outer->hull.points.size(), most);
+            EXPECT_TRUE(encloses(outer->hull, at_size)) << exponent << " " << most;
+            EXPECT_GT(outer->distance, 0);
+            EXPECT_LE(std::ldexp(outer->distance, -exponent), 4) << exponent << " " << most;
+        }
+    }
+}
+
 TEST(EnclosingHull, ScalingByPowersOfTwoScalesIt) {
     const Points points = test::icosphere(2).positions;
     const auto outer = enclosing_hull(convex_hull(points), 20);

@@ -93,6 +93,30 @@ TEST(HullParts, AreSoundAndHoldEveryVertex) {
     }
 }
 
+// Of sides that are no round numbers: cuts meet the diagonals in rounded places.
+TEST(HullParts, OfOpenBoxesOfAnySidesCoverThem) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> side(0.2, 2);
+    std::size_t several = 0;
+    for (int i = 0; i < 12; ++i) {
+        test::TestMesh box = test::unit_cube();
+        box.triangles.resize(10);
+        const double x = side(random), y = side(random), z = side(random);
+        for (Double3& p : box.positions) p = {x * p.x, y * p.y, z * p.z};
+        HullSections sections = *make_hull_sections(test::mesh_of(box), {}, 0, serial_for);
+        ApproximateOptions how;
+        how.max_error = 0.1;
+        how.work = 20'000'000;
+        const ApproximateParts found = find_approximate_parts(test::mesh_of(box), how);
+        several += found.parts.size() > 1 ? 1 : 0;
+        add_parts(sections, found.parts);
+        const auto opened = test::open_tiny(baked(box, sections));
+        EXPECT_FALSE(find_cover_falsehood(opened.bytes.span(), opened.model))
+            << x << " " << y << " " << z;
+    }
+    EXPECT_GE(several, 8U);
+}
+
 // Every part of a ring holds a vertex that no other does: without it the check must tell.
 TEST(HullParts, ThatLeaveAVertexOutAreFound) {
     HullSections sections = *make_hull_sections(test::mesh_of(ring()), {}, 0, serial_for);

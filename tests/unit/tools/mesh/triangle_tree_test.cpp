@@ -150,5 +150,15 @@ TEST(TriangleTree, VisitsWhatBoxesAndRaysMeet) {
     EXPECT_GT(most, 500u);
 }
 
+// A mesh of any size is a point from so far away.
+TEST(TriangleTree, FindsTheDistanceFromFarBeyondTheMesh) {
+    for (const double size : {1e-320, 1e-300, 1e-100, 1e-30}) {
+        const TriangleTree tree = tree_of(test::moved_by(test::icosphere(2), size, {0, 0, 0}));
+        for (const Double3& p : {Double3{2, 3, 6}, Double3{-2, 6, -3}, Double3{0, 0, 7}}) {
+            EXPECT_NEAR(tree.nearest(p).distance, 7, 1e-12) << size;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace cdprep::convex

@@ -359,6 +359,120 @@ TEST(ApproximateParts, ScaleWithTheModel) {
     }
 }
 
+/// A mesh times a power of two.
+Mesh scaled(Mesh mesh, int exponent) {
+    for (Double3& p : mesh.positions) {
+        p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent), std::ldexp(p.z, exponent)};
+    }
+    return mesh;
+}
+
+Mesh open_box() {
+    Mesh box = cube({0, 0, 0}, 1);
+    box.triangles.resize(10);
+    return box;
+}
+
+void expect_same(const ApproximateParts& found, const ApproximateParts& plain, int exponent) {
+    ASSERT_EQ(found.parts.size(), plain.parts.size()) << exponent;
+    EXPECT_EQ(found.outer_error, std::ldexp(plain.outer_error, exponent)) << exponent;
+    EXPECT_EQ(found.outer_lower, std::ldexp(plain.outer_lower, exponent)) << exponent;
+    EXPECT_EQ(found.is_as_asked, plain.is_as_asked) << exponent;
+    for (std::size_t i = 0; i < plain.parts.size(); ++i) {
+        const ConvexHull &hull = found.parts[i].hull, &expected = plain.parts[i].hull;
+        Mesh points;
+        points.positions = expected.points;
+        EXPECT_EQ(hull.points, scaled(points, exponent).positions) << exponent;
+        EXPECT_EQ(hull.facets, expected.facets) << exponent;
+        EXPECT_EQ(found.parts[i].triangles, plain.parts[i].triangles) << exponent;
+    }
+}
+
+// From far below the floats to the largest coordinate: the parts of size 1, times a power of two.
+TEST(ApproximateParts, OfAnySizeAreThoseOfSizeOne) {
+    ApproximateOptions by_parts;
+    by_parts.max_parts = 2;
+    ApproximateOptions to_surface = by_parts;
+    to_surface.reference = Reference::surface;
+    ApproximateOptions few_vertices = by_parts;
+    few_vertices.max_vertices = 5;
+    ApproximateOptions by_error;
+    by_error.max_error = 0.3;
+    for (const Mesh& mesh : {cube({0, 0, 0}, 1), open_box(), l_prism()}) {
+        for (ApproximateOptions options : {by_parts, to_surface, few_vertices, by_error}) {
+            options.work = 1'000'000;
+            const ApproximateParts plain = find_approximate_parts(mesh, options);
+            for (const int exponent : {-900, -700, -500, -70, 70, 500, 700, 990, 999}) {
+                ApproximateOptions how = options;
+                if (options.max_error) how.max_error = std::ldexp(*options.max_error, exponent);
+                const ApproximateParts found = find_approximate_parts(scaled(mesh, exponent), how);
+                expect_same(found, plain, exponent);
+                EXPECT_EQ(found.work, plain.work);
+            }
+        }
+    }
+}
+
+// A few units of the smallest double across. Corners move outwards to whole units, and the bounds
+// with them.
+TEST(ApproximateParts, OfSubnormalSizeHoldTheMeshWithinTheirBounds) {
+    for (const int exponent : {-1074, -1073, -1070, -1050, -1022}) {
+        for (const Mesh& mesh : {scaled(open_box(), exponent), scaled(l_prism(), exponent)}) {
+            for (const std::uint32_t vertices : {0U, 4U}) {
+                ApproximateOptions options;
+                options.max_parts = 3;
+                options.max_vertices = vertices;
+                options.work = 1'000'000;
+                const ApproximateParts found = find_approximate_parts(mesh, options);
+                EXPECT_TRUE(found.is_as_asked);
+                EXPECT_LE(found.outer_lower, found.outer_error);
+                // Ten units more: that much is rounded to whole ones.
+                EXPECT_LE(found.outer_error, std::ldexp(4.0, exponent) + 10 * 0x1p-1074);
+                EXPECT_EQ(found.proof.outside, 0U);
+                for (const Double3& p : mesh.positions) EXPECT_TRUE(is_held(found, p)) << exponent;
+                for (const ApproximatePart& part : found.parts) {
+                    EXPECT_TRUE(vertices == 0 || part.hull.points.size() <= vertices);
+                }
+            }
+        }
+    }
+}
+
+// A unit of 2^1000 apart, the parts of either body are larger by what the small one loses.
+TEST(ApproximateParts, OfVeryDifferentSizesHoldBoth) {
+    Mesh mesh = scaled(l_prism(), 999);
+    append(mesh, scaled(turned(l_prism(), 0.4), -300));
+    ApproximateOptions options;
+    options.max_parts = 4;
+    options.work = 1'000'000;
+    const ApproximateParts found = find_approximate_parts(mesh, options);
+    EXPECT_LE(found.parts.size(), 4U);
+    EXPECT_LE(found.outer_error, 0x1p970);
+    for (const Double3& p : mesh.positions) EXPECT_TRUE(is_held(found, p));
+}
+
+// Its only coordinate of usual size is the same everywhere. A point has no size at all.
+TEST(ApproximateParts, OfATinySheetFarFromTheOriginEnd) {
+    Mesh sheet;
+    for (const double y : {0.0, 4e-323}) {
+        for (const double z : {0.0, 4e-323}) sheet.positions.push_back({1, y, z});
+    }
+    sheet.triangles = {{{0, 1, 3}}, {{0, 1, 2}}};
+    Mesh point;
+    point.positions = {{1, 2, 3}};
+    point.triangles = {{{0, 0, 0}}};
+    for (const Mesh& mesh : {sheet, point}) {
+        for (const double error : {0.0, 1e-320, 1.0}) {
+            ApproximateOptions options;
+            options.max_error = error;
+            options.work = 1'000'000;
+            const ApproximateParts found = find_approximate_parts(mesh, options);
+            EXPECT_LE(found.outer_error, 1e-322) << error;
+            EXPECT_LE(found.outer_lower, found.outer_error) << error;
+        }
+    }
+}
+
 // However small the error: fields of distances, cells and searches are bounded by the work
 // too, of which the tasks handed out are a measure. A field for this error alone is ten
 // thousand.

@@ -132,6 +132,35 @@ double surface_distance(const Mesh& mesh, const Double3& p) {
     return least;
 }
 
+// Powers of two change exponents alone, until numbers are subnormal. Then bounds go outwards.
+TEST(HullError, OfAMeshOfAnySizeIsThatOfSizeOne) {
+    for (const test::TestMesh& test_mesh : {test::l_prism(), test::unit_cube()}) {
+        const Mesh mesh = mesh_of(test_mesh);
+        for (const Reference reference : {Reference::solid, Reference::surface}) {
+            const HullError plain = error_of_own_hull(mesh, {}, reference);
+            for (const int exponent : {-1073, -1060, -700, -500, 0, 500, 700, 999}) {
+                const Mesh scaled = mesh_of(test::moved_by(test_mesh, std::ldexp(1, exponent), {}));
+                const HullError error =
+                    find_hull_error(convex_hull(scaled.positions), scaled, reference, serial_for);
+                const double unit = exponent < -1000 ? 0x1p-1074 : 0;
+                EXPECT_GE(error.upper, std::ldexp(plain.upper, exponent)) << exponent;
+                EXPECT_LE(error.upper, std::ldexp(plain.upper, exponent) + unit) << exponent;
+                EXPECT_LE(error.lower, std::ldexp(plain.lower, exponent)) << exponent;
+                EXPECT_GE(error.lower, std::ldexp(plain.lower, exponent) - unit) << exponent;
+            }
+        }
+    }
+}
+
+// A hull of usual size around a speck, far larger than that: every point is that far from it.
+TEST(HullError, OfAHullMuchLargerThanItsMeshIsItsSize) {
+    const Mesh speck = mesh_of(test::moved_by(test::unit_cube(), 1e-300, {}));
+    const ConvexHull hull = convex_hull(test::moved_by(test::unit_cube(), 2, {}).positions);
+    const HullError error = find_hull_error(hull, speck, Reference::solid, serial_for);
+    EXPECT_NEAR(error.lower, 2 * std::sqrt(3), 0.1);
+    EXPECT_NEAR(error.upper, 2 * std::sqrt(3), 0.1);
+}
+
 // Random tetrahedra about a torus, against many points of each: none is farther from the
 // solid than `upper`, and `worst` is as far as it is said to be.
 TEST(HullErrorLaws, BoundsHoldOfEveryPointOfTheHull) {
