@@ -244,6 +244,7 @@ void add_accuracy(const Command& app, Exit& exit) {
                   "minutes")
         .group("Study");
     command.add_option("--seed", arguments->seed, "Seed of the poses")
+        .check(whole_from(0))
         .show_default()
         .group("Study");
     command

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "command_line/command_line.h"
 #include "command_line/usage.h"
@@ -14,6 +16,15 @@ std::string joined(const std::vector<std::string>& words, const char* separator)
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
     return text;
+}
+
+/// Returns the number that consists of these digits, or nothing.
+std::optional<std::uint64_t> decimal(const std::string& word) {
+    std::uint64_t number = 0;
+    const char* const end = word.data() + word.size();
+    const auto [stop, error] = std::from_chars(word.data(), end, number);
+    if (error != std::errc() || stop != end) return std::nullopt;
+    return number;
 }
 
 Check number_above(double limit, bool may_be_equal, const std::string& wanted) {
@@ -48,11 +59,12 @@ Check whole_from(std::uint64_t least, std::uint64_t most) {
         is_open ? "a whole number of " + std::to_string(least) + " or more"
                 : "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
     return {[=](std::string& word) -> std::string {
-                std::uint64_t number = 0;
-                const bool is_number =
-                    !word.empty() && word[0] != '-' && CLI::detail::lexical_cast(word, number);
-                if (is_number && number >= least && number <= most) return "";
-                return in_quotes(word) + " is not " + wanted + ".";
+                const std::optional<std::uint64_t> number = decimal(word);
+                if (!number || *number < least || *number > most) {
+                    return in_quotes(word) + " is not " + wanted + ".";
+                }
+                word = std::to_string(*number);  // CLI11 would read "010" as octal
+                return "";
             },
             is_open ? std::to_string(least) + " or more"
                     : std::to_string(least) + " to " + std::to_string(most)};

@@ -14,6 +14,14 @@ CLI::Validator validator_of(const Check& check) {
     return {[test = check.test](std::string& word) { return test(word); }, check.words};
 }
 
+/// Refuses an empty value: a variable that a script forgot to set must not mean the default.
+Option filled(CLI::Option& option) {
+    option.transform(CLI::Validator(
+        [](std::string& word) { return std::string(word.empty() ? "the value is empty." : ""); },
+        ""));
+    return Option(option);
+}
+
 bool any(const CLI::App* /*command*/) {
     return true;
 }
@@ -92,42 +100,42 @@ void Command::require_command() const {
 
 Option Command::add_option(const std::string& names, std::string& value,
                            const std::string& text) const {
-    return Option(*app_->add_option(names, value, text));
+    return filled(*app_->add_option(names, value, text));
 }
 Option Command::add_option(const std::string& names, double& value, const std::string& text) const {
-    return Option(*app_->add_option(names, value, text));
+    return filled(*app_->add_option(names, value, text));
 }
 Option Command::add_option(const std::string& names, std::uint32_t& value,
                            const std::string& text) const {
-    return Option(*app_->add_option(names, value, text));
+    return filled(*app_->add_option(names, value, text));
 }
 Option Command::add_option(const std::string& names, std::uint64_t& value,
                            const std::string& text) const {
-    return Option(*app_->add_option(names, value, text));
+    return filled(*app_->add_option(names, value, text));
 }
 Option Command::add_option(const std::string& names, std::filesystem::path& value,
                            const std::string& text) const {
-    return Option(*app_->add_option(names, value, text));
+    return filled(*app_->add_option(names, value, text));
 }
 Option Command::add_option(const std::string& names, std::vector<std::string>& values,
                            const std::string& text) const {
-    return Option(*app_->add_option(names, values, text));
+    return filled(*app_->add_option(names, values, text));
 }
 Option Command::add_option(const std::string& names, std::vector<std::filesystem::path>& values,
                            const std::string& text) const {
-    return Option(*app_->add_option(names, values, text));
+    return filled(*app_->add_option(names, values, text));
 }
 Option Command::add_option(const std::string& names, std::optional<double>& value,
                            const std::string& text) const {
-    return Option(*app_->add_option(names, value, text));
+    return filled(*app_->add_option(names, value, text));
 }
 Option Command::add_option(const std::string& names, std::optional<std::uint32_t>& value,
                            const std::string& text) const {
-    return Option(*app_->add_option(names, value, text));
+    return filled(*app_->add_option(names, value, text));
 }
 Option Command::add_option(const std::string& names, std::optional<std::uint64_t>& value,
                            const std::string& text) const {
-    return Option(*app_->add_option(names, value, text));
+    return filled(*app_->add_option(names, value, text));
 }
 Option Command::add_flag(const std::string& names, bool& value, const std::string& text) const {
     return Option(*app_->add_flag(names, value, text));

@@ -157,6 +157,7 @@ void add_pose_options(const Command& command, Arguments& arguments) {
             .check(whole_from(1, kMostPoses))
             .group("Poses");
     const Option seed = command.add_option("--seed", options.seed, "Seed of the poses")
+                            .check(whole_from(0))
                             .show_default()
                             .group("Poses");
     command

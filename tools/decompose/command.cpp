@@ -245,6 +245,7 @@ void add_enclosing_options(const Command& command, EncloseOptions& enclosed, con
     command
         .add_option("--work", enclosed.work,
                     "Search budget, in steps of about 10 ns; a smaller budget gives a looser fit")
+        .check(whole_from(0))
         .show_default()
         .group(enclosing);
     command

@@ -162,6 +162,9 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
     limits.parallel_for = threads.parallel_for();
     const Result<mesh::TriangleSoup> soup = import::import_file(arguments.input, limits);
     if (!soup) return soup.error();
+    for (const std::string& remark : soup->remarks) {
+        std::cerr << "cdprep repair: " << arguments.input.string() << ": " << remark << '\n';
+    }
     if (const auto error = find_wide_weld(arguments.input, *soup, options.weld_distance)) {
         return *error;
     }
@@ -249,6 +252,7 @@ void add_goal_options(const Command& command, Arguments& arguments) {
     command
         .add_option("--drop-components", arguments.options.least_triangles,
                     "Drop components with fewer than N triangles")
+        .check(whole_from(0))
         .group(group);
     command
         .add_option(
