@@ -73,6 +73,13 @@ def main():
     (folder / "bad").write_text("0 0 0 0 0 0\n")
     done = run(program, "query", "ray", folder / "cube", "--rays", folder / "bad")
     must(done.returncode == 3 and "line 1" in done.stderr, f"a ray without direction: {done}")
+    # JSON has no infinity: such a member is left out. Points may lie beyond the coordinates of models.
+    (folder / "far").write_text("1.7e308 1.7e308 1.7e308\n")
+    far, = answers(program, "closest", folder / "cube", "--points", folder / "far")
+    must(far["lower"] > 1.7e308 and "upper" not in far and far["triangle"] >= 0, f"{far}")
+    (folder / "far rays").write_text("0.5 0.5 -1.7e308 0 0 1e-300\n")
+    far, = answers(program, "ray", folder / "cube", "--rays", folder / "far rays")
+    must(far["hit"] and "t" not in far and far["at"][2] == 0, f"{far}")
     print(f"{len(points)} points, {len(rays)} rays")
 
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <ostream>
 
 #include "text/number_text.h"
@@ -25,6 +26,12 @@ std::string number(Number value) {
     std::string text;
     append(text, value);
     return text;
+}
+
+/// Returns a member of a JSON object after others. JSON has no infinity, so an infinite number is
+/// left out: of points and rays with coordinates near the limit of doubles.
+std::string finite_member(const char* name, double value) {
+    return std::isfinite(value) ? std::string(", \"") + name + "\": " + number(value) : "";
 }
 
 const char* word(Answer answer) {
@@ -290,8 +297,8 @@ std::string as_json(const ClosestAnswer& answer) {
     std::string text =
         "{\"point\": " + number(answer.point) + ", \"found\": " + word(answer.closest.has_value());
     if (answer.closest) {
-        text += ", \"lower\": " + number(answer.closest->lower) +
-                ", \"upper\": " + number(answer.closest->upper) +
+        text += finite_member("lower", answer.closest->lower) +
+                finite_member("upper", answer.closest->upper) +
                 ", \"triangle\": " + number(answer.closest->triangle) + ", \"at\": [" +
                 place(answer.closest->point, ", ") + "]";
     }
@@ -310,7 +317,7 @@ std::string as_json(const RayAnswer& answer) {
     std::string text =
         "{\"ray\": " + number(answer.ray) + ", \"hit\": " + word(answer.hit.has_value());
     if (answer.hit) {
-        text += ", \"t\": " + number(answer.hit->t) +
+        text += finite_member("t", answer.hit->t) +
                 ", \"triangle\": " + number(answer.hit->triangle) + ", \"at\": [" +
                 place(answer.hit->point, ", ") + "]";
     }
