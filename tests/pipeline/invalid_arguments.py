@@ -5,6 +5,7 @@ gives one sentence that names it, and changes nothing.
 
 Usage: invalid_arguments.py CDPREP
 """
+import json
 import os
 import pathlib
 import subprocess
@@ -43,6 +44,14 @@ def main():
     bake(program, folder / "sheet.off")
     must(model.exists(), "without -o the output is not beside the input")
     before = digest(model)
+    for name, unit in (("mm", "mm"), ("inches", "in")):
+        run(program, "bake", folder / "sheet.off", "--unit", unit, "--effects", "contacts",
+            "--structures", "hull", "-o", folder / f"{name}.cdp.h5")
+    (folder / "units.json").write_text(json.dumps({
+        "cdprep_scene": 1, "layers": ["all"],
+        "objects": [{"name": name, "model": f"{name}.cdp.h5", "layer": "all"}
+                    for name in ("mm", "inches")],
+        "pairs": [{"layers": ["all", "all"], "effects": ["distance"]}]}))
     (folder / "text.cdp.h5").write_text("not a bake " * 1000)
     (folder / "a folder").mkdir()
     (folder / "notes.xyz").write_text("1 2 3\n")
@@ -205,9 +214,18 @@ def main():
         (["validate", "--files-from", folder / "list", "-o", folder / "list"], 2, ["list"]),
         (["validate", folder / "sheet.off", "-o", folder / "new", "--html", folder / "latest"], 2,
          ["latest is an input or another output"]),
-        (["compare", ""], 3, ["cannot be"]),
-        (["accuracy", "", folder / "sheet.off"], 3, ["cannot be"]),
-        (["bake", ""], 3, ["cannot be"]),
+        (["compare", ""], 2, ["the value is empty."]),
+        (["accuracy", "", folder / "sheet.off"], 2, ["the value is empty."]),
+        (["bake", ""], 2, ["the value is empty."]),
+        *(([*pair, option, ""], 2, [f"{option}: the value is empty."])
+          for option in ("--pose", "--poses", "--pose-a", "--pose-b")),
+        (["query", "distance", model, model, "--repeat", "0x2"], 2, ["'0x2' is not a whole number"]),
+        *(([*question, folder / "mm.cdp.h5", folder / "inches.cdp.h5"], 2,
+           ["mm.cdp.h5 is in mm, but ", "inches.cdp.h5 is in in. "])
+          for question in (["query", "distance"], ["query", "contacts", "--tolerance", "1"],
+                           ["query", "distance", "--structure", "hull"])),
+        (["query", "distance", "--scene", folder / "units.json"], 2,
+         ["mm.cdp.h5 is in mm, but ", "inches.cdp.h5 is in in. "]),
         *(([*command, "-o", link], 2, [str(link), "replaced"]) for link in links for command in (
             ["bake", folder / "sheet.off"], ["validate", folder / "sheet.off"],
             ["hull", folder / "sheet.off"], ["repair", folder / "sheet.off"],

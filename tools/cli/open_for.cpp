@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "import/mesh_endings.h"
+#include "text/space_name.h"
 
 namespace cdprep::cli {
 
@@ -23,6 +24,21 @@ Result<Model> open_for(const std::filesystem::path& path, Ask asks, Structure th
     Result<Model> opened = Model::open(path, asks | ask_of(through));
     if (!opened) return baked_first(path, opened.error());
     return opened;
+}
+
+double unit_of(const Model& model) {
+    const bool is_normalized = (model.header().flags & format::model_normalized) != 0;
+    return is_normalized ? 0 : model.header().metres_per_unit;
+}
+
+std::optional<Error> find_unlike_units(const std::filesystem::path& path_a, const Model& a,
+                                       const std::filesystem::path& path_b, const Model& b) {
+    const double unit_a = unit_of(a), unit_b = unit_of(b);
+    if (unit_a == 0 || unit_b == 0 || unit_a == unit_b) return std::nullopt;
+    return Error{ErrorCode::bad_argument, path_a.string() + " is in " + report::unit_name(unit_a) +
+                                              ", but " + path_b.string() + " is in " +
+                                              report::unit_name(unit_b) +
+                                              ". Convert one mesh, or bake both with one --unit."};
 }
 
 }  // namespace cdprep::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "cdprep/advanced/structure.h"
 #include "cdprep/model.h"
@@ -16,5 +17,15 @@ namespace cdprep::cli {
 /// states how to bake it.
 [[nodiscard]] Result<Model> open_for(const std::filesystem::path& path, Ask asks,
                                      Structure through = Structure::bvh);
+
+/// Returns the length of a model's unit in metres. Returns 0 if it is unknown, as it is after
+/// --normalize.
+[[nodiscard]] double unit_of(const Model& model);
+
+/// Returns an error if the units of two models are known and differ: poses do not scale.
+[[nodiscard]] std::optional<Error> find_unlike_units(const std::filesystem::path& path_a,
+                                                     const Model& a,
+                                                     const std::filesystem::path& path_b,
+                                                     const Model& b);
 
 }  // namespace cdprep::cli

@@ -62,6 +62,9 @@ Exit run(const ContactArguments& arguments) {
     if (!a) return fail("query", a.error());
     const Result<Model> b = open_for(arguments.b, asks, through);
     if (!b) return fail("query", b.error());
+    if (const auto unlike = find_unlike_units(arguments.a, a.value(), arguments.b, b.value())) {
+        return fail("query", *unlike);
+    }
     const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
     if (!placements) return fail("query", placements.error());
 

@@ -64,6 +64,9 @@ Exit run_hulls(const PairArguments& arguments) {
     if (!a) return fail("query", a.error());
     const Result<Model> b = open_hulls(arguments.b);
     if (!b) return fail("query", b.error());
+    if (const auto unlike = find_unlike_units(arguments.a, a.value(), arguments.b, b.value())) {
+        return fail("query", *unlike);
+    }
     const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
     if (!placements) return fail("query", placements.error());
 

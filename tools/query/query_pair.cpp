@@ -297,6 +297,9 @@ Exit run_pair(const PairArguments& arguments) {
     if (!a) return fail("query", a.error());
     const Result<Model> b = open_for(arguments.b, asks, through.value().structure);
     if (!b) return fail("query", b.error());
+    if (const auto unlike = find_unlike_units(arguments.a, a.value(), arguments.b, b.value())) {
+        return fail("query", *unlike);
+    }
     const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
     if (!placements) return fail("query", placements.error());
 

@@ -10,6 +10,7 @@
 #include "cdprep/format/sections.h"
 #include "cdprep/hulls.h"
 #include "cli/colliders.h"
+#include "cli/open_for.h"
 #include "scene_file/bake_cache.h"
 #include "text/number_text.h"
 #include "text/printable.h"
@@ -167,7 +168,9 @@ private:
         } else {
             bake->read = [&loaded](const fs::path& file, const import::ImportOptions& limits) {
                 Result<mesh::TriangleSoup> soup = import::import_file(file, limits);
-                if (soup) loaded.colliders = cli::find_colliders(*soup);
+                if (!soup) return soup;
+                loaded.colliders = cli::find_colliders(*soup);
+                loaded.remarks = soup->remarks;
                 return soup;
             };
         }
@@ -203,12 +206,11 @@ private:
     }
 
     /// A scene moves models, but does not scale them.
-    [[nodiscard]] std::optional<Error> find_other_unit(const fs::path& path,
-                                                       const Model& model) const {
-        const double unit = model.header().metres_per_unit;
-        if (scene_.metres_per_unit == 0 || unit == 0 || unit == scene_.metres_per_unit) {
-            return std::nullopt;
-        }
+    [[nodiscard]] std::optional<Error> find_other_unit(const fs::path& path, const Model& model) {
+        const double unit = cli::unit_of(model);
+        if (unit == 0) return std::nullopt;
+        if (scene_.metres_per_unit == 0) return find_unlike_first(path, unit);
+        if (unit == scene_.metres_per_unit) return std::nullopt;
         return Error{ErrorCode::bad_argument, scene_.name + ": " + path.string() + " is in " +
                                                   report::unit_name(unit) +
                                                   ", but the unit of the scene is " +
@@ -216,11 +218,27 @@ private:
                                                   ". Convert the mesh, or change metres_per_unit."};
     }
 
+    /// For a scene without a unit: the models must share one.
+    [[nodiscard]] std::optional<Error> find_unlike_first(const fs::path& path, double unit) {
+        if (unit_ == 0) {
+            unit_ = unit;
+            first_with_unit_ = path;
+        }
+        if (unit == unit_) return std::nullopt;
+        return Error{ErrorCode::bad_argument,
+                     scene_.name + ": " + first_with_unit_.string() + " is in " +
+                         report::unit_name(unit_) + ", but " + path.string() + " is in " +
+                         report::unit_name(unit) +
+                         ". Convert one mesh, or bake both with one --unit."};
+    }
+
     const SceneFile& scene_;
     const LoadOptions& options_;
     const cli::Threads& threads_;
     BakeCache cache_;
     std::size_t done_ = 0;  ///< models before the current one
+    double unit_ = 0;       ///< of the first model with one
+    fs::path first_with_unit_;
 };
 
 }  // namespace
@@ -252,10 +270,13 @@ LoadedModels load_models(const SceneFile& scene, std::span<const ModelNeeds> nee
     return loaded;
 }
 
-std::vector<std::string> kept_colliders(const SceneFile& scene,
-                                        const std::vector<SceneModel>& models) {
+std::vector<std::string> import_lines(const SceneFile& scene,
+                                      const std::vector<SceneModel>& models) {
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < models.size(); ++i) {
+        for (const std::string& remark : models[i].remarks) {
+            lines.push_back(scene.models[i].string() + ": " + remark);
+        }
         if (models[i].colliders.empty()) continue;
         lines.push_back(scene.models[i].string() + ": " +
                         cli::kept_text(models[i].colliders, "by naming a baked file"));
