@@ -63,12 +63,17 @@ void add_argument(std::vector<Input>& inputs, const std::string& argument) {
     for (const fs::path& match : matches) add_path(inputs, match);
 }
 
+/// Returns one spelling for the paths to a name in a folder. Links to the folder are followed.
+fs::path place_of(const fs::path& path) {
+    std::error_code unknown;
+    return fs::weakly_canonical(fs::absolute(path).parent_path(), unknown) / path.filename();
+}
+
 /// Keeps the first of several inputs that name one file.
 void keep_each_once(std::vector<Input>& inputs) {
     std::set<fs::path> seen;
-    std::erase_if(inputs, [&](const Input& input) {
-        return !seen.insert(fs::absolute(input.path).lexically_normal()).second;
-    });
+    std::erase_if(inputs,
+                  [&](const Input& input) { return !seen.insert(place_of(input.path)).second; });
 }
 
 std::vector<std::string> paths_of(std::istream& in, ListEnd end) {

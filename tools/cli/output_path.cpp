@@ -19,6 +19,16 @@ std::filesystem::path named_file(const std::filesystem::path& path) {
     return unknown ? whole.lexically_normal() : file;
 }
 
+std::filesystem::path shortened(const std::filesystem::path& path) {
+    const std::filesystem::path normal = path.lexically_normal();
+    std::error_code failure;
+    const bool is_same = std::filesystem::equivalent(path, normal, failure);
+    // Where neither exists, either may be named.
+    const bool are_missing = failure && !std::filesystem::exists(path, failure) &&
+                             !std::filesystem::exists(normal, failure);
+    return is_same || are_missing ? normal : path;
+}
+
 bool UsedFiles::add(const std::filesystem::path& path) {
     struct stat known = {};
     const bool is_there = ::stat(path.c_str(), &known) == 0;

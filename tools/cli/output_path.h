@@ -18,6 +18,10 @@ namespace cdprep::cli {
 /// not exist.
 [[nodiscard]] std::filesystem::path named_file(const std::filesystem::path& path);
 
+/// Returns the path without "." and "..", or unchanged if that leads to another file: ".." after a
+/// symbolic link leads to the folder above the link's target.
+[[nodiscard]] std::filesystem::path shortened(const std::filesystem::path& path);
+
 /// The files that a command reads and writes. An empty path is none.
 class UsedFiles {
 public:

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "cdprep/format/limits.h"
+#include "cli/output_path.h"
 
 namespace cdprep::scenes {
 namespace {
@@ -67,7 +68,7 @@ Stream read_stream(const JsonElement& element, const fs::path& folder) {
     if (!element.is_object_of({"file", "step_s", "repeats"})) return stream;
     const auto file = element.require("file");
     if (const auto text = file ? file->text() : std::nullopt) {
-        stream.file = (folder / *text).lexically_normal();
+        stream.file = cli::shortened(folder / *text);
         std::error_code unknown;
         if (!fs::is_regular_file(stream.file, unknown)) {
             file->refuse("there is no file " + stream.file.string() + ".");

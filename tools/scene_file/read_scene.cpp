@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/output_path.h"
 #include "import/source_file.h"
 #include "scene_file/effect_words.h"
 #include "scene_file/json_element.h"
@@ -290,7 +291,7 @@ private:
     std::uint32_t read_model(const JsonElement& element) {
         const auto text = element.text();
         if (!text) return 0;
-        const fs::path path = (folder_ / *text).lexically_normal();
+        const fs::path path = cli::shortened(folder_ / *text);
         std::error_code unknown;
         if (!fs::is_regular_file(path, unknown)) {
             element.refuse("there is no file " + path.string() + ".");

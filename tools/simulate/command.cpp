@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "cli/import_arguments.h"
+#include "cli/output_path.h"
 #include "cli/progress.h"
 #include "cli/report_output.h"
 #include "cli/signals.h"
@@ -142,7 +143,7 @@ private:
         }
         folder_ = replay_ ? replay_->folder() : file.parent_path();
         if (scenes::is_assembly(file)) {
-            if (const auto failed = read_gltf(file.lexically_normal())) return failed;
+            if (const auto failed = read_gltf(shortened(file))) return failed;
         } else {
             scenes::SceneReading reading =
                 replay_ ? scenes::parse_scene(replay_->scene_name(), replay_->scene_text(), folder_)
@@ -282,7 +283,7 @@ private:
         scenes::LoadedModels loaded = scenes::load_models(
             scene_, scenes::needs_of_models(scene_, asks), std::move(options), style_, threads_);
         models_ = std::move(loaded.models);
-        for (const std::string& line : scenes::kept_colliders(scene_, models_)) {
+        for (const std::string& line : scenes::import_lines(scene_, models_)) {
             std::cerr << "cdprep simulate: " << line << '\n';
         }
         return std::move(loaded.errors);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "cli/input_list.h"
 #include "support/scratch_folder.h"
 
 namespace cdprep::cli {
@@ -52,6 +53,43 @@ TEST(UsedFiles, RefusesAnOutputThatIsUsedByAnyPath) {
         EXPECT_TRUE(used.add_output(folder / "out.obj"));
         EXPECT_FALSE(used.add_output(folder / path)) << path;
     }
+}
+
+// Above a linked folder is the folder above its target.
+TEST(Shortened, LeadsToTheSameFile) {
+    namespace fs = std::filesystem;
+    const test::ScratchFolder scratch;
+    const fs::path folder = scratch.path();
+    fs::create_directories(folder / "real" / "below");
+    fs::create_directory(folder / "plain");
+    fs::create_directory_symlink(folder / "real" / "below", folder / "link");
+    for (const fs::path& file : {folder / "a.obj", folder / "real" / "a.obj"}) {
+        std::ofstream(file) << "v 0 0 0\n";
+    }
+    EXPECT_EQ(shortened(folder / "plain" / ".." / "a.obj"), folder / "a.obj");
+    EXPECT_EQ(shortened(folder / "." / "a.obj"), folder / "a.obj");
+    const fs::path linked = folder / "link" / ".." / "a.obj";
+    EXPECT_EQ(shortened(linked), linked);
+    EXPECT_TRUE(fs::equivalent(shortened(linked), folder / "real" / "a.obj"));
+    EXPECT_EQ(shortened(folder / "plain" / ".." / "none.obj"), folder / "none.obj");
+    fs::remove(folder / "real" / "a.obj");
+    EXPECT_EQ(shortened(linked), linked) << "another file has the shorter name";
+}
+
+TEST(ListInputs, KeepsFilesThatALinkTellsApart) {
+    namespace fs = std::filesystem;
+    const test::ScratchFolder scratch;
+    const fs::path folder = scratch.path();
+    fs::create_directories(folder / "real" / "below");
+    fs::create_directory_symlink(folder / "real" / "below", folder / "link");
+    for (const fs::path& file : {folder / "a.obj", folder / "real" / "a.obj"}) {
+        std::ofstream(file) << "v 0 0 0\n";
+    }
+    const std::string plain = (folder / "a.obj").string();
+    const std::string linked = (folder / "link" / ".." / "a.obj").string();
+    const std::string direct = (folder / "real" / "." / "a.obj").string();
+    EXPECT_EQ(list_inputs({plain, linked}).size(), 2U);
+    EXPECT_EQ(list_inputs({linked, direct, plain, plain}).size(), 2U);
 }
 
 }  // namespace
