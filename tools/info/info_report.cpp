@@ -32,16 +32,29 @@ bool is_normalized(const Model& model) {
 
 /// Returns the provenance as JSON, or as text if it is not valid JSON.
 nlohmann::ordered_json provenance(const Model& model) {
-    auto parsed = nlohmann::ordered_json::parse(model.record().provenance, nullptr, false);
-    if (parsed.is_discarded()) return std::string(model.record().provenance);
-    return parsed;
+    auto json = parsed(model.record().provenance);
+    if (json.is_discarded()) return std::string(model.record().provenance);
+    return json;
 }
 
 /// Returns the stored findings, with the counts of each rule. Returns null if the file has none, or
 /// if they are not a JSON object.
 nlohmann::ordered_json findings(const Model& model) {
-    auto parsed = nlohmann::ordered_json::parse(model.record().findings, nullptr, false);
-    return parsed.is_object() ? parsed : nlohmann::ordered_json();
+    auto json = parsed(model.record().findings);
+    return json.is_object() ? json : nlohmann::ordered_json();
+}
+
+/// Returns a line of findings_text(), or nothing for another form than bake writes.
+std::string finding_text(const nlohmann::ordered_json& finding) {
+    const auto text_of = [&](const char* key) {
+        const auto at = finding.find(key);
+        return at != finding.end() && at->is_string() ? printable(at->get<std::string>()) : "?";
+    };
+    if (!finding.is_object()) return {};
+    const auto count = finding.find("count");
+    const bool has_count = count != finding.end() && count->is_number_unsigned();
+    return "  " + text_of("rule") + " " + text_of("name") + ": " +
+           (has_count ? std::to_string(count->get<std::uint64_t>()) : "?") + "\n";
 }
 
 /// Returns one line per rule: "  CDP0501 crossing-triangles: 12".
@@ -49,10 +62,7 @@ std::string findings_text(const Model& model) {
     const nlohmann::ordered_json found = findings(model);
     if (!found.contains("findings") || !found["findings"].is_array()) return {};
     std::string text;
-    for (const auto& finding : found["findings"]) {
-        text += "  " + finding.value("rule", "") + " " + finding.value("name", "") + ": " +
-                std::to_string(finding.value("count", std::uint64_t{0})) + "\n";
-    }
+    for (const auto& finding : found["findings"]) text += finding_text(finding);
     return text.empty() ? "findings: none\n" : "findings:\n" + text;
 }
 

@@ -12,6 +12,7 @@
 #include "cdprep/format/checksum.h"
 #include "cdprep/model.h"
 #include "import/source_file.h"
+#include "text/json_layout.h"
 #include "text/number_text.h"
 
 namespace cdprep::scenes {
@@ -41,7 +42,7 @@ bool BakeCache::is_bake_of(const fs::path& baked, const fs::path& mesh, const st
                            std::uint64_t max_bytes) {
     const Result<Model> opened = Model::open(baked);  // damage anywhere: bake again
     if (!opened) return false;
-    Json found = Json::parse(opened->record().provenance, nullptr, false);
+    Json found = report::parsed<Json>(opened->record().provenance);
     if (!found.is_object() || !found.contains("source") || !found["source"].is_object()) {
         return false;
     }

@@ -9,6 +9,20 @@
 
 namespace cdprep::report {
 
+/// Returns the value of a text of unknown origin. It is discarded if the text is not JSON, or is
+/// nested so deeply that printing it would overflow the stack.
+template <class Json = nlohmann::ordered_json>
+[[nodiscard]] Json parsed(std::string_view text) {
+    constexpr int kMostLevels = 128;
+    bool is_deep = false;
+    const auto check = [&](int depth, typename Json::parse_event_t /*event*/, Json& /*value*/) {
+        is_deep = is_deep || depth > kMostLevels;
+        return !is_deep;
+    };
+    Json json = Json::parse(text, check, false);
+    return is_deep ? Json(Json::value_t::discarded) : json;
+}
+
 /// Returns JSON laid out for people and for diff. A value that fits on a line stays on one; others
 /// are broken and indented, starting at `depth` steps. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string laid_out(const nlohmann::ordered_json& json, int depth);
