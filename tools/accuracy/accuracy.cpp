@@ -191,7 +191,7 @@ private:
         if (study_.set.poses.empty()) {
             return Error{ErrorCode::bad_argument,
                          "No poses were found at which the models come near each other. Check that "
-                         "they have an extent."};
+                         "they have an extent, and no coordinates near 2^1000 (1e301)."};
         }
         study_.rigid = static_cast<std::size_t>(
             std::ranges::count_if(study_.set.poses, [](const StudyPose& p) { return p.is_rigid; }));

@@ -53,8 +53,8 @@ struct AccuracyStudy {
 };
 
 /// Studies two welded meshes. Fails with bad_argument if one has no triangles, if both have no
-/// extent, or if no poses are found. Fails with over_budget if a hull would leave the range of
-/// double, and with interrupted if `stop` returned true.
+/// extent, or if no poses are found, as for coordinates near 2^1000. Fails with over_budget if a
+/// hull would leave the range of double, and with interrupted if `stop` returned true.
 [[nodiscard]] Result<AccuracyStudy> study_accuracy(const mesh::Mesh& a, const mesh::Mesh& b,
                                                    const AccuracyOptions& options = {});
 

@@ -27,6 +27,9 @@ constexpr double kLeastOfBand = 1e-9;
 constexpr double kNear = 5e-2;
 constexpr double kFarthest = 1;
 
+/// The largest coordinate of a Pose.
+constexpr double kMostShift = 0x1p1000;
+
 constexpr int kTries = 12;
 constexpr int kMostSteps = 200;
 constexpr double kCloseEnough = 1e-6;  ///< advancement ends, halving begins
@@ -74,6 +77,14 @@ Pair pair_of(const Model& a, const Model& b) {
     const double larger = std::max(of_a.diagonal(), of_b.diagonal());
     return {
         a, b, SourceTriangles(a), SourceTriangles(b), of_a, of_b, smaller > 0 ? smaller : larger};
+}
+
+/// Returns whether B can be moved to wherever the poses, and walks that start there, lead.
+bool can_move(const Pair& pair) {
+    const double path = pair.of_a.diagonal() + pair.of_b.diagonal() + 1.1 * pair.diagonal;
+    return length_of(pair.of_a.middle) + length_of(pair.of_a.half) + path +
+               length_of(pair.of_b.middle) <
+           kMostShift;
 }
 
 /// A straight path of B towards A: at `s` the middle of B is at target + s * direction.
@@ -250,7 +261,7 @@ PoseSet make_pose_set(const Model& a, const Model& b, const PoseSetOptions& opti
     const Pair pair = pair_of(a, b);
     set.diagonal = pair.diagonal;
     const bool is_empty = a.triangle_count() == 0 || b.triangle_count() == 0;
-    if (is_empty || !(pair.diagonal > 0)) return set;
+    if (is_empty || !(pair.diagonal > 0) || !can_move(pair)) return set;
     const std::size_t per_stratum = options.per_stratum;
     std::vector<std::optional<StudyPose>> drawn(kStrata * per_stratum);
     options.parallel_for(drawn.size(), [&](std::size_t i) {

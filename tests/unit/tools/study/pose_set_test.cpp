@@ -188,5 +188,21 @@ TEST(PoseSet, TakesOpenSurfacesAndOnesOfNothing) {
     EXPECT_TRUE(make_pose_set(point.model, point.model).poses.empty());
 }
 
+// B would have to be moved beyond the range of Pose.
+TEST(PoseSet, OfHugeModelsIsEmpty) {
+    const auto set_of = [](double size, double middle) {
+        test::TestMesh mesh = test::icosphere(1);
+        for (format::Double3& p : mesh.positions) {
+            p = {size * p.x + middle, size * p.y + middle, size * p.z + middle};
+        }
+        const MemoryModel a = model_of(mesh);
+        const MemoryModel b = model_of(mesh);
+        return make_pose_set(a.model, b.model, {.seed = 3, .per_stratum = 2}).poses.size();
+    };
+    EXPECT_EQ(set_of(0x1p999, 0), 0U);
+    EXPECT_EQ(set_of(0x1p980, 0x1p999), 0U);
+    EXPECT_EQ(set_of(0x1p995, 0), 2 * kStrata);
+}
+
 }  // namespace
 }  // namespace cdprep::study
