@@ -154,7 +154,8 @@ void add_export(const Command& app, Exit& exit) {
         "relative to itself. ROS tools expect --package, or file:// before the paths.\n\n"
         "All but json are in metres. They are rotated to the engine's up axis if the model states "
         "its up axis. Points that hull builders of engines ignore are dropped. Other points move "
-        "out by at most the reported error, so that the colliders still enclose the mesh.",
+        "out by at most the reported error, so that the colliders still enclose the mesh. A GLB "
+        "rounds corners to floats; the report says by how much.",
         {"cdprep bake chair.glb --structures hull --parts 16",
          "cdprep export chair.cdp.h5 --for godot -o game/chair.glb",
          "cdprep export robot.cdp.h5 --for mujoco --floating -o robot.xml"});

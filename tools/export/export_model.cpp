@@ -192,9 +192,13 @@ Result<Done> write_for_engine(Body& body, const EngineForm& form, const ExportOp
         hulls.push_back({part_name(form, name, i, body.parts.size()), part.points, part.facets,
                          part.dimension});
     }
-    const Result<std::size_t> written =
+    const Result<write::WrittenHulls> written =
         write::write_hulls(options.output, *form.format, hulls, how);
     if (!written) return written.error();
+    // In model units, rounded up.
+    report.rounding =
+        written->rounding / (report.metres_per_unit > 0 ? report.metres_per_unit : 1) * (1 + 1e-15);
+    report.outer_error += report.rounding;
     return Done{};
 }
 

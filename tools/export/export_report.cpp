@@ -20,6 +20,10 @@ std::string points_text(const ExportReport& report) {
                        std::to_string(report.stored_points) + " in the file";
     if (report.growth > 0) text += "; parts grew by at most " + in_six_digits(report.growth);
     text += "\n";
+    if (report.rounding > 0) {
+        text += "  corners were rounded to floats, by at most " + in_six_digits(report.rounding) +
+                ": the parts may miss the mesh by as much\n";
+    }
     if (report.low_points > 0) {
         text += "  " + counted(report.low_points, "point sticks", "points stick") +
                 " out so little that engines may ignore " +
@@ -115,6 +119,7 @@ std::string export_json(const ExportReport& report) {
     json["most_points"] = report.most_points;
     json["low_points"] = report.low_points;
     json["growth"] = report.growth;
+    if (report.rounding > 0) json["rounding"] = report.rounding;
     json["outer_error"] = report.outer_error;
     json["visual"] = report.has_visual;
     json["size"] = report.size;

@@ -23,6 +23,7 @@ struct ExportReport {
     std::size_t most_points = 0;    ///< of one part
     std::size_t low_points = 0;     ///< written, but engines may ignore them
     double growth = 0;              ///< parts contain the stored ones and grew by less; model units
+    double rounding = 0;            ///< of corners to floats; parts enclose less by it; model units
     double outer_error = 0;         ///< how far parts stick out of the solid at most; model units
     bool is_in_metres = false;
     bool has_visual = false;

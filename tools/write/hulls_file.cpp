@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "write/hulls_text.h"
@@ -74,33 +76,83 @@ std::string text_in(HullsFormat format, const RobotFile& file) {
     return {};
 }
 
+/// The first line of the mesh files, by which a later run knows that it may replace them.
+constexpr std::string_view kOwnLine = "# written by cdprep\n";
+
+bool is_own(const fs::path& file) {
+    std::string begin(kOwnLine.size(), ' ');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    return stream && begin == kOwnLine;
+}
+
+/// No argument names the mesh files, so one that somebody else wrote must stay.
+std::optional<Error> find_foreign(const fs::path& file) {
+    std::error_code unknown;
+    if (!fs::is_regular_file(file, unknown) || is_own(file)) return std::nullopt;
+    return Error{ErrorCode::bad_argument,
+                 file.string() +
+                     ": would be replaced, but cdprep did not write it. Choose another output, or "
+                     "remove it."};
+}
+
+std::string own(std::string text) {
+    return text.insert(0, kOwnLine);
+}
+
 /// Returns the mesh files to which a URDF, SDF or MJCF refers.
 std::vector<FileBytes> mesh_files(const fs::path& folder, HullsFormat format,
                                   const RobotFile& file) {
     std::vector<FileBytes> files;
     if (has_mesh_files(format)) {
         for (const HullArrays& hull : file.hulls) {
-            files.push_back({folder / mesh_name(file, hull.name), obj_text({&hull, 1})});
+            files.push_back({folder / mesh_name(file, hull.name), own(obj_text({&hull, 1}))});
         }
     }
     if (has_mass(format) && file.options.visual) {
-        files.push_back(
-            {folder / mesh_name(file, kVisual), bytes_of(MeshFormat::obj, *file.options.visual)});
+        files.push_back({folder / mesh_name(file, kVisual),
+                         own(bytes_of(MeshFormat::obj, *file.options.visual))});
     }
     return files;
+}
+
+template <class Visit>
+void each_point(const RobotFile& file, const Visit& visit) {
+    for (const HullArrays& hull : file.hulls) std::ranges::for_each(hull.points, visit);
+    if (file.options.visual) std::ranges::for_each(file.options.visual->positions, visit);
 }
 
 /// Returns the largest coordinate in size.
 double largest_coordinate(const RobotFile& file) {
     double largest = 0;
-    const auto look_at = [&](std::span<const Double3> points) {
-        for (const Double3& p : points) {
-            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-        }
-    };
-    for (const HullArrays& hull : file.hulls) look_at(hull.points);
-    if (file.options.visual) look_at(file.options.visual->positions);
+    each_point(file, [&](const Double3& p) {
+        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    });
     return largest;
+}
+
+/// Returns an upper bound of how far a point moves when floats round it. Scaling by a power of two
+/// does not change it.
+double rounding_of(const RobotFile& file) {
+    constexpr double kUp = 1 + 1e-12;  // above the rounding of the sums
+    double most = 0;
+    each_point(file, [&](const Double3& p) {
+        const auto moved = [](double x) { return x - static_cast<double>(static_cast<float>(x)); };
+        most = std::max(most, kUp * std::hypot(moved(p.x), moved(p.y), moved(p.z)));
+    });
+    return most;
+}
+
+/// Returns the diagonal of the box around all points.
+double size_of(const RobotFile& file) {
+    std::optional<Double3> lower, upper;
+    each_point(file, [&](const Double3& p) {
+        if (!lower) lower = upper = p;
+        lower = {std::min(lower->x, p.x), std::min(lower->y, p.y), std::min(lower->z, p.z)};
+        upper = {std::max(upper->x, p.x), std::max(upper->y, p.y), std::max(upper->z, p.z)};
+    });
+    if (!lower) return 0;
+    return std::hypot(upper->x - lower->x, upper->y - lower->y, upper->z - lower->z);
 }
 
 /// Returns the bytes of the arrays in a GLB, which counts them in 32 bits.
@@ -123,12 +175,26 @@ std::optional<Error> find_beyond_glb(const fs::path& path, const RobotFile& file
     }
     constexpr double kMost = std::numeric_limits<float>::max();
     const double largest = largest_coordinate(file);
-    if (largest <= kMost) return std::nullopt;
-    std::string sentence = path.string() + ": GLB stores floats only, and a coordinate is ";
-    append_number(sentence, largest);
-    sentence += " in size; the largest float is ";
-    append_number(sentence, kMost);
-    return Error{ErrorCode::bad_argument, sentence + ". Write OBJ."};
+    std::string sentence = path.string() + ": GLB stores floats only, ";
+    if (largest > kMost) {
+        sentence += "and a coordinate is ";
+        append_number(sentence, largest);
+        sentence += " in size; the largest float is ";
+        append_number(sentence, kMost);
+        return Error{ErrorCode::bad_argument, sentence + ". Write OBJ."};
+    }
+    constexpr double kMostRounding = 1e-3;
+    const double rounding = rounding_of(file);
+    const double allowed = kMostRounding * size_of(file);
+    if (rounding <= allowed || allowed == 0) return std::nullopt;  // a point keeps its shape
+    sentence += "which would move a corner by ";
+    append_number(sentence, rounding);
+    sentence += "; at most ";
+    append_number(sentence, allowed);
+    return Error{ErrorCode::bad_argument,
+                 sentence +
+                     " is allowed, a thousandth of the size. Move the model to the origin, "
+                     "or scale it if it is tiny."};
 }
 
 }  // namespace
@@ -163,16 +229,23 @@ std::optional<HullsFormat> hulls_format_of(const fs::path& path) {
 bool may_replace(const fs::path& path, HullsFormat format, const fs::path& file) {
     if (!has_mesh_files(format)) return false;
     const auto folder_of = [](const fs::path& of) {
-        return fs::absolute(of).lexically_normal().parent_path();
+        std::error_code unknown;
+        return fs::weakly_canonical(fs::absolute(of).parent_path(), unknown);
     };
     const std::string name = file.filename().string();
     return folder_of(path) == folder_of(file) && name.starts_with(mesh_stem(path) + "_") &&
            name.ends_with(".obj");
 }
 
-Result<std::size_t> write_hulls(const fs::path& path, HullsFormat format,
-                                std::span<const HullArrays> hulls,
-                                const HullsFileOptions& options) {
+std::optional<Error> find_foreign_mesh(const fs::path& path, HullsFormat format,
+                                       const std::string& hull) {
+    if (!has_mesh_files(format)) return std::nullopt;
+    return find_foreign(path.parent_path() / (mesh_stem(path) + "_" + hull + ".obj"));
+}
+
+Result<WrittenHulls> write_hulls(const fs::path& path, HullsFormat format,
+                                 std::span<const HullArrays> hulls,
+                                 const HullsFileOptions& options) {
     std::vector<HullArrays> written(hulls.begin(), hulls.end());
     if (has_mass(format)) {
         std::erase_if(written, [](const HullArrays& hull) { return hull.dimension < 3; });
@@ -183,10 +256,14 @@ Result<std::size_t> write_hulls(const fs::path& path, HullsFormat format,
         if (const auto error = find_beyond_glb(path, file)) return *error;
     }
     std::vector<FileBytes> files = mesh_files(path.parent_path(), format, file);
+    for (const FileBytes& mesh : files) {
+        if (const auto error = find_foreign(mesh.path)) return *error;
+    }
     files.push_back({path, text_in(format, file)});
     const Result<Done> done = write_all(files);
     if (!done) return done.error();
-    return hulls.size() - written.size();
+    return WrittenHulls{hulls.size() - written.size(),
+                        format == HullsFormat::glb ? rounding_of(file) : 0};
 }
 
 }  // namespace cdprep::write

@@ -63,6 +63,12 @@ struct HullsFileOptions {
     std::string package = {};
 };
 
+/// What write_hulls() did to the hulls.
+struct WrittenHulls {
+    std::size_t left_out = 0;  ///< hulls without a volume that the format cannot hold
+    double rounding = 0;       ///< GLB: corners moved by at most this when they became floats
+};
+
 /// Returns the name of the robot, model or body in a file: the file's name without its extension.
 /// Characters other than letters, digits, '_', '-' and '.' become '_'.
 [[nodiscard]] std::string model_name(const std::filesystem::path& path);
@@ -71,20 +77,30 @@ struct HullsFileOptions {
 [[nodiscard]] bool may_replace(const std::filesystem::path& path, HullsFormat format,
                                const std::filesystem::path& file);
 
+/// Returns the error with which write_hulls() to `path` will fail if the mesh file of this hull
+/// exists and another program wrote it.
+[[nodiscard]] std::optional<Error> find_foreign_mesh(const std::filesystem::path& path,
+                                                     HullsFormat format, const std::string& hull);
+
 /// Writes hulls, each under its name. They become objects of an OBJ, nodes of a GLB, or mesh
 /// geoms of one body of an MJCF. In a URDF or SDF, they become collision elements of one link.
 /// A shown mesh becomes the first node of a GLB, named as the model, or a geom without collisions.
 ///
 /// Coordinates are written in the fewest digits that read back bit for bit. GLB has only
-/// floats: its corners are rounded to the nearest float. URDF and SDF refer to mesh files by paths
+/// floats: its corners are rounded to the nearest float, and the result says how far they moved.
+/// Then a hull may miss what it enclosed by as much. URDF and SDF refer to mesh files by paths
 /// relative to their own. Each hull is written beside the file as STEM_NAME.obj. The mesh that
 /// URDF, SDF and MJCF show is written as STEM_visual.obj. STEM is model_name(); if that replaced
 /// characters, a number distinguishes such names. URDF, SDF and MJCF omit hulls of fewer than three
-/// dimensions, because their readers require a volume. Returns the number of omitted hulls. Fails
-/// with `bad_argument` if a GLB would exceed 4 GiB, or one of its coordinates the largest float.
-/// All files appear when they are complete, or none does (write_all()).
-[[nodiscard]] Result<std::size_t> write_hulls(const std::filesystem::path& path, HullsFormat format,
-                                              std::span<const HullArrays> hulls,
-                                              const HullsFileOptions& options = {});
+/// dimensions, because their readers require a volume. Fails with `bad_argument` if a GLB would
+/// exceed 4 GiB, if one of its coordinates exceeds the largest float, or if rounding moves a corner
+/// by more than a thousandth of the size of the whole, as far from the origin. Also fails with it
+/// if a mesh file would replace a file that another program wrote, as no argument names it. Mesh
+/// files begin with a line by which later runs know them. All files appear when they are complete,
+/// or none does (write_all()).
+[[nodiscard]] Result<WrittenHulls> write_hulls(const std::filesystem::path& path,
+                                               HullsFormat format,
+                                               std::span<const HullArrays> hulls,
+                                               const HullsFileOptions& options = {});
 
 }  // namespace cdprep::write

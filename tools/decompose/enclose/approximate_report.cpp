@@ -82,6 +82,10 @@ std::string approximate_text(const ApproximateReport& report) {
     if (report.left_out > 0) {
         text += "  " + std::to_string(report.left_out) + " flat parts were not written\n";
     }
+    if (report.rounding > 0) {
+        text += "  corners were rounded to floats, by at most " + in_six_digits(report.rounding) +
+                ": the parts may miss the mesh by as much\n";
+    }
     if (report.is_for_simulators)
         text += "  size " + size_text(report.size, report.metres_per_unit) + "\n";
     if (is_turned(report)) {
@@ -132,6 +136,7 @@ std::string approximate_json(const ApproximateReport& report) {
         json["as_asked"] = result.is_as_asked;
         json["ran_out_of_work"] = result.ran_out_of_work;
         json["left_out"] = report.left_out;
+        if (report.rounding > 0) json["rounding"] = report.rounding;
         if (report.mass) {
             json["mass"] = *report.mass;
             json["mass_of"] = report.is_mass_of_parts ? "parts" : "solid";

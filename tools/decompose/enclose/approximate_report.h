@@ -28,6 +28,7 @@ struct ApproximateReport {
     convex::ApproximateParts result;
     std::vector<std::string> node_names;  ///< by ApproximatePart::node; may be empty
     std::size_t left_out = 0;             ///< hulls that the output format cannot hold
+    double rounding = 0;                  ///< of corners by the output, which enclose less by it
     std::optional<double> mass;           ///< the mass written, kilograms
     bool is_mass_of_parts = false;        ///< overlaps count twice; else the mass is exact
     bool has_table = false;

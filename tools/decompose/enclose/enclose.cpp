@@ -22,7 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-std::optional<Error> find_bad_output(const fs::path& input, const fs::path& output) {
+std::optional<Error> find_bad_output(const fs::path& input, const EncloseOptions& options) {
+    const fs::path& output = options.output;
     if (output.empty()) return std::nullopt;
     if (auto error = find_replaced_input(input, output)) return error;
     const auto format = write::hulls_format_of(output);
@@ -36,7 +37,10 @@ std::optional<Error> find_bad_output(const fs::path& input, const fs::path& outp
                      input.string() + ": has the name of a mesh file that " + output.string() +
                          " would write. Choose another output."};
     }
-    return std::nullopt;
+    // Of the parts, their number is not known yet.
+    if (auto error = write::find_foreign_mesh(output, *format, "part_0")) return error;
+    if (!options.has_visual) return std::nullopt;
+    return write::find_foreign_mesh(output, *format, "visual");
 }
 
 /// Thrown by a task after a signal: a search has no other early exit.
@@ -99,9 +103,11 @@ Result<Done> write_parts(mesh::Mesh mesh, bool is_balanced, const EncloseOptions
         written.push_back(
             {"part_" + std::to_string(i), hulls[i].points, hulls[i].facets, hulls[i].dimension});
     }
-    const Result<std::size_t> left_out = write::write_hulls(options.output, format, written, how);
-    if (!left_out) return left_out.error();
-    report.left_out = left_out.value();
+    const Result<write::WrittenHulls> done =
+        write::write_hulls(options.output, format, written, how);
+    if (!done) return done.error();
+    report.left_out = done->left_out;
+    report.rounding = done->rounding;
     return Done{};
 }
 
@@ -127,7 +133,7 @@ std::optional<convex::ApproximateParts> search_parts(const mesh::Mesh& mesh,
 
 Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOptions& options,
                                           const Threads& threads, Progress& progress) {
-    if (const auto error = find_bad_output(input, options.output)) return *error;
+    if (const auto error = find_bad_output(input, options)) return *error;
     const std::string name = input.filename().string();
     progress.show(0, name + ": import");
     const Result<mesh::TriangleSoup> loaded = load_soup(input, options.load);

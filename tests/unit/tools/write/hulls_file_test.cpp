@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -51,7 +52,7 @@ TEST(HullsFile, FormatsAreTheirExtensionsInAnyCase) {
 TEST(HullsFile, AnObjHasEveryBit) {
     const test::ScratchFolder folder;
     const auto path = folder.path() / "x.obj";
-    ASSERT_EQ(write_hulls(path, HullsFormat::obj, solid_and_flat()).value(), 0U);
+    ASSERT_EQ(write_hulls(path, HullsFormat::obj, solid_and_flat())->left_out, 0U);
     std::istringstream lines(test::content_of(path.string()));
     std::vector<Double3> points;
     std::size_t facets = 0;
@@ -73,7 +74,7 @@ TEST(HullsFile, FlatHullsAreLeftOutWhereAVolumeIsWanted) {
     const test::ScratchFolder folder;
     for (const HullsFormat format : {HullsFormat::urdf, HullsFormat::sdf, HullsFormat::mjcf}) {
         const auto path = folder.path() / "x.xml";
-        ASSERT_EQ(write_hulls(path, format, solid_and_flat()).value(), 1U);
+        ASSERT_EQ(write_hulls(path, format, solid_and_flat())->left_out, 1U);
         const std::string text = test::content_of(path.string());
         EXPECT_EQ(count(text, "flat"), 0U);
         EXPECT_GE(count(text, "solid"), 1U);
@@ -86,7 +87,7 @@ TEST(HullsFile, FlatHullsAreLeftOutWhereAVolumeIsWanted) {
 TEST(HullsFile, AGlbIsAsLongAsItSays) {
     const test::ScratchFolder folder;
     const auto path = folder.path() / "x.glb";
-    ASSERT_EQ(write_hulls(path, HullsFormat::glb, solid_and_flat()).value(), 0U);
+    ASSERT_EQ(write_hulls(path, HullsFormat::glb, solid_and_flat())->left_out, 0U);
     const std::string bytes = test::content_of(path.string());
     const auto word = [&](std::size_t at) {
         std::uint32_t value = 0;
@@ -237,6 +238,62 @@ TEST(HullsFile, AllFilesAppearOrNone) {
     ASSERT_FALSE(done.ok());
     EXPECT_EQ(done.error().code, ErrorCode::unwritable);
     EXPECT_EQ(folder.names(), (std::set<std::string>{"x.urdf"}));
+}
+
+// Floats are 8 apart at 1e8: an edge of 2 would vanish or become 8 long.
+TEST(HullsFile, AGlbFarFromTheOriginIsRefused) {
+    const test::ScratchFolder folder;
+    const auto path = folder.path() / "x.glb";
+    const auto written_at = [&](double x) {
+        std::vector<Double3> corners(kCorners.begin(), kCorners.end());
+        for (Double3& p : corners) p.x = 2 * p.x + x;
+        const std::vector<HullArrays> hulls = {{"far", corners, kFacets, 3}};
+        return write_hulls(path, HullsFormat::glb, hulls);
+    };
+    const auto refused = written_at(1e8 + 3);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::bad_argument);
+    EXPECT_NE(refused.error().message.find("would move a corner by 3"), std::string::npos)
+        << refused.error().message;
+    EXPECT_FALSE(std::filesystem::exists(path));
+    // Here floats are 2^-10 apart.
+    const auto near = written_at(1e4 + 0x1p-12);
+    ASSERT_TRUE(near.ok());
+    EXPECT_GE(near->rounding, 0x1p-12);
+    EXPECT_LE(near->rounding, 0x1p-11);
+}
+
+TEST(HullsFile, OnlyAGlbRounds) {
+    const test::ScratchFolder folder;
+    for (const char* name : {"x.obj", "x.urdf", "x.sdf", "x.xml"}) {
+        const auto path = folder.path() / name;
+        EXPECT_EQ(write_hulls(path, *hulls_format_of(path), solid_and_flat())->rounding, 0) << name;
+    }
+    const auto written = write_hulls(folder.path() / "x.glb", HullsFormat::glb, solid_and_flat());
+    const double moved = std::fabs(0.1 - static_cast<double>(0.1F));
+    EXPECT_GE(written->rounding, moved);
+    EXPECT_LE(written->rounding, 1.001 * moved);
+}
+
+// The source of a robot is often named LINK_visual.obj.
+TEST(HullsFile, AMeshFileOfAnotherProgramStays) {
+    const test::ScratchFolder folder;
+    for (const char* name : {"x.urdf", "x.sdf", "x.xml"}) {
+        const auto path = folder.path() / name;
+        const auto format = *hulls_format_of(path);
+        ASSERT_TRUE(write_hulls(path, format, solid_and_flat(), showing()).ok());
+        EXPECT_TRUE(write_hulls(path, format, solid_and_flat(), showing()).ok()) << "replaced";
+        const std::string visual = folder.file("x_visual.obj");
+        std::ofstream(visual) << "v 0 0 0\n";
+        const auto refused = write_hulls(path, format, solid_and_flat(), showing());
+        ASSERT_FALSE(refused.ok());
+        EXPECT_EQ(refused.error().code, ErrorCode::bad_argument);
+        EXPECT_NE(refused.error().message.find("x_visual.obj: would be replaced"),
+                  std::string::npos);
+        EXPECT_EQ(test::content_of(visual), "v 0 0 0\n");
+        EXPECT_EQ(find_foreign_mesh(path, format, "visual").has_value(), has_mesh_files(format));
+        std::filesystem::remove(visual);
+    }
 }
 
 // Names of meshes need no escape, and no two files of a folder share them.
