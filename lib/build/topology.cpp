@@ -22,9 +22,10 @@ struct EdgeUse {
     std::int32_t sign;    ///< 1 from lower to upper, -1 back
 };
 
-/// All uses of edges; those with lower vertex v are in [first[v], first[v + 1]).
+/// All uses of edges; those with lower vertex v are in [first[v], first[v + 1]). There may be more
+/// than 2^32.
 struct EdgeUses {
-    std::vector<std::uint32_t> first;
+    std::vector<std::size_t> first;
     std::vector<EdgeUse> use;
 };
 
@@ -42,14 +43,15 @@ void for_each_edge(std::span<const Triangle> triangles, Visit visit) {
 
 EdgeUses collect_edges(std::size_t vertex_count, std::span<const Triangle> triangles) {
     EdgeUses edges;
-    edges.first.assign(vertex_count + 1, 0);
-    for_each_edge(triangles, [&](std::uint32_t lower, EdgeUse) { ++edges.first[lower + 1]; });
+    // first[v + 1] is where the next use of vertex v goes: in the end, where those of v + 1 begin.
+    edges.first.assign(vertex_count + 2, 0);
+    for_each_edge(triangles, [&](std::size_t lower, EdgeUse) { ++edges.first[lower + 2]; });
     std::partial_sum(edges.first.begin(), edges.first.end(), edges.first.begin());
     assert(edges.first.back() <= 3 * triangles.size());
     edges.use.resize(edges.first.back());
-    std::vector<std::uint32_t> next(edges.first.begin(), edges.first.end() - 1);
-    for_each_edge(triangles,
-                  [&](std::uint32_t lower, EdgeUse use) { edges.use[next[lower]++] = use; });
+    for_each_edge(triangles, [&](std::size_t lower, EdgeUse use) {
+        edges.use[edges.first[lower + 1]++] = use;
+    });
     return edges;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cdprep/advanced/convex_distance.h"
+#include "cdprep/format/float_environment.h"
 #include "cdprep/hulls.h"
 #include "exact/predicates.h"
 #include "hull/hull_points.h"
@@ -248,6 +249,7 @@ private:
 std::optional<format::Damage> find_hull_falsehood(std::span<const std::byte> file,
                                                   const Model& model) {
     if (model.hulls().hulls.empty() || !model.serves(Ask::hulls)) return std::nullopt;
+    const format::FloatEnvironment environment;
     const HullCheck check(file, model);
     for (std::uint32_t i = 0; i < model.hulls().hulls.size(); ++i) {
         if (const Found damage = check.find_falsehood(i)) return damage;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "cdprep/contacts.h"
@@ -19,6 +20,9 @@ namespace cdprep {
     z = (z ^ z >> 27) * 0x94d049bb133111ebU;
     return z ^ z >> 31;
 }
+
+/// The lengths between which squares and areas stay in the range of double.
+inline constexpr double kLeastSize = 0x1p-480, kMostSize = 0x1p480;
 
 /// Returns the points of a contact without a manifold as one of a manifold.
 [[nodiscard]] inline ManifoldPoint only_point(const Contact& contact) noexcept {
@@ -47,26 +51,36 @@ inline void choose_four(std::span<const ManifoldPoint> points, Contact& contact)
     Double3 middle{};
     for (const ManifoldPoint& p : points) middle = middle + p.on_a;
     middle = (1 / static_cast<double>(points.size())) * middle;
+    double scale = 1;
+    const auto scaled = [&](const Double3& d) { return scale * d; };
     const auto squared_way = [&](const ManifoldPoint& p) {
-        return dot(p.on_a - middle, p.on_a - middle);
+        const Double3 d = scaled(p.on_a - middle);
+        return dot(d, d);
     };
+    double widest = squared_way(points[best(squared_way)]);
+    if (!(widest > kLeastSize * kLeastSize && widest < kMostSize * kMostSize)) {
+        const auto size = [&](const ManifoldPoint& p) { return largest_of(p.on_a - middle); };
+        const double most = size(points[best(size)]);
+        if (most >= std::numeric_limits<double>::min()) scale = 1 / most;
+        widest = squared_way(points[best(squared_way)]);
+    }
     const double deepest =
         points[best([](const ManifoldPoint& p) { return -p.distance; })].distance;
-    const double level = deepest + kLevel * std::sqrt(squared_way(points[best(squared_way)]));
+    const double level = deepest + kLevel * (std::sqrt(widest) / scale);
     const std::size_t first =
         best([&](const ManifoldPoint& p) { return p.distance <= level ? squared_way(p) : -1.0; });
     take(first);
     const Double3 origin = points[first].on_a;
     const std::size_t second = best([&](const ManifoldPoint& p) {
-        const Double3 d = p.on_a - origin;
+        const Double3 d = scaled(p.on_a - origin);
         return dot(d, d);
     });
-    const Double3 line = points[second].on_a - origin;
+    const Double3 line = scaled(points[second].on_a - origin);
     if (!(dot(line, line) > 0)) return;
     take(second);
     for (const double side : {1.0, -1.0}) {
         const auto area = [&](const ManifoldPoint& p) {
-            return side * dot(contact.normal, cross(line, p.on_a - origin));
+            return side * dot(contact.normal, cross(line, scaled(p.on_a - origin)));
         };
         const std::size_t third = best(area);
         // A smaller area is rounding: no point is beside the line.

@@ -22,6 +22,11 @@ constexpr double kNearlyAcross = 0.99955;
 /// A difference of two cosines: some thousand times what rounding may add. A face of the hull is
 /// preferred to the triangle that is a part of it.
 constexpr double kWholeFace = 1e-12;
+/// A point is behind the base if it is so far behind, as a share of its distance from a corner
+/// there. kAcross lets the base lean by less.
+constexpr double kBehind = 2e-5;
+/// The part of that for the rounding of moved corners, as a share of their coordinates.
+constexpr double kMovedBehind = 0x1p-45;
 /// As a share of a distance: two ways to compute it may differ by so much. If they differ by more,
 /// the contact only gets one more candidate.
 constexpr double kSameDistance = 1e-9;
@@ -146,6 +151,13 @@ void add_clipped(const Polygon& polygon, const Double3& on, const Double3& inwar
     }
 }
 
+/// Returns a direction, with the length 1 if products with lengths like its own may leave the range
+/// of double.
+Double3 in_range(const Double3& direction) {
+    const double size = largest_of(direction);
+    return size > kLeastSize && size < kMostSize ? direction : unit(direction);
+}
+
 /// Returns the part of a polygon that is over another one, seen along a direction near the other's
 /// normal. It is the polygon itself, or in `room`.
 const Polygon& over(const Polygon& base, const Polygon& polygon, const Double3& way,
@@ -155,10 +167,15 @@ const Polygon& over(const Polygon& base, const Polygon& polygon, const Double3& 
         const Corner& p = base.corner[i];
         Polygon& next = room[i % 2];
         next.count = 0;
-        add_clipped(*part, p.at, cross(way, base.next(i).at - p.at), p.side, next);
+        add_clipped(*part, p.at, cross(way, in_range(base.next(i).at - p.at)), p.side, next);
         part = &next;
     }
     return *part;
+}
+
+/// Returns whether a point at a height over a base is behind it.
+bool is_behind(double height, const Double3& at, const Double3& base) {
+    return height < -(kBehind * largest_of(at - base) + kMovedBehind * largest_of(at));
 }
 
 /// Points of a contact before the choice of four.
@@ -197,9 +214,10 @@ void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature
     const double across = std::max(across_a, across_b);
     if (across >= kNearlyAcross) {
         const Polygon& base = a_is_base ? of_a : of_b;
-        // Along the contact's normal, so that no point is deeper than the contact.
+        // Along the contact's normal, so that no point of an overlap is deeper than the contact.
         const bool leans = across < kAcross;
         const Double3 way = !leans ? base.normal : a_is_base ? n : -n;
+        const bool overlaps = (contact.flags & contact_overlap) != 0;
         std::array<Polygon, 2> room;
         const Polygon& part = over(base, a_is_base ? of_b : of_a, way, room);
         for (std::size_t i = 0; i < part.count; ++i) {
@@ -208,6 +226,8 @@ void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature
             if (leans) height /= across;
             const Double3 foot = p.at - height * way;
             if (height > tolerance) continue;
+            // The normal need not separate the hulls of pieces that do not overlap.
+            if (!overlaps && height < 0 && is_behind(height, p.at, base.corner[0].at)) continue;
             candidates.add(a_is_base ? ManifoldPoint{foot, p.at, height, p.id}
                                      : ManifoldPoint{p.at, foot, height, p.id});
         }

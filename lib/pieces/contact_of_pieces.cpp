@@ -29,6 +29,23 @@ constexpr double kBeside = 1e-9;
 /// How many times shorter an exit must be to be preferred to one that ends at both surfaces.
 constexpr double kMuchShorter = 2;
 
+/// Returns nearest_direction(), also for corners whose products leave the range of double.
+Double3 direction_of(const NearestSimplex& simplex) {
+    double most = 0;
+    for (std::size_t i = 0; i < simplex.count; ++i) {
+        most = std::max(most, largest_of(simplex.corner[i].at));
+    }
+    constexpr double kLeast = 0x1p-200, kMost = 0x1p200;
+    if ((most > kLeast && most < kMost) || most == 0) return nearest_direction(simplex);
+    const int by = -std::ilogb(most);
+    NearestSimplex scaled = simplex;
+    for (std::size_t i = 0; i < scaled.count; ++i) {
+        Double3& at = scaled.corner[i].at;
+        at = {std::scalbn(at.x, by), std::scalbn(at.y, by), std::scalbn(at.z, by)};
+    }
+    return nearest_direction(scaled);
+}
+
 /// Returns the vertices that define a nearest point.
 VertexSet vertices_of(const NearestSimplex& simplex, std::uint32_t Difference::*side,
                       std::span<const std::uint32_t> corners) {
@@ -101,11 +118,21 @@ private:
         const TwoHulls hulls = {a_.hull(), b_.hull()};
         const auto nearest = hull_nearest(hulls.a, hulls.b, {}, nullptr, question_.counts);
         if (!nearest->meet || !(both_contained || near_.touch)) {
+            const bool may_touch =
+                !question_.searched && !near_.touch && nearest->bounds.lower <= 0;
+            if (may_touch && find_touch()) return find(contact);
             return answer_apart(*nearest, contact);
         }
         const Penetration depth = hull_depth(hulls, nearest->simplex, {}, question_.counts);
         find_some(depth, ways);
         return answer_overlap(ways, depth.lower, contact);
+    }
+
+    /// Looks for triangles that touch. Returns whether there are any.
+    [[nodiscard]] bool find_touch() noexcept {
+        const auto found = touching_triangles(a_, b_, question_);
+        if (found) near_ = {near_.key, found->a, found->b, true};
+        return found.has_value();
     }
 
     // --- Apart ----------------------------------------------------------------------
@@ -177,7 +204,7 @@ private:
     /// exact however small the gap is.
     [[nodiscard]] Double3 normal_between(const NearMeeting& meeting,
                                          const Contact& contact) const noexcept {
-        const Double3 gap = nearest_direction(meeting.nearest.simplex);
+        const Double3 gap = direction_of(meeting.nearest.simplex);
         const Double3 towards = -gap;  // of A - B, and the normal leads to B
         Double3 normal{};
         if (meeting.a.kind == FeatureKind::face) {
@@ -192,12 +219,23 @@ private:
 
     [[nodiscard]] std::optional<Double3> upright_normal(const Meeting& meeting,
                                                         const Double3& normal) const noexcept {
-        const auto by_a = a_.upright(meeting.a, normal);
-        auto by_b = b_.upright(meeting.b, -normal);
-        if (by_b) by_b = -*by_b;
+        const auto by_a = shortest_of(a_.upright(meeting.a, normal));
+        const auto by_b = shortest_of(-b_.upright(meeting.b, -normal));
         const bool takes_b = by_b && (!by_a || dot(*by_b, normal) > dot(*by_a, normal));
         const auto& upright = takes_b ? by_b : by_a;
         return upright ? std::optional(shorter_of_both_ways(*upright)) : std::nullopt;
+    }
+    /// Returns the direction along which B leaves A soonest, either way.
+    [[nodiscard]] std::optional<Double3> shortest_of(const UnitDirections& all) const noexcept {
+        if (all.count == 0) return std::nullopt;
+        const auto length = [&](const Double3& way) {
+            return length_along(shorter_of_both_ways(way));
+        };
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < all.count; ++i) {
+            if (length(all.way[i]) < length(all.way[best])) best = i;
+        }
+        return all.way[best];
     }
 
     /// Returns `normal` or its opposite. On a surface that bounds no solid both are upright, and
@@ -402,7 +440,7 @@ private:
 
     ContactSide& a_;
     ContactSide& b_;
-    const NearPieces& near_;
+    NearPieces near_;
     const ContactQuestion& question_;
 };
 

@@ -358,10 +358,9 @@ bool ContactSide::is_among(EdgeConvexity edge, EdgeConvexity inward, Over over) 
     return edge == EdgeConvexity::flat || (edge == inward && over == Over::flat_or_reflex);
 }
 
-std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feature,
-                                                        const Double3& direction, double least,
-                                                        Over over) const noexcept {
-    std::optional<Lean> most;
+template <class Take>
+void ContactSide::each_lean(const PieceFeature& feature, const Double3& direction,
+                            const double& least, Over over, Take&& take) const noexcept {
     each_around(feature, [&](std::uint32_t t, const PlacedTriangle& triangle, unsigned edges) {
         const std::uint8_t bits = model_->model->mesh().edge_convexity[t];
         const auto& [at, front] = triangle;
@@ -377,11 +376,28 @@ std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feat
             const Double3 outward = cross(unit(along), front);
             const double by = dot(outward, direction);
             if (!(by > least) || is_inner(t, k)) continue;
-            least = by;
-            most = Lean{by, outward, from_front ? front : -front};
+            take(Lean{by, outward, from_front ? front : -front});
         }
     });
+}
+
+std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feature,
+                                                        const Double3& direction, double least,
+                                                        Over over) const noexcept {
+    std::optional<Lean> most;
+    each_lean(feature, direction, least, over, [&](const Lean& lean) {
+        least = lean.by;
+        most = lean;
+    });
     return most;
+}
+
+UnitDirections ContactSide::faces_left_across(const PieceFeature& feature,
+                                              const Double3& direction) const noexcept {
+    UnitDirections faces;
+    each_lean(feature, direction, kAligned, Over::flat_or_reflex,
+              [&](const Lean& lean) { faces.add(lean.face); });
+    return faces;
 }
 
 bool ContactSide::goes_on_beyond(const PieceFeature& feature,
@@ -399,20 +415,23 @@ bool ContactSide::goes_on_beyond(const PieceFeature& feature,
     });
 }
 
-std::optional<Double3> ContactSide::upright(const PieceFeature& feature,
-                                            const Double3& direction) const noexcept {
-    if (feature.kind == FeatureKind::face) return std::nullopt;
+UnitDirections ContactSide::upright(const PieceFeature& feature,
+                                    const Double3& direction) const noexcept {
+    const auto only = [](const Double3& way) { return UnitDirections{{way}, 1}; };
+    if (feature.kind == FeatureKind::face) return {};
     const auto first = find_lean(feature, direction, 0, Over::flat_or_reflex);
-    if (!first || !goes_on_beyond(feature, direction)) return std::nullopt;
-    if (feature.kind == FeatureKind::edge) return first->face;
+    if (!first || !goes_on_beyond(feature, direction)) return {};
+    if (feature.kind == FeatureKind::edge) return only(first->face);
+    // Without its lean, a direction straight across an edge is rounding alone.
+    if (first->by > kAligned) return faces_left_across(feature, direction);
     // Removes the lean over one edge. If the result leans over another edge, takes the direction
     // that is upright on both.
     const Double3 turned = unit(direction - first->by * first->outward);
     const auto second = find_lean(feature, turned, kNoLean, Over::flat_or_reflex);
-    if (!second) return turned;
+    if (!second) return only(turned);
     const Double3 both = cross(first->outward, second->outward);
-    if (!(dot(both, both) > kNoLean)) return first->face;
-    return dot(both, first->face) < 0 ? unit(-both) : unit(both);
+    if (!(dot(both, both) > kNoLean)) return only(first->face);
+    return only(dot(both, first->face) < 0 ? unit(-both) : unit(both));
 }
 
 bool ContactSide::leans_over_flat_edge(const PieceFeature& feature,

@@ -72,6 +72,20 @@ struct VertexSet {
     }
 };
 
+/// Unit directions any of which may be the normal of a contact.
+struct UnitDirections {
+    std::array<Double3, 4> way{};
+    std::size_t count = 0;
+
+    void add(const Double3& direction) noexcept {
+        if (count < way.size()) way[count++] = direction;
+    }
+};
+inline UnitDirections operator-(UnitDirections directions) noexcept {
+    for (Double3& way : std::span(directions.way).first(directions.count)) way = -way;
+    return directions;
+}
+
 /// A piece of one of the two models of a query.
 class ContactSide {
 public:
@@ -183,10 +197,11 @@ public:
                                            const Double3& direction) const noexcept;
 
     /// Returns a unit direction at a feature, changed so that it does not lean over edges where the
-    /// surface continues. Returns nothing when it does not lean over any, or if the feature is a
-    /// vertex beyond which the surface does not go.
-    [[nodiscard]] std::optional<Double3> upright(const PieceFeature& feature,
-                                                 const Double3& direction) const noexcept;
+    /// surface continues. Returns none when it does not lean over any, or if the feature is a
+    /// vertex beyond which the surface does not go. If it leads from a vertex straight across
+    /// edges, returns the normals of the faces there: none is nearer to it than the others.
+    [[nodiscard]] UnitDirections upright(const PieceFeature& feature,
+                                         const Double3& direction) const noexcept;
 
     /// Returns whether upright() would change a unit direction at a feature.
     [[nodiscard]] bool leans_over_edge(const PieceFeature& feature,
@@ -258,10 +273,19 @@ private:
     };
     /// The edges over which a direction may lean; the surface continues over all but convex ones.
     enum class Over : std::uint8_t { flat, flat_or_reflex, convex };
+    /// Calls take(lean) for the leans above `least` over some of the edges at a feature. take() may
+    /// raise `least`.
+    template <class Take>
+    void each_lean(const PieceFeature& feature, const Double3& direction, const double& least,
+                   Over over, Take&& take) const noexcept;
     /// Returns the greatest lean above `least` over some of the edges at a feature.
     [[nodiscard]] std::optional<Lean> find_lean(const PieceFeature& feature,
                                                 const Double3& direction, double least,
                                                 Over over) const noexcept;
+    /// Returns the normals of the faces at a feature that a unit direction leaves straight across
+    /// their edges.
+    [[nodiscard]] UnitDirections faces_left_across(const PieceFeature& feature,
+                                                   const Double3& direction) const noexcept;
     [[nodiscard]] static bool is_among(format::EdgeConvexity edge, format::EdgeConvexity inward,
                                        Over over) noexcept;
     [[nodiscard]] bool is_inner(std::uint32_t triangle, unsigned edge) const noexcept;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "cdprep/contacts.h"
 #include "pieces/contact_side.h"
 #include "walk/find_contact.h"
@@ -36,7 +38,14 @@ struct ContactQuestion {
     ContactOptions options;
     Degenerate degenerate;
     QueryCounts* counts;  ///< or null
+    /// The search covered the whole surface. If not, NearPieces::touch may be false although other
+    /// triangles touch.
+    bool searched = true;
 };
+
+/// Returns the first pair of triangles of two pieces that touch, by the triangle of A, then of B.
+[[nodiscard]] std::optional<TreePair> touching_triangles(const ContactSide& a, const ContactSide& b,
+                                                         const ContactQuestion& question) noexcept;
 
 /// Returns a bound of -Contact::upper: of the shortest translation that separates two pieces, or
 /// minus their distance. Costs little.

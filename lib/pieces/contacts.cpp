@@ -276,6 +276,7 @@ private:
         [[nodiscard]] Contact of(const NearPieces& near) noexcept {
             ContactSide b(search_.moved_b_, static_cast<std::uint32_t>(near.key), &placed()[1],
                           search_.workspace_.storage());
+            question_.searched = search_.verdict_.searched;
             return contact_of_pieces(a_of(near), b, near, question_);
         }
         /// Returns a bound of how deep the contact is; negative if it is that far apart.

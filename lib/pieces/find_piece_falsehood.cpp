@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cdprep/advanced/convex_distance.h"
+#include "cdprep/format/float_environment.h"
 #include "cdprep/format/sections.h"
 #include "core/moved_model.h"
 #include "pieces/piece_contact.h"
@@ -62,6 +63,7 @@ bool is_true(const PieceNodeHull& hull, const std::vector<Double3>& corners) {
 
 std::optional<format::Damage> find_piece_falsehood(std::span<const std::byte> file,
                                                    const Model& model) {
+    const format::FloatEnvironment environment;
     constexpr auto kHulls = format::SectionId::piece_node_hulls;
     const auto hulls = model.pieces().node_hulls;
     const auto shape =

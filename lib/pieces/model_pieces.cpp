@@ -10,7 +10,9 @@ namespace cdprep {
 
 ConvexPoints piece_points(const Model& model, std::uint32_t piece) noexcept {
     require(model, Ask::pieces);
-    assert(piece < model.pieces().pieces.size());
+    if (piece >= model.pieces().pieces.size()) {
+        stop_with("The model has no convex piece with this number.");
+    }
     ConvexPoints points;
     points.corners =
         part_of_piece(model.pieces().vertices, model, piece, &format::Piece::first_vertex);

@@ -7,6 +7,7 @@
 
 #include "core/triangle_facts.h"
 #include "exact/triangle_distance.h"
+#include "walk/contact_pairs.h"
 
 namespace cdprep {
 namespace {
@@ -26,6 +27,10 @@ Box3 around_both(const Box3& x, const Box3& y) {
 /// Returns whether the contents of two boxes are certainly farther apart than `distance`.
 bool is_beyond(const Box3& x, const Box3& y, double distance) {
     return axis_gap(x, y) > distance * (1 + 0x1p-50);
+}
+
+bool is_left_out(const ContactSide& side, std::uint32_t triangle, Degenerate degenerate) {
+    return degenerate == Degenerate::skip && is_marked_degenerate(*side.model().model, triangle);
 }
 
 Box3 box_of(const ContactSide& side) {
@@ -67,10 +72,6 @@ private:
 
 NearestTriangles nearest_triangles(const ContactSide& a, const ContactSide& b,
                                    const TreePair& start, Degenerate degenerate) noexcept {
-    const auto is_left_out = [&](const ContactSide& side, std::uint32_t triangle) {
-        return degenerate == Degenerate::skip &&
-               is_marked_degenerate(*side.model().model, triangle);
-    };
     const TriangleDistance first =
         triangle_distance(a.model().corners(start.a), b.model().corners(start.b), false);
     double distance = first.upper, as_near = distance * (1 + kAsNear);
@@ -85,11 +86,14 @@ NearestTriangles nearest_triangles(const ContactSide& a, const ContactSide& b,
         const std::uint32_t of_large = large.triangles()[i];
         const Corners at_large = large.corners_of(i);
         const Box3 box = box_around(at_large);
-        if (is_beyond(box, around_small, as_near) || is_left_out(large, of_large)) continue;
+        if (is_beyond(box, around_small, as_near) || is_left_out(large, of_large, degenerate)) {
+            continue;
+        }
         for (std::size_t j = 0; j < small.triangles().size(); ++j) {
             const std::uint32_t of_small = small.triangles()[j];
             const Corners at_small = small.corners_of(j);
-            if (is_beyond(box, box_around(at_small), as_near) || is_left_out(small, of_small)) {
+            if (is_beyond(box, box_around(at_small), as_near) ||
+                is_left_out(small, of_small, degenerate)) {
                 continue;
             }
             const Corners &at_a = b_is_large ? at_small : at_large,
@@ -112,6 +116,27 @@ NearestTriangles nearest_triangles(const ContactSide& a, const ContactSide& b,
         }
     }
     return {best.value_or(start), std::min(least, distance * (1 - kRounding))};
+}
+
+std::optional<TreePair> touching_triangles(const ContactSide& a, const ContactSide& b,
+                                           const ContactQuestion& question) noexcept {
+    const Degenerate degenerate = question.degenerate;
+    const Box3 around_b = box_of(b);
+    for (std::size_t i = 0; i < a.triangles().size(); ++i) {
+        const std::uint32_t of_a = a.triangles()[i];
+        const Corners at_a = a.corners_of(i);
+        const Box3 box = box_around(at_a);
+        if (axis_gap(box, around_b) > 0 || is_left_out(a, of_a, degenerate)) continue;
+        for (std::size_t j = 0; j < b.triangles().size(); ++j) {
+            const std::uint32_t of_b = b.triangles()[j];
+            const Corners at_b = b.corners_of(j);
+            if (axis_gap(box, box_around(at_b)) > 0 || is_left_out(b, of_b, degenerate)) continue;
+            if (in_contact(at_a, at_b, Overlap::closed, question.counts)) {
+                return TreePair{of_a, of_b};
+            }
+        }
+    }
+    return std::nullopt;
 }
 
 }  // namespace cdprep

@@ -17,6 +17,7 @@ bool PieceShape::set(const ContactSide& side, const Double3& origin) noexcept {
     if (facets.empty() || side.points().count > kMostCorners) return false;
     if (facets.size() * 3 / 2 > kMostEdges) return false;
     set_corners(side, origin);
+    if (!(reach_ < kLongest)) return false;
     const HullEdges edges(facets, side.adjacency());
     for (std::uint32_t f = 0; f < facets.size(); f = edges.end_of_face(f)) {
         if (faces_ == kMostFaces) return false;
@@ -45,7 +46,7 @@ void PieceShape::set_corners(const ContactSide& side, const Double3& origin) noe
 
 /// Takes the normal of the largest facet: that of a sliver is the least certain.
 bool PieceShape::add_face(std::span<const format::PieceFacet> facets) noexcept {
-    double most = 0;
+    double most = 0, shortest = 0;
     for (const format::PieceFacet& facet : facets) {
         const Double3& p = corner_[facet.corner[0]];
         const Double3 e = corner_[facet.corner[1]] - p, f = corner_[facet.corner[2]] - p;
@@ -55,11 +56,12 @@ bool PieceShape::add_face(std::span<const format::PieceFacet> facets) noexcept {
         most = area;
         const double sides = length(e) + length(f);
         const double product = length(e) * length(f);
+        shortest = std::min(length(e), length(f));
         face_[faces_] = {(1 / area) * n,
                          (4 * position_error_ * sides + 16 * kUnit * product) / area,
                          facet.corner[0], (facet.flags & format::facet_virtual) == 0};
     }
-    if (!(most > 0)) return false;
+    if (!(most > kLeastArea && shortest > kShortest)) return false;
     ++faces_;
     return true;
 }

@@ -24,6 +24,9 @@ public:
     static constexpr std::size_t kMostCorners = 64;
     static constexpr std::size_t kMostFaces = 64;
     static constexpr std::size_t kMostEdges = 128;  // places fit into 8 bits
+    /// Limits of size. Within them, the squares of lengths and areas stay in the range of double,
+    /// and so do their products with a length.
+    static constexpr double kLongest = 0x1p254, kShortest = 0x1p-240, kLeastArea = 0x1p-480;
 
     struct Face {
         Double3 normal;        ///< outwards, of length 1 up to rounding
@@ -40,7 +43,7 @@ public:
     };
 
     /// Reads a piece. Returns false for a hull that is too large, one without faces, or one with a
-    /// face without area as moved.
+    /// face beyond those limits as moved, such as one without area.
     [[nodiscard]] bool set(const ContactSide& side, const Double3& origin) noexcept;
 
     [[nodiscard]] std::span<const Double3> corners() const noexcept {

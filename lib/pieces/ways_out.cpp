@@ -58,7 +58,6 @@ public:
         const std::span<const Double3> corners = shape.corners();
         std::array<unsigned, PieceShape::kMostCorners> sides;
         for (std::size_t i = 0; i < corners.size(); ++i) sides[i] = far_sides(corners[i], box, far);
-        double shortest = kInfinity;
         for (std::size_t i = 0; i < shape.edges().size(); ++i) {
             const PieceShape::Edge& edge = shape.edges()[i];
             if ((sides[edge.from] & sides[edge.to]) != 0) continue;
@@ -70,12 +69,16 @@ public:
                                corners[edge.right] - from,
                                length(along),
                                static_cast<std::uint8_t>(i)};
-            shortest = std::min(shortest, edge_[count_ - 1].length);
+            shortest_ = std::min(shortest_, edge_[count_ - 1].length);
         }
-        error_ = std::max(0.0, 2 * shape.position_error() / shortest) + 4 * kUnit;  // 0 / 0 is 0
+        error_ = std::max(0.0, 2 * shape.position_error() / shortest_) + 4 * kUnit;  // 0 / 0 is 0
     }
     [[nodiscard]] std::span<const NearEdge> all() const noexcept {
         return std::span(edge_).first(count_);
+    }
+    /// Returns the length of the shortest, or infinity.
+    [[nodiscard]] double shortest() const noexcept {
+        return shortest_;
     }
     /// Returns the largest error of the direction of an edge, relative.
     [[nodiscard]] double error() const noexcept {
@@ -92,6 +95,7 @@ private:
     }
 
     std::size_t count_ = 0;
+    double shortest_ = kInfinity;
     double error_;
     std::array<NearEdge, PieceShape::kMostEdges> edge_;
 };
@@ -196,8 +200,9 @@ bool WaysOut::find(const PieceShape& a, const PieceShape& b, bool they_meet) noe
     reach_ = a.reach() + b.reach();
     add_faces(a, b, WayKind::face_a);
     add_faces(b, a, WayKind::face_b);
-    add_edges(a, b,
-              they_meet ? kFar * std::max(0.0, shortest_of_faces_) + kTie * reach_ : kInfinity);
+    const double far =
+        they_meet ? kFar * std::max(0.0, shortest_of_faces_) + kTie * reach_ : kInfinity;
+    if (!add_edges(a, b, far)) return false;
     least_ -= position_error_ + (2 * skipped_angle_ + 16 * kUnit) * reach_;
     return true;
 }
@@ -251,9 +256,10 @@ void WaysOut::add_faces(const PieceShape& of, const PieceShape& other, WayKind k
 
 /// Adds the directions across two edges along which each is the end of its hull. One next to the
 /// normal of a face, up to rounding, counts for the bound alone. Edges farther apart than `far` are
-/// left out.
-void WaysOut::add_edges(const PieceShape& a, const PieceShape& b, double far) noexcept {
+/// left out. Returns false if an edge is too short.
+bool WaysOut::add_edges(const PieceShape& a, const PieceShape& b, double far) noexcept {
     const NearEdges near_a(a, b.box(), far), near_b(b, a.box(), far);
+    if (!(std::min(near_a.shortest(), near_b.shortest()) > PieceShape::kShortest)) return false;
     const EdgesByLanes lanes_b(near_b.all());
     const double error = near_a.error() + near_b.error() + 8 * kUnit;
     const double error_of_height = 4 * (error * reach_ + position_error_);
@@ -285,6 +291,7 @@ void WaysOut::add_edges(const PieceShape& a, const PieceShape& b, double far) no
             }
         });
     }
+    return true;
 }
 
 }  // namespace cdprep

@@ -39,8 +39,8 @@ public:
     /// The most ways that are kept: few are left once snags are known.
     static constexpr std::size_t kMost = 16;
 
-    /// Tests all ways. Returns false if that is too much work. Hulls that are known to have a
-    /// common point need fewer tests.
+    /// Tests all ways. Returns false if that is too much work, or if an edge is shorter than
+    /// PieceShape::kShortest. Hulls that are known to have a common point need fewer tests.
     [[nodiscard]] bool find(const PieceShape& a, const PieceShape& b, bool they_meet) noexcept;
 
     /// Adds a way that is not one of those.
@@ -79,7 +79,7 @@ private:
 
     void add(const WayOut& way) noexcept;
     void add_faces(const PieceShape& of, const PieceShape& other, WayKind kind) noexcept;
-    void add_edges(const PieceShape& a, const PieceShape& b, double far) noexcept;
+    [[nodiscard]] bool add_edges(const PieceShape& a, const PieceShape& b, double far) noexcept;
     void keep_shortest() noexcept;
     void find_next() noexcept;
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 namespace cdprep::mesh {
 namespace {
@@ -34,6 +36,11 @@ bool repeats_corner(const Triangle& triangle) noexcept {
 }
 
 EdgeUses find_edge_uses(std::span<const Triangle> triangles, std::size_t vertex_count) {
+    if (triangles.size() > kMostMeshTriangles) {
+        throw std::length_error("a mesh has " + std::to_string(triangles.size()) +
+                                " triangles; at most " + std::to_string(kMostMeshTriangles) +
+                                " are allowed");
+    }
     std::vector<std::uint32_t> begin(vertex_count + 1, 0);
     for_each_use(triangles, [&](std::uint32_t lower, const Use&) { ++begin[lower + 1]; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());

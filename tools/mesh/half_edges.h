@@ -16,6 +16,9 @@ inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max()
 /// that of the corner.
 using HalfEdge = std::uint32_t;
 
+/// The most triangles whose half-edges have numbers below kNone. Imports refuse more.
+inline constexpr std::uint32_t kMostMeshTriangles = kNone / 3;
+
 [[nodiscard]] constexpr HalfEdge next_in_triangle(HalfEdge h) noexcept {
     return h % 3 == 2 ? h - 2 : h + 1;
 }
@@ -49,7 +52,8 @@ struct EdgeUses {
     }
 };
 
-/// Returns the uses. O(n), and n log n in the degree of a vertex.
+/// Returns the uses. O(n), and n log n in the degree of a vertex. Throws std::length_error for more
+/// than kMostMeshTriangles triangles.
 [[nodiscard]] EdgeUses find_edge_uses(std::span<const Triangle> triangles,
                                       std::size_t vertex_count);
 

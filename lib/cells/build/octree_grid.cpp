@@ -79,8 +79,10 @@ format::OctreeGrid grid_around(const GridExtent& extent) {
         middle[axis] = lower + (upper - lower) / 2;
     }
     constexpr double kLeastStep = 0x1p-1072;  // the numbers are 2^-1074 apart there
-    const double step = rounded_up(
+    double step = rounded_up(
         std::max({widest / (kOctreeSteps - 8), 0x1p-50 * (farthest + 2 * widest), kLeastStep}));
+    // A subnormal quotient may be too small by more than the free steps.
+    while (step * (kOctreeSteps - 8) < widest) step = rounded_up(std::nextafter(step, kInfinity));
     const double half = step * (0.5 * kOctreeSteps);
     format::OctreeGrid grid{};
     grid.origin = {middle[0] - half, middle[1] - half, middle[2] - half};

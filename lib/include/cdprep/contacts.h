@@ -152,14 +152,15 @@ struct ContactsVerdict {
 /// the distance. The distance interval is no wider than that of convex_distance(). If several pairs
 /// of points are equally near, as between parallel faces, the contact has one of them. The normal
 /// is the direction of the shortest line between the pieces. If this line snags at a feature, the
-/// normal is turned until it no longer tilts across the feature's edges. If either feature is a
-/// face, the normal is turned only if it tilts across a flat edge.
+/// normal is turned until it no longer tilts across the feature's edges. If it leads from a vertex
+/// straight across edges, it becomes the normal of a face there, the one along which B leaves A
+/// soonest. If either feature is a face, the normal is turned only if it tilts across a flat edge.
 ///
 /// If two pieces overlap, `normal` is the direction of the shortest separating translation, unless
 /// this translation snags (see below). The candidate directions are the face normals of both hulls
-/// and the directions perpendicular to an edge of each. If a hull has many faces, the candidates
-/// are the shortest separating translation and normals of faces or triangles. Only the 16 shortest
-/// candidates are tested for snags.
+/// and the directions perpendicular to an edge of each. If a hull has many faces, is larger than
+/// 2^254 or has edges shorter than 2^-240, the candidates are the shortest separating translation
+/// and normals of faces or triangles. Only the 16 shortest candidates are tested for snags.
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
 /// vertex, the tilt counts only if a triangle there reaches farther along the translation than the
@@ -188,9 +189,11 @@ struct ContactsVerdict {
 ///
 /// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
 /// are the corners of one face, clipped by the other. ManifoldPoint::distance is the distance of
-/// the two faces there, along the normal. The normal of the clipping face may deviate from that of
-/// the contact by up to 0.03 radians. This happens if nearly parallel faces are nearest where two
-/// of their edges cross. The deepest point is first, then those that span the largest area.
+/// the two faces there, along the normal. Without contact_overlap, it is negative by rounding only:
+/// points farther behind the other face are left out. The normal of the clipping face may deviate
+/// from that of the contact by up to 0.03 radians. This happens if nearly parallel faces are
+/// nearest where two of their edges cross. The deepest point is first, then those that span the
+/// largest area.
 ///
 /// The answer is the same on every processor. With Body::surface, a piece inside the hull of
 /// another makes a contact only if their triangles are within the tolerance.

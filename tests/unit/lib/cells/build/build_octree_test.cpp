@@ -211,6 +211,7 @@ std::vector<TestMesh> hard_meshes() {
             geometric_progression(60),
             moved_by(icosphere(1), 0x1p-1000, {}),
             moved_by(icosphere(1), 0x1p-1060, {}),
+            moved_by(unit_cube(), 4.652122e-317, {}),  // a share of it rounds down by percents
             moved_by(icosphere(1), 0x1p999, {}),
             moved_by(unit_cube(), 0x1p999, {-0x1p998, -0x1p999, 0})};
 }

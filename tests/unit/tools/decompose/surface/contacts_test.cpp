@@ -16,6 +16,7 @@
 #include "support/concave_solids.h"
 #include "support/placements.h"
 #include "support/random_pose.h"
+#include "support/same_contacts.h"
 #include "unit/tools/with_pieces.h"
 
 namespace cdprep::test {
@@ -102,6 +103,64 @@ TEST(Contacts, EqualCornersComeInTheOrderOfTheFace) {
         SCOPED_TRACE(i);
         EXPECT_EQ(found[0].points[i].on_a, corners[i])
             << found[0].points[i].on_a.x << " " << found[0].points[i].on_a.y;
+    }
+}
+
+// By hand, by symmetry: what holds for cubes of size 1 holds for those of any size.
+TEST(Contacts, CubesOfAnySizeOverlapAlike) {
+    for (const int exponent : {-990, -700, -530, -300, -266, -250, -241, -239, 0, 239, 253, 254,
+                               255, 259, 332, 466, 515, 700, 990}) {
+        SCOPED_TRACE(exponent);
+        const double size = std::ldexp(1.0, exponent);
+        const OpenModel cube = open_with_pieces(moved_by(unit_cube(), size, {0, 0, 0}));
+        const auto found =
+            all_contacts(cube, cube, shifted({0.5 * size, 0.25 * size, 0.875 * size}), 0);
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_EQ(found[0].flags, +contact_overlap);
+        expect_near(found[0].normal, {0, 0, 1});
+        EXPECT_LE(found[0].lower / size, -0.125);
+        EXPECT_GE(found[0].upper / size, -0.125);
+        EXPECT_NEAR(found[0].lower / size, -0.125, 1e-11);
+        EXPECT_NEAR(found[0].upper / size, -0.125, 1e-11);
+        ASSERT_EQ(found[0].point_count, 4U);
+        for (const ManifoldPoint& point : found[0].points) {
+            EXPECT_NEAR(point.distance / size, -0.125, 1e-11);
+        }
+    }
+}
+
+// By symmetry: the contact of two cubes in any pose, apart or not, scales with them.
+TEST(Contacts, ScaleWithTheirCubes) {
+    const OpenModel unit = open_with_pieces(unit_cube());
+    for (const int exponent : {-990, -530, -500, -266, 259, 466, 515, 990}) {
+        SCOPED_TRACE(exponent);
+        const double size = std::ldexp(1.0, exponent);
+        const OpenModel cube = open_with_pieces(moved_by(unit_cube(), size, {0, 0, 0}));
+        std::mt19937 random(16);
+        std::size_t seen = 0, overlapping = 0;
+        for (int round = 0; round < 60; ++round) {
+            SCOPED_TRACE(round);
+            const Pose pose = random_pose(random, 1.25);
+            const auto expected = all_contacts(unit, unit, Placement::b_moves(pose), 0.25);
+            std::array<double, 12> rows{};
+            std::copy_n(pose.rotation().begin(), 9, rows.begin());
+            const Double3 way = size * pose.translation();
+            rows[9] = way.x, rows[10] = way.y, rows[11] = way.z;
+            const Pose scaled = Pose::from_rows(rows).value();
+            const auto found = all_contacts(cube, cube, Placement::b_moves(scaled), 0.25 * size);
+            ASSERT_EQ(found.size(), expected.size());
+            for (std::size_t i = 0; i < found.size(); ++i) {
+                EXPECT_EQ(found[i].flags, expected[i].flags);
+                expect_near(found[i].normal, expected[i].normal, 1e-9);
+                EXPECT_NEAR(found[i].lower / size, expected[i].lower, 1e-11);
+                EXPECT_NEAR(found[i].upper / size, expected[i].upper, 1e-11);
+                EXPECT_EQ(found[i].point_count, expected[i].point_count);
+                overlapping += found[i].flags & contact_overlap;
+                ++seen;
+            }
+        }
+        EXPECT_GT(overlapping, seen / 5);
+        EXPECT_LT(overlapping, seen * 4 / 5);
     }
 }
 
@@ -673,6 +732,158 @@ TEST(Contacts, TheSeamsOfASolidDoNotPushSideways) {
     EXPECT_GT(across, 50U);
     EXPECT_GT(behind, 0U);
     EXPECT_LT(behind, seen / 10);
+}
+
+/// A tetrahedron that stands on its tip at 0, 0, 0, behind the plane y = 0.
+TestMesh on_its_tip() {
+    TestMesh mesh;
+    mesh.positions = {{0, 0, 0}, {-0.25, 0, 1}, {0.25, 0, 1}, {0, -0.5, 1}};
+    mesh.triangles = {{{0, 1, 2}}, {{1, 3, 2}}, {{0, 3, 1}}, {{0, 2, 3}}};
+    return mesh;
+}
+
+/// The pose that turns both models, and the same after a shift.
+Placement turned_pair(const Pose& turn, const Double3& shift) {
+    std::array<double, 12> rows{};
+    std::copy_n(turn.rotation().begin(), 9, rows.begin());
+    const Double3 at = transform_point(turn, shift);
+    rows[9] = at.x, rows[10] = at.y, rows[11] = at.z;
+    return Placement::world(turn, Pose::from_rows(rows).value());
+}
+
+// By hand: a box, and a corner, rest on one piece of a solid's top. The nearest point of the other
+// piece is a vertex at the seam, straight across it. Nothing but the top pushes, however both are
+// turned. A face of the second solid goes down from that vertex, but pushes the corner farther.
+TEST(Contacts, ABodyAcrossASeamIsPushedByTheTop) {
+    const OpenModel arms =
+        open_with_pieces(prism({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
+                               {{1, 2, 3}, {1, 3, 4}, {0, 1, 4}, {0, 4, 5}, {0, 5, 6}}));
+    const OpenModel stem =
+        open_with_pieces(prism({{0, 0}, {3, 0}, {3, 1}, {2, 1}, {2, 2}, {1, 2}, {1, 1}, {0, 1}},
+                               {{0, 1, 2}, {0, 2, 3}, {0, 3, 6}, {0, 6, 7}, {3, 4, 5}, {3, 5, 6}}));
+    const OpenModel box = open_with_pieces(moved_by(unit_cube(), 0.5, {0, 0, 0}));
+    const OpenModel tip = open_with_pieces(on_its_tip());
+    struct Resting {
+        const OpenModel& below;
+        const OpenModel& above;
+        Double3 at;
+    };
+    std::mt19937 random(17);
+    std::size_t across = 0;
+    for (const Resting& pair :
+         {Resting{arms, box, {1.125, 0, 1}}, Resting{arms, box, {1.125, -0.5, 1}},
+          Resting{stem, tip, {1, 0.875, 1}}}) {
+        ASSERT_GT(pair.below.model.pieces().pieces.size(), 1U);
+        for (int round = 0; round < 100; ++round) {
+            SCOPED_TRACE(round);
+            const Pose turn = round == 0 ? Pose() : random_pose(random, 0);
+            const Double3 up = transform_point(turn, {0, 0, 1});
+            for (const Contact& contact :
+                 all_contacts(pair.below, pair.above, turned_pair(turn, pair.at), 0.2)) {
+                EXPECT_NEAR(cdprep::dot(contact.normal, contact.normal), 1, 1e-12);
+                // The other pair of pieces touches along z = 1, up to rounding.
+                if (contact.lower < 0.1 || contact.feature_a.kind != FeatureKind::vertex) continue;
+                expect_near(contact.normal, up, 1e-9);
+                EXPECT_EQ(contact.flags, +contact_internal_edge);
+                ++across;
+            }
+        }
+    }
+    EXPECT_GT(across, 100U);
+}
+
+/// A sheet over [0, 1] x [0, 1] that is bent everywhere.
+TestMesh bumpy_sheet() {
+    TestMesh mesh = grid_sheet(6, 6);
+    for (Double3& p : mesh.positions) {
+        p = {p.x / 6, p.y / 6, 0.3 * std::sin(1.3 * p.x + 0.7 * p.y)};
+    }
+    return mesh;
+}
+
+// By hand: the distance of pieces that do not overlap is positive, so no point of them is negative,
+// though some are in a solid or inside a hull.
+TEST(Contacts, NoManifoldPointIsNegativeWithoutAnOverlap) {
+    const OpenModel sheet = open_with_pieces(bumpy_sheet());
+    const OpenModel arms = open_with_pieces(l_with_a_seam());
+    std::mt19937 random(18);
+    std::size_t apart = 0, behind = 0, points = 0;
+    for (int round = 0; round < 100; ++round) {
+        SCOPED_TRACE(round);
+        const Placement placement = Placement::b_moves(random_pose(random, 1));
+        for (const Contact& contact : all_contacts(sheet, arms, placement, 0.3)) {
+            if ((contact.flags & contact_overlap) != 0) continue;
+            ASSERT_GE(contact.point_count, 1U);
+            for (std::uint32_t i = 0; i < contact.point_count; ++i) {
+                EXPECT_GE(contact.points[i].distance, -1e-9);
+            }
+            points += contact.point_count;
+            behind += (contact.flags & contact_from_behind) != 0 ? 1 : 0;
+            ++apart;
+        }
+    }
+    EXPECT_GT(apart, 500U);
+    EXPECT_GT(behind, 50U);
+    EXPECT_GT(points, apart);
+}
+
+// By hand: a fin stands through a square of two triangles, one of which it touches. Whichever comes
+// first, and even if the work ends there, the pieces overlap.
+TEST(Contacts, PiecesOverlapThoughTheWorkEndsBeforeTheirTrianglesTouch) {
+    TestMesh fin;
+    fin.positions = {{0.25, 0.75, -0.1}, {0.25, 0.75, 0.3}, {0.5, 0.5, 0.3}};
+    fin.triangles = {{{0, 1, 2}}};
+    const OpenModel upright = open_with_pieces(fin);
+    for (const bool is_first : {false, true}) {
+        TestMesh square;
+        square.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+        square.triangles = {{{0, 1, 2}}, {{0, 2, 3}}};
+        if (is_first) std::swap(square.triangles[0], square.triangles[1]);
+        const OpenModel plate = open_with_pieces(square);
+        const Pair pair = {plate.model, upright.model, shifted({0, 0, 0})};
+        Workspace workspace;
+        std::array<Contact, 2> all, some;
+        ASSERT_EQ(contacts(pair, workspace, all, {.tolerance = 0.2}).count, 1U);
+        EXPECT_EQ(all[0].flags & contact_overlap, +contact_overlap);
+        EXPECT_NEAR(all[0].lower, -0.1, 1e-12);
+        const auto verdict = contacts(pair, workspace, some, {.tolerance = 0.2, .work = 2});
+        ASSERT_EQ(verdict.count, 1U);
+        EXPECT_FALSE(verdict.searched);
+        expect_same(all[0], some[0]);
+    }
+}
+
+// A law: a limit of work leaves out contacts, but changes none.
+TEST(Contacts, AContactWithinALimitOfWorkIsThatWithoutOne) {
+    const OpenModel sheet = open_with_pieces(bumpy_sheet());
+    const OpenModel flat = open_with_pieces(moved_by(grid_sheet(4, 4), 0.25, {0, 0, 0}));
+    Workspace workspace;
+    std::mt19937 random(19);
+    std::size_t cut = 0, overlapping = 0;
+    for (int round = 0; round < 200; ++round) {
+        SCOPED_TRACE(round);
+        const OpenModel& a = round % 2 == 0 ? sheet : flat;
+        const Pair pair = {a.model, flat.model, Placement::b_moves(random_pose(random, 0.5))};
+        const auto all = all_contacts(a, flat, pair.placement, 0.2);
+        std::vector<Contact> some(all.size());
+        const std::uint64_t work = 1 + random() % 100;
+        for (const std::uint32_t most : {0U, 8U}) {
+            const auto verdict = contacts(
+                pair, workspace, some,
+                {.tolerance = 0.2, .manifold = Manifold::four, .most = most, .work = work});
+            for (std::size_t i = 0; i < verdict.count; ++i) {
+                const auto same = std::ranges::find(all, some[i].id, &Contact::id);
+                ASSERT_NE(same, all.end());
+                expect_same(*same, some[i]);
+                if (verdict.searched) continue;
+                overlapping += some[i].flags & contact_overlap;
+                ++cut;
+            }
+        }
+    }
+    EXPECT_GT(overlapping, cut / 5);
+    EXPECT_LT(overlapping, cut * 4 / 5);
+    EXPECT_GT(cut, 50U);
 }
 
 // Beyond what one walk keeps there is another: every pair once, in order.
