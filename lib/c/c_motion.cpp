@@ -6,6 +6,7 @@
 #include "c/motion_input.h"
 #include "c/pair_answers.h"
 #include "cdprep/c/motion.h"
+#include "cdprep/format/float_environment.h"
 #include "cdprep/time_of_impact.h"
 
 namespace cdprep::c {
@@ -82,6 +83,7 @@ int cdprep_motion_pose(const cdprep_motion* motion, double time, cdprep_pose* po
         if (const int code = call.need(pose, {"pose"})) return code;
         if (const int code = check_number(call, "time", cdprep::c::Holds::length, time))
             return code;
+        const cdprep::format::FloatEnvironment environment;
         if (time > 1) {
             return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"time"}, "is %.17g; it must be 0 to 1.",
                                time);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "c/motion_input.h"
 
+#include "cdprep/format/float_environment.h"
+
 namespace cdprep::c {
 namespace {
 
 bool is_zero(const double (&numbers)[3]) noexcept {
+    const format::FloatEnvironment environment;
     return numbers[0] == 0 && numbers[1] == 0 && numbers[2] == 0;
 }
 

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "c/pair_cache_words.h"
+#include "cdprep/format/float_environment.h"
 #include "cdprep/pairs.h"
 
 namespace cdprep::c {
@@ -52,6 +53,7 @@ cdprep_nearest in_c(const std::optional<Distance>& found) noexcept {
 }
 
 cdprep_bounded in_c(const BoundedDistance& found) noexcept {
+    const format::FloatEnvironment environment;
     const double lower = std::min(found.lower, format::kMaxCoordinate);
     return {word(found.is_complete), 0, found.work, lower, in_c(found.nearest)};
 }

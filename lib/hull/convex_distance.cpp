@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cdprep/format/float_environment.h"
+#include "core/valid_errors.h"
 #include "hull/exact_nearest.h"
 #include "hull/gjk.h"
 #include "hull/hull_nearest.h"
@@ -62,7 +63,8 @@ std::optional<ConvexDistance> convex_distance(const ConvexPoints& a, const Conve
     const format::FloatEnvironment environment;
     if (a.count == 0 || b.count == 0 || !(options.max_distance >= 0)) return std::nullopt;
     const TwoHulls hulls(a, b, placement);
-    const std::optional<HullNearest> found = hull_nearest(hulls.a, hulls.b, options, cache, counts);
+    const std::optional<HullNearest> found =
+        hull_nearest(hulls.a, hulls.b, with_valid_errors(options), cache, counts);
     if (!found) return std::nullopt;
     const Double3 on_a = weighted_sum(found->simplex, &Difference::at_a);
     if (found->meet) return ConvexDistance{0, 0, on_a, on_a};

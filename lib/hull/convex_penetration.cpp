@@ -2,6 +2,7 @@
 #include "cdprep/advanced/convex_penetration.h"
 
 #include "cdprep/format/float_environment.h"
+#include "core/valid_errors.h"
 #include "hull/exact_nearest.h"
 #include "hull/expanding_polytope.h"
 #include "hull/gjk.h"
@@ -13,7 +14,7 @@ namespace {
 Penetration expanded(const TwoHulls& hulls, const Difference* corner, std::size_t count,
                      const DistanceOptions& options, QueryCounts* counts) {
     ExpandingPolytope polytope(hulls.a, hulls.b);
-    const Penetration result = polytope.expand(corner, count, options);
+    const Penetration result = polytope.expand(corner, count, with_valid_errors(options));
     if (counts != nullptr) counts->hull_steps += polytope.steps();
     return result;
 }

@@ -18,7 +18,8 @@ public:
 
     /// Holds up to `count` numbers, in 16 to 32 bytes each.
     IdMap(Carver& carver, std::size_t count) noexcept
-        : mask_(std::bit_ceil(2 * count + 1) - 1), entries_(carver.take<Entry>(mask_ + 1)) {
+        : mask_(static_cast<std::size_t>(std::bit_ceil(2 * std::uint64_t{count} + 1) - 1)),
+          entries_(carver.take<Entry>(std::uint64_t{mask_} + 1)) {
         for (std::size_t i = 0; entries_ != nullptr && i <= mask_; ++i) entries_[i].id = kNone;
     }
 

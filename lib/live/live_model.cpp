@@ -2,6 +2,7 @@
 #include "cdprep/live_model.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,18 +34,34 @@ LiveTables tables_of(Carver& carver, const LiveBase& base, const LiveLimits& lim
              can_tear}};
 }
 
+/// Returns the number of bytes behind the image.
+std::size_t tables_size(const LiveBase& base, const LiveLimits& limits) {
+    Carver carver(nullptr);
+    tables_of(carver, base, limits);
+    return carver.used();
+}
+
+/// With 32 bits, memory does not hold the largest models that the limits allow.
+std::optional<Error> find_size_fault(std::uint64_t size) {
+    if (size <= PTRDIFF_MAX) return std::nullopt;
+    return bad_argument("The live model needs at least " + std::to_string(size) +
+                        " bytes, more than memory holds.");
+}
+
 Result<std::size_t> bytes_of(const LiveBase& base, const LiveLimits& limits,
                              std::span<const build::Section> sections) {
     const Result<std::size_t> image = build::image_size(sections);
     if (!image) return image.error();
-    Carver carver(nullptr);
-    tables_of(carver, base, limits);
-    return *image + carver.used();
+    const std::uint64_t size = std::uint64_t{*image} + tables_size(base, limits);
+    if (const auto fault = find_size_fault(size)) return *fault;
+    return static_cast<std::size_t>(size);
 }
 
 Result<std::size_t> bytes_of(const LiveBase& base, const LiveLimits& limits) {
     const format::FloatEnvironment environment;
     if (const auto fault = find_limit_fault(base, limits)) return *fault;
+    // Before the image takes memory.
+    if (const auto fault = find_size_fault(tables_size(base, limits))) return *fault;
     return bytes_of(base, limits, LiveStart(base, limits).sections());
 }
 

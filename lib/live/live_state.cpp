@@ -325,8 +325,15 @@ bool LiveModel::State::has_exact_leaves() const {
     return build::has_exact_leaves(sums_.rounded == 0, frame_);
 }
 
+/// Places follow from what there was before, which the content hash covers, and from the change. So
+/// triangles that are removed again leave a trace: they may have moved others.
+void LiveModel::State::note_places(std::uint64_t by) {
+    places_ = mixed(model.header().content_hash ^ places_, by);
+}
+
 /// The content hash must distinguish these positions from any others, because caches compare it.
-/// All else that moves follows from the positions and from the rebuilds, so these are enough.
+/// All else that changes follows from the positions, the triangles and their places, so these are
+/// enough.
 void LiveModel::State::update_header() {
     format::FileHeader facts = format::read_header(image);
     facts.flags &= ~format::model_exact_leaves;
@@ -336,7 +343,7 @@ void LiveModel::State::update_header() {
     ImageTable table(image);
     for (SectionEntry& entry : table.entries()) {
         if (is_positions(entry.id)) entry.checksum = sums_.hash;
-        if (rebuilds_ > 0 && entry.id == SectionId::bvh_leaves) entry.checksum = rebuilds_;
+        if (places_ != 0 && entry.id == SectionId::bvh_leaves) entry.checksum = places_;
         if (tables.tear && entry.id == SectionId::triangles) entry.checksum = tables.tear->hash;
     }
     // Without triangles, no query looks at the places.

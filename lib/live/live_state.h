@@ -203,6 +203,8 @@ private:
     [[nodiscard]] Corners corners(const format::Triangle& triangle) const;
     void fit_leaves(const LeafRange& range);
     void note_tear();
+    /// Notes that triangles may have got other places, by a change that `by` tells from others.
+    void note_places(std::uint64_t by);
 
     [[nodiscard]] LeafRange subtree(std::uint32_t number) const;
     /// Returns the number of triangles in leaves.
@@ -214,7 +216,7 @@ private:
     build::Frame frame_;
     Sums sums_;
     bool is_rebuilding_ = false;
-    std::uint64_t rebuilds_ = 0;  ///< each gives triangles other places, as caches must know
+    std::uint64_t places_ = 0;  ///< a hash of what led to the places, as caches must know; or 0
 };
 
 }  // namespace cdprep

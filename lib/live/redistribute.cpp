@@ -81,15 +81,13 @@ std::uint32_t LiveModel::State::rebuild(std::uint32_t most) {
         const std::uint32_t size = count_in(range);
         if (!is_rebuilding_ || size > most - done) break;
         redistribute(range);
+        note_places(worst);
         fit_leaves(range);
         tables.built_cost[worst] = cost_of(worst);
         tables.growth[worst] = 1;
         done += size;
     }
-    if (done > 0) {
-        ++rebuilds_;
-        update_header();
-    }
+    if (done > 0) update_header();
     return done;
 }
 

@@ -211,6 +211,7 @@ void LiveModel::State::append(std::span<const Triangle> added) {
     widen_frame(added);
     for (const Triangle& triangle : added) insert(triangle);
     redistribute_marked();
+    note_places(tables.tear->hash);
     fit_changed(serial_for);
     note_tear();
 }

@@ -2,6 +2,7 @@
 #include "cdprep/window.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -44,8 +45,18 @@ constexpr std::size_t kCornersOfLeaf = std::size_t{3} * kBvhWidth;
 constexpr Ask kServed = Ask::collide | Ask::overlap | Ask::distance | Ask::within | Ask::ray |
                         Ask::closest | Ask::touch;
 
+/// With 32 bits, memory does not hold the largest windows.
+std::optional<Error> find_size_fault(std::uint64_t size) {
+    if (size <= PTRDIFF_MAX) return std::nullopt;
+    return bad_argument("The window needs at least " + std::to_string(size) +
+                        " bytes, more than memory holds.");
+}
+
 std::optional<Error> find_fault(const WindowLimits& limits) {
-    if (limits.leaves >= 1 && limits.leaves <= kMostWindowLeaves) return std::nullopt;
+    if (limits.leaves >= 1 && limits.leaves <= kMostWindowLeaves) {
+        constexpr std::uint64_t kLeast = sizeof(BvhLeaf) + kCornersOfLeaf * sizeof(Double3);
+        return find_size_fault(limits.leaves * kLeast);  // before the image takes memory
+    }
     return bad_argument("A window of " + std::to_string(limits.leaves) +
                         " leaves cannot be made: the number must be 1 to " +
                         std::to_string(kMostWindowLeaves) + ".");
@@ -148,7 +159,9 @@ Result<std::size_t> bytes_of(const WindowLimits& limits, const EmptyWindow& empt
     if (!image) return image.error();
     Carver carver(nullptr);
     const WindowTables tables(carver, limits.leaves);
-    return *image + carver.used();
+    const std::uint64_t size = std::uint64_t{*image} + carver.used();
+    if (const auto fault = find_size_fault(size)) return *fault;
+    return static_cast<std::size_t>(size);
 }
 
 /// The places of a leaf that have a triangle.
@@ -341,11 +354,13 @@ Window& Window::operator=(Window&&) noexcept = default;
 Window::~Window() = default;
 
 Result<std::size_t> Window::bytes(const WindowLimits& limits) {
+    const format::FloatEnvironment environment;
     if (const auto fault = find_fault(limits)) return *fault;
     return bytes_of(limits, EmptyWindow(limits.leaves));
 }
 
 Result<Window> Window::in(std::span<std::byte> memory, const WindowLimits& limits) {
+    const format::FloatEnvironment environment;
     if (const auto fault = find_fault(limits)) return *fault;
     const EmptyWindow empty(limits.leaves);
     const Result<std::size_t> size = bytes_of(limits, empty);
@@ -383,6 +398,9 @@ void Window::clear() noexcept {
 WindowFill Window::fill(const Pair& pair, double radius) noexcept {
     const format::FloatEnvironment environment;
     const Model &a = pair.a, &b = pair.b;
+    if (&a == &state_->model || &b == &state_->model) {
+        stop_with("Neither model of Window::fill() may be the model of the window itself.");
+    }
     require(a, b, Ask::distance);
     clear();
     if (!(radius >= 0)) return {};

@@ -343,6 +343,7 @@ std::optional<Sweep> Sweep::in(std::span<std::byte> memory, const Model& model) 
 }
 
 void Sweep::begin() noexcept {
+    const format::FloatEnvironment environment;
     storage_->has_ended = false;
     const MovedModel now(*model_, nullptr);
     for (std::uint32_t i = 0; i < storage_->start.size(); ++i) {

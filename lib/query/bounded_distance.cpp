@@ -7,6 +7,7 @@
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/portable.h"
 #include "core/require.h"
+#include "core/valid_errors.h"
 #include "query/nearest_search.h"
 
 // distance() looks for contact first. Here the search by bounds comes first, so that a late answer
@@ -157,7 +158,7 @@ BoundedDistance bounded_distance(const Pair& pair, Workspace& workspace,
                                  const DistanceBudget& budget) noexcept {
     const format::FloatEnvironment environment;
     require(pair.a, pair.b, Ask::distance);
-    const BoundedDistance found = search(pair, workspace, options, budget.work);
+    const BoundedDistance found = search(pair, workspace, with_valid_errors(options), budget.work);
     if (budget.last != nullptr) budget.last->note(pair.placement, found);
     return found;
 }

@@ -427,7 +427,10 @@ public:
         return limit();
     }
 
+    /// While no pair is certainly within max_distance, a permitted error must not lower the limit:
+    /// the nearest so far may turn out to be too far.
     [[nodiscard]] double limit() const noexcept {
+        if (upper_ > options_.max_distance) return options_.max_distance;
         if (upper_ == std::numeric_limits<double>::infinity()) return options_.max_distance;
         const double nearer =
             std::min(upper_ / (1 + options_.relative_error), upper_ - options_.absolute_error);
@@ -437,10 +440,11 @@ public:
     /// Returns the answer when the search has ended.
     [[nodiscard]] std::optional<Distance> answer() noexcept {
         settle();
-        if (!found_ || best_.lower > options_.max_distance) return std::nullopt;
+        // Of pairs that are equally near, up to rounding, another may be within max_distance.
+        if (!found_ || lower_ > options_.max_distance) return std::nullopt;
         const double unseen =
             options_.relative_error > 0 || options_.absolute_error > 0 ? limit() : best_.upper;
-        best_.lower = std::min({best_.lower, lower_, unseen});
+        best_.lower = std::min(lower_, unseen);
         return best_;
     }
     /// Returns the nearest pair so far, for a search that ended early. What it has not seen is at

@@ -486,6 +486,7 @@ std::uint32_t Plan::layers_of(Ask effects) const noexcept {
 // Two boxes that each reach half the distance beyond their objects meet if the objects are near. No
 // two points of moved models are farther apart than the bound.
 double Plan::reach_of(std::uint32_t layer) const noexcept {
+    const format::FloatEnvironment environment;
     double most = 0;
     for (const LayerPair& pair : pairs_) {
         if (pair.a == layer || pair.b == layer) {
@@ -503,6 +504,7 @@ Ask Plan::effects() const noexcept {
 }
 
 std::string Plan::describe() const {
+    const format::FloatEnvironment environment;
     std::string text;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
         text += "layers " + layers_text(layer_names_, pairs_[i].a, pairs_[i].b) + ": " +

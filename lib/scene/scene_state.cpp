@@ -131,6 +131,8 @@ bool Scene::State::is_candidate(BoxPair slots) const noexcept {
     if ((filters[slots.a].accepts & filters[slots.b].layers) == 0) return false;
     const WorldBox &x = boxes[slots.a], &y = boxes[slots.b];
     for (int axis = 0; axis < 3; ++axis) {
+        // The numbers of an absent box may lie between those of another.
+        if (x.lower[axis] > x.upper[axis] || y.lower[axis] > y.upper[axis]) return false;
         if (x.lower[axis] > y.upper[axis] || y.lower[axis] > x.upper[axis]) return false;
     }
     return true;
@@ -139,6 +141,7 @@ bool Scene::State::is_candidate(BoxPair slots) const noexcept {
 /// Fills `next` with records of the candidates among the caller's pairs. Returns how many there
 /// are; if they are more than fit, equal ones are counted again.
 std::uint64_t Scene::State::list_given(std::span<const BoxPair> candidates) noexcept {
+    const format::FloatEnvironment environment;
     std::uint64_t count = 0;
     next.count = 0;
     for (const auto [one, two] : candidates) {
@@ -204,6 +207,7 @@ bool Scene::State::follows_paused_distance(const Record& before, Ask effects) co
 
 /// Keeps the records of objects that have not changed, and lists the others to be asked.
 void Scene::State::keep_known() noexcept {
+    const format::FloatEnvironment environment;
     merge(last, next, [&](std::uint32_t old, std::uint32_t now) {
         if (old == last.count || now == next.count) return;
         const Record& before = last.record[old];
@@ -501,6 +505,7 @@ void Scene::State::list_results() noexcept {
 /// Forgets what has changed. An object that had a way is asked again in the next step, because it
 /// has none there.
 void Scene::State::accept_changes() noexcept {
+    const format::FloatEnvironment environment;
     std::uint32_t left = 0;
     for (std::uint32_t i = 0; i < changed_count; ++i) {
         const std::uint32_t slot = changed[i];
@@ -547,7 +552,7 @@ SceneStep Scene::State::step(std::span<Workspace> workspaces, ParallelFor parall
         broad_phase_is_late ? broad_phase->update({boxes, size}, {filters, size}, parallel_for)
                             : broad_phase->update_moved({boxes, size}, {filters, size},
                                                         {changed, changed_count}, parallel_for);
-    assert(!candidates.refused);  // boxes of valid poses are numbers
+    assert(!candidates.refused);  // box_around() returns no NaN
     broad_phase_is_late = false;
     if (!candidates.complete) {
         return {.complete = false, .needed_pairs = candidates.needed + self_count()};

@@ -282,6 +282,7 @@ int read_layer_pair(Call& call, const Name& name, const cdprep_layer_pair* from,
 
 int read_model_use(Call& call, const Name& name, const cdprep_model_use* from,
                    cdprep_model_use& use) noexcept {
+    const format::FloatEnvironment environment;
     if (const int code = read_input(call, name, from, use)) return code;
     if (const int code = check_asks(call, name.of("serves"), use.serves)) return code;
     if (use.part_count == 0 && use.part_error > 0) {

@@ -206,7 +206,8 @@ CDPREP_API bool visit_crossings(const Pair& pair, Workspace& workspace,
                                 Visitor<Crossing> visit) noexcept;
 
 /// The limits of a distance query. The search ends when the interval meets either permitted error.
-/// With both 0, the interval has the width that distance() states.
+/// With both 0, the interval has the width that distance() states. An error that is negative or NaN
+/// counts as 0.
 struct DistanceOptions {
     double relative_error = 0;  ///< upper may exceed lower by this share of lower
     double absolute_error = 0;  ///< or upper may exceed lower by this, model units

@@ -80,8 +80,8 @@ public:
     /// model units. If they do not fit, halves the radius until they do, then bisects four times
     /// between the last two radii. After 20 halvings, it tries the radius 0. An infinite radius
     /// requests all leaves. A negative radius or NaN gives an empty window. pair.a may be baked or
-    /// live, or the model of another window. Of the pair, reads only the models and their
-    /// placement.
+    /// live, or the model of another window. If pair.a or pair.b is model() itself, the program
+    /// stops with a message. Of the pair, reads only the models and their placement.
     ///
     /// Needs Ask::distance of both models. Takes O(log n + leaves log m) time for n triangles of A
     /// and m of B. Never allocates.

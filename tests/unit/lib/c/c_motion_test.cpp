@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
 #include "cdprep/cdprep.h"
 #include "support/c_mistakes.h"
 #include "support/c_models.h"
+#include "support/float_modes.h"
 #include "support/meshes.h"
 #include "support/tiny_baker.h"
 
@@ -91,6 +93,28 @@ TEST_F(CMotion, HasAPoseAtEachTime) {
     EXPECT_STREQ(error.argument, "motion.reserved");
     EXPECT_EQ(cdprep_motion_pose(nullptr, 0, &pose, &error), CDPREP_BAD_ARGUMENT);
     EXPECT_EQ(cdprep_motion_pose(&motion, 0, nullptr, &error), CDPREP_BAD_ARGUMENT);
+}
+
+// Small numbers are numbers in every mode, and none of them is trapped.
+TEST_F(CMotion, FloatModesChangeNothing) {
+    const cdprep_motion motion = pair().motion_b;
+    cdprep_motion wrong = motion;
+    wrong.shift[2] = 0x1p-1060;
+    cdprep_pose expected;
+    ASSERT_EQ(cdprep_motion_pose(&motion, 0x1p-1060, &expected, nullptr), CDPREP_OK);
+    for (const FloatMode& mode : float_modes()) {
+        cdprep_pose found, none;
+        cdprep_error error;
+        int code = CDPREP_INTERNAL, refused = CDPREP_INTERNAL;
+        (void)run_in(mode, [&] {
+            code = cdprep_motion_pose(&motion, 0x1p-1060, &found, nullptr);
+            refused = cdprep_motion_pose(&wrong, 0, &none, &error);
+        });
+        EXPECT_EQ(code, CDPREP_OK) << mode.name;
+        EXPECT_EQ(std::memcmp(&found, &expected, sizeof found), 0) << mode.name;
+        EXPECT_EQ(refused, CDPREP_BAD_ARGUMENT) << mode.name;
+        EXPECT_EQ(error.why, CDPREP_WHY_NO_MEANING) << mode.name;
+    }
 }
 
 TEST_F(CMotion, RefusesEveryMistake) {

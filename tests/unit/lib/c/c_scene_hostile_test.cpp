@@ -364,6 +364,26 @@ TEST_F(CSceneHostile, APlanTellsEveryReason) {
     EXPECT_EQ(cdprep_plan_compile(&changed, nullptr, nullptr, &plan, nullptr), CDPREP_BAD_ARGUMENT);
 }
 
+// An error of parts counts as one in every mode, however small it is.
+TEST_F(CSceneHostile, NoFloatModeHidesAnError) {
+    cdprep_model_use use = use_of(nullptr, 1);
+    use.serves = CDPREP_ASK_COLLIDE | CDPREP_ASK_DISTANCE | CDPREP_ASK_WITHIN;
+    use.part_error = 0x1p-1060;
+    cdprep_plan_options changed = options();
+    changed.models = &use;
+    changed.model_count = 1;
+    for (const FloatMode& mode : float_modes()) {
+        cdprep_plan* plan = nullptr;
+        cdprep_error error;
+        int code = CDPREP_OK;
+        (void)run_in(
+            mode, [&] { code = cdprep_plan_compile(&changed, nullptr, nullptr, &plan, &error); });
+        EXPECT_EQ(code, CDPREP_BAD_ARGUMENT) << mode.name;
+        EXPECT_STREQ(error.argument, "options.models[0].part_error") << mode.name;
+        cdprep_plan_end(plan);
+    }
+}
+
 // By hand: models that are not open yet, with 2 and 3 parts whose errors add up to 0.75.
 TEST_F(CSceneHostile, PartsOfModelsDecideTheRung) {
     cdprep_layer_pair pair = pair_of(0, 1, CDPREP_ASK_DISTANCE);

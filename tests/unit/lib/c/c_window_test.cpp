@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "support/c_lanes.h"
 #include "support/c_mistakes.h"
 #include "support/c_models.h"
+#include "support/float_modes.h"
 #include "support/meshes.h"
 #include "support/tiny_baker.h"
 
@@ -242,6 +244,40 @@ TEST_F(CWindow, MemoryIsChecked) {
     options.allocator = nullptr;
     EXPECT_EQ(why(start, size), 0);
     cdprep_window_end(made);
+}
+
+// Gaps below the range of normal doubles: no mode traps them or takes them for 0.
+TEST_F(CWindow, FloatModesChangeNothing) {
+    const TestMesh cube = moved_by(unit_cube(), 0x1p-1050, {});
+    const AlignedBytes file = bake_tiny(cube.positions, cube.triangles, {.double_precision = true});
+    const CModel speck(file);
+    const cdprep_pair of_all = pair_of(speck.get(), speck.get(), {0x1p-1048, 0, 0});
+    const cdprep_pair pair = pair_of(cdprep_window_model(window_), speck.get(), {0x1p-1048, 0, 0});
+    struct Answers {
+        cdprep_bounded whole, near;
+        cdprep_window_info held;
+        double margin;
+    };
+    const auto ask = [&](const FloatMode& mode) {
+        Answers answers{};
+        (void)run_in(mode, [&] {
+            cdprep_workspace* const workspace = workspace_.get();
+            (void)cdprep_distance_bounded(&of_all, nullptr, 0, workspace, &answers.whole, nullptr);
+            (void)cdprep_window_fill(window_, &of_all, 0x1p-1040, &answers.held, nullptr);
+            (void)cdprep_window_margin(&pair, &answers.margin, nullptr);
+            (void)cdprep_window_distance(&pair, nullptr, 0, workspace, &answers.near, nullptr);
+        });
+        return answers;
+    };
+    const Answers expected = ask(float_modes()[0]);
+    EXPECT_GT(expected.whole.lower, 0);
+    EXPECT_LT(expected.whole.lower, std::numeric_limits<double>::min());
+    EXPECT_EQ(expected.whole.nearest.triangle_a, expected.near.nearest.triangle_a);
+    EXPECT_EQ(expected.held.leaves, 2U);
+    for (const FloatMode& mode : float_modes()) {
+        const Answers answers = ask(mode);
+        EXPECT_EQ(std::memcmp(&answers, &expected, sizeof answers), 0) << mode.name;
+    }
 }
 
 TEST_F(CWindow, ArgumentsAreChecked) {

@@ -137,6 +137,31 @@ TEST(ConvexDistance, PermittedErrorsAreKept) {
     }
 }
 
+// By definition: such an error permits nothing, so the answer is that without an error.
+TEST(ConvexDistance, ErrorsThatAreNoLengthsCountAsZero) {
+    std::mt19937 random(8);
+    const SmallHull hull(lattice_sphere(65));
+    for (int i = 0; i < 20; ++i) {
+        const Placement placement = Placement::b_moves(random_pose(random, i % 2 == 0 ? 300 : 30));
+        const auto apart = convex_distance(hull.view(), hull.view(), placement);
+        const auto deep = convex_penetration(hull.view(), hull.view(), placement);
+        for (const double error : {std::nan(""), -1.0, -1e308}) {
+            for (const DistanceOptions& options : {DistanceOptions{.relative_error = error},
+                                                   DistanceOptions{.absolute_error = error}}) {
+                const auto found = convex_distance(hull.view(), hull.view(), placement, options);
+                ASSERT_TRUE(found && apart);
+                EXPECT_EQ(found->lower, apart->lower);
+                EXPECT_EQ(found->upper, apart->upper);
+                const auto depth = convex_penetration(hull.view(), hull.view(), placement, options);
+                ASSERT_EQ(depth.has_value(), deep.has_value());
+                if (!depth) continue;
+                EXPECT_EQ(depth->lower, deep->lower);
+                EXPECT_EQ(depth->upper, deep->upper);
+            }
+        }
+    }
+}
+
 // G01
 TEST(ConvexDistance, KissingBoxesHaveTheSignOfTheGivenDoubles) {
     for (const HardHulls& boxes : kissing_boxes()) {

@@ -412,6 +412,42 @@ TEST(LiveTear, CachesAreNotFooledByATear) {
     }
 }
 
+// Whoever keeps answers compares hashes. Two models have the same triangles at other places: each
+// was given others that have been removed since.
+TEST(LiveTear, TheHashTellsWhatHasMovedTriangles) {
+    const TestMesh sheet = grid_sheet(40, 40);
+    const LiveLimits limits = {.triangles = 3800};
+    Torn first = tear(sheet, limits), second = tear(sheet, limits);
+    const auto hash_of = [](const Torn& torn) { return torn.model().header().content_hash; };
+    EXPECT_EQ(hash_of(first), hash_of(second));
+    const std::uint64_t whole = hash_of(first);
+    std::vector<std::uint32_t> added(400);
+    std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(sheet.triangles.size()));
+    first.append(std::vector(400, sheet.triangles[5]));
+    second.append(std::vector(400, sheet.triangles[3000]));
+    first.remove(added);
+    second.remove(added);
+    std::size_t different = 0;
+    for (const auto& [number, triangle] : first.triangles) {
+        different += first.object.place_of(number) != second.object.place_of(number) ? 1 : 0;
+    }
+    ASSERT_GT(different, 1000U);
+    EXPECT_NE(hash_of(first), whole);
+    EXPECT_NE(hash_of(second), whole);
+    EXPECT_NE(hash_of(first), hash_of(second));
+}
+
+// By hand: a torn model is no longer known to be closed, even if it has all its triangles again.
+TEST(LiveTear, TheHashTellsATornModelFromAWholeOne) {
+    const TestMesh ball = icosphere(2);
+    Torn torn = tear(ball, {.triangles = 400});
+    const std::uint64_t whole = torn.model().header().content_hash;
+    torn.append({ball.triangles[0]});
+    torn.remove({static_cast<std::uint32_t>(ball.triangles.size())});
+    EXPECT_TRUE(torn.model().is_torn());
+    EXPECT_NE(torn.model().header().content_hash, whole);
+}
+
 // A base without triangles, and one that was opened without its components.
 TEST(LiveTear, ABaseMayBeEmptyOrLackComponents) {
     const TestMesh ball = icosphere(2);

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <thread>
 
@@ -452,6 +453,43 @@ TEST(Window, PointsAndShapesSeeItsTriangles) {
     }
 }
 
+// Whoever keeps answers compares hashes. The models have the same triangles at other places, so
+// leaves of the same numbers hold others.
+TEST(Window, TheHashTellsOneContentFromAnother) {
+    const TestMesh sheet = grid_sheet(40, 40);
+    const LiveLimits limits = {.triangles = 3800};
+    std::array<OwnedLive, 3> live = {live_of(sheet, limits), live_of(sheet, limits),
+                                     live_of(sheet, limits)};
+    std::vector<std::uint32_t> added(400);
+    std::iota(added.begin(), added.end(), static_cast<std::uint32_t>(sheet.triangles.size()));
+    for (const std::uint32_t i : {1U, 2U}) {
+        const std::vector<Triangle> more(400, sheet.triangles[i == 1 ? 5 : 3000]);
+        ASSERT_TRUE(live[i].object.append(more));
+        ASSERT_TRUE(live[i].object.remove(added));
+    }
+    const OpenModel probe = open_tiny(small_mesh());
+    OwnedWindow owned = window_of(20);
+    const Model& model = owned.window.model();
+    int different = 0;
+    for (int place = 0; place < 400; ++place) {
+        const Placement placement = shifted({2.0 * (place % 20), 2.0 * (place / 20), 0});
+        std::array<std::uint64_t, 3> hashes{};
+        std::array<std::vector<std::uint32_t>, 3> contents;
+        for (std::size_t i = 0; i < 3; ++i) {
+            owned.window.fill({live[i].object.model(), probe.model, placement}, 0);
+            hashes[i] = model.header().content_hash;
+            const auto numbers = model.source().triangle;
+            contents[i].assign(numbers.begin(), numbers.end());
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (contents[i] == contents[(i + 1) % 3]) continue;
+            ++different;
+            EXPECT_NE(hashes[i], hashes[(i + 1) % 3]) << place;
+        }
+    }
+    EXPECT_GT(different, 400);
+}
+
 TEST(Window, ItServesSurfacesAlone) {
     OwnedWindow owned = window_of(3);
     const Model& model = owned.window.model();
@@ -485,6 +523,19 @@ TEST(WindowDeathTest, AnotherModelStopsTheProgram) {
     Workspace workspace;
     EXPECT_DEATH((void)owned.window.distance({cube.model, cube.model, shifted({})}, workspace),
                  "must be the model of the window");
+}
+
+// A fill reads its models while it overwrites the window. The C function refuses such a call.
+TEST(WindowDeathTest, AFillFromItsOwnModelStopsTheProgram) {
+    const OpenModel cube = open_tiny(unit_cube());
+    OwnedWindow owned = window_of(3), other = window_of(3);
+    const Model& own = owned.window.model();
+    EXPECT_GT(owned.window.fill({cube.model, cube.model, shifted({})}, 5).leaves, 0U);
+    EXPECT_DEATH((void)owned.window.fill({own, cube.model, shifted({})}, 5),
+                 "may be the model of the window itself");
+    EXPECT_DEATH((void)owned.window.fill({cube.model, own, shifted({})}, 5),
+                 "may be the model of the window itself");
+    EXPECT_GT(other.window.fill({own, own, shifted({})}, 5).leaves, 0U);
 }
 
 /// Two windows. One thread fills one of them while another thread reads the other.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -177,6 +178,30 @@ TEST(Sweep, IsOfTheModelAtTheEndOfTheStep) {
     EXPECT_DEATH((void)may_touch(sheet.sweep(), wire.model, Motion(), workspace), "has changed");
     sheet.sweep().end();
     EXPECT_TRUE(may_touch(sheet.sweep(), wire.model, Motion(), workspace));
+}
+
+// Appended triangles move others to other leaves. When they are removed again, the mesh is as it
+// was, but the sweep's boxes are not of its leaves.
+TEST(Sweep, IsNotOfAModelWhoseTrianglesHaveOtherPlaces) {
+    Deforming sheet(grid_sheet(40, 40), {.triangles = 3800, .vertices = 1681});
+    LiveModel& live = sheet.live();
+    const auto count = static_cast<std::uint32_t>(sheet.mesh().triangles.size());
+    std::vector<std::uint32_t> places, added;
+    for (std::uint32_t i = 0; i < count; ++i) places.push_back(live.place_of(i).value());
+    // It has torn before, so that only the places differ afterwards.
+    added = {live.append(std::vector{sheet.mesh().triangles[0]}).value()};
+    ASSERT_TRUE(live.remove(added).ok());
+    sheet.move_to(sheet.mesh().positions);
+    ASSERT_TRUE(sheet.sweep().is_current());
+    const std::uint32_t first = live.append(std::vector(400, sheet.mesh().triangles[5])).value();
+    added.resize(400);
+    std::iota(added.begin(), added.end(), first);
+    EXPECT_FALSE(sheet.sweep().is_current());
+    ASSERT_TRUE(live.remove(added).ok());
+    std::size_t moved = 0;
+    for (std::uint32_t i = 0; i < count; ++i) moved += live.place_of(i) != places[i] ? 1 : 0;
+    ASSERT_GT(moved, 1000U);
+    EXPECT_FALSE(sheet.sweep().is_current());
 }
 
 TEST(Sweep, NeedsEnoughAlignedMemory) {

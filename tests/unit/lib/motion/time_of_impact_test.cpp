@@ -12,6 +12,7 @@
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 #include "support/rounds.h"
+#include "support/slanted_panes.h"
 
 namespace cdprep::test {
 namespace {
@@ -183,6 +184,24 @@ TEST(TimeOfImpact, OfABulletIsRightToAMillionth) {
     ASSERT_EQ(impact.kind, ImpactKind::touching);
     EXPECT_NEAR(impact.lower / time, 1, 1e-6);
     EXPECT_NEAR(impact.upper / time, 1, 1e-6);
+}
+
+// By hand: panes come down on a plate by nearly 1. One is 1 above it, a corner of another 0.95.
+TEST(TimeOfImpact, FindsWhatIsNearerThanAPairAtTheEndOfTheWay) {
+    TestMesh mesh = slanted_panes(1, 0.95);
+    for (const std::size_t corner : {25, 26}) {
+        mesh.positions[corner].x -= 0.5 * std::sqrt(0.5);
+        mesh.positions[corner].z += 0.5 * std::sqrt(0.5);
+    }
+    const OpenModel plate = open_slanted(slanted_plate()), panes = open_slanted(mesh);
+    Workspace workspace;
+    for (int k = 0; k < 40; ++k) {
+        const double way = (1 - 1.17e-9 + k * 1e-12) * std::sqrt(0.5);
+        const Impact impact = time_of_impact(
+            {plate.model, panes.model, Motion(), shifted({way, 0, -way})}, workspace);
+        ASSERT_EQ(impact.kind, ImpactKind::touching) << k;
+        EXPECT_NEAR(impact.upper, 0.95, 1e-8);
+    }
 }
 
 TEST(TimeOfImpact, IsZeroForModelsThatTouchAtTheStart) {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/bounded_distance.h"
 #include "cdprep/pairs.h"
 #include "support/brute_force_distance.h"
 #include "support/hard_distances.h"
@@ -13,6 +14,8 @@
 #include "support/placements.h"
 #include "support/random_pose.h"
 #include "support/rounds.h"
+#include "support/same_distance.h"
+#include "support/slanted_panes.h"
 
 #include "exact/triangle_distance.h"
 
@@ -151,6 +154,80 @@ TEST(DistanceLaws, PermittedErrorsAreKept) {
             }
             EXPECT_LE(by_ratio->upper, by_ratio->lower * (1 + error) + 1e-12);
             EXPECT_LE(by_length->upper, by_length->lower + error + 1e-12);
+        }
+    }
+}
+
+// By hand: one pane is 0.95 above the plate. Another is 1 above it, up to rounding, and may be
+// measured first. The limit between them is 1.
+TEST(DistanceLaws, PermittedErrorsKeepWhatIsWithinTheLimit) {
+    const OpenModel plate = open_slanted(slanted_plate());
+    Workspace workspace;
+    for (int k = 0; k < 40; ++k) {
+        const OpenModel panes = open_slanted(slanted_panes(1 + k * 2.5e-13, 0.95));
+        const Pair pair{plate.model, panes.model, Placement::b_moves(Pose())};
+        for (const DistanceOptions& options :
+             {DistanceOptions{.max_distance = 1},
+              DistanceOptions{.relative_error = 0.0625, .max_distance = 1},
+              DistanceOptions{.absolute_error = 0.1, .max_distance = 1}}) {
+            const auto found = distance(pair, workspace, options);
+            ASSERT_TRUE(found) << k;
+            EXPECT_LE(found->lower, 0.9500001);
+            EXPECT_GE(found->upper, 0.9499999);
+            EXPECT_LE(found->upper, 1);
+            const BoundedDistance bounded = bounded_distance(pair, workspace, options);
+            EXPECT_TRUE(bounded.is_complete);
+            EXPECT_TRUE(bounded.nearest) << k;
+            EXPECT_LE(bounded.lower, 0.9500001);
+        }
+    }
+}
+
+/// A triangle parallel to slanted_plate(), at this height above its plane.
+TestMesh pane_at(double along, double place, double height) {
+    const double up = height * std::sqrt(0.5);
+    const double x = along - up, z = along + up;
+    return {{{x, place, z}, {x, place + 1, z}, {x + 1, place, z + 1}}, {{{0, 1, 2}}}};
+}
+
+// Two panes are as far away as the limit, up to rounding. The interval of the first is wider. Where
+// its true distance is within the limit, the upper bound of the second may be less, but exceed it.
+TEST(DistanceLaws, NothingIsFoundOnlyWhereNothingIsWithin) {
+    const OpenModel plates =
+        open_slanted(joined(moved_by(slanted_plate(), 0.2, {0, -300, 0}), slanted_plate()));
+    std::mt19937 random(20261128);
+    std::uniform_real_distribution<double> fine(-4e-13, 4e-13);
+    Workspace workspace;
+    int near = 0, far = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const OpenModel panes = open_slanted(
+            joined(pane_at(60, -240, 1 + fine(random)), pane_at(300, 300, 1 + fine(random))));
+        const Pair pair{plates.model, panes.model, Placement::b_moves(Pose())};
+        const bool is_near = within(pair, 1, workspace);
+        const auto found = distance(pair, workspace, {.max_distance = 1});
+        EXPECT_TRUE(found || !is_near) << round;
+        EXPECT_EQ(bounded_distance(pair, workspace, {.max_distance = 1}).nearest.has_value(),
+                  found.has_value());
+        (is_near ? near : far) += 1;
+    }
+    EXPECT_GT(near, 400);
+    EXPECT_GT(far, 400);
+}
+
+// By definition: such an error permits nothing, so the answer is that without an error.
+TEST(DistanceLaws, ErrorsThatAreNoLengthsCountAsZero) {
+    const OpenModel plate = open_slanted(slanted_plate());
+    const OpenModel panes = open_slanted(slanted_panes(2, 0.5));
+    const Pair pair{plate.model, panes.model, Placement::b_moves(Pose())};
+    Workspace workspace;
+    const auto expected = distance(pair, workspace);
+    ASSERT_TRUE(expected);
+    for (const double error : {std::nan(""), -0.5, -1.0, -2.0, -1e308}) {
+        for (const DistanceOptions& options :
+             {DistanceOptions{.relative_error = error}, DistanceOptions{.absolute_error = error},
+              DistanceOptions{.relative_error = error, .absolute_error = error}}) {
+            expect_same(distance(pair, workspace, options), expected);
+            expect_same(bounded_distance(pair, workspace, options).nearest, expected);
         }
     }
 }

@@ -13,6 +13,7 @@
 #include "cdprep/format/sections.h"
 #include "cdprep/scene.h"
 #include "scene/ask_pair.h"
+#include "support/float_modes.h"
 
 namespace cdprep {
 namespace {
@@ -84,6 +85,24 @@ TEST(Plan, RefusesAnOriginThatIsNoPoint) {
     EXPECT_FALSE(
         Plan::compile({.pairs = {}, .limits = kLimits, .origin = {0, 0, 0x1.0000000000001p1000}})
             .plan);
+}
+
+// By hand: half a tolerance, also in modes that take it for 0.
+TEST(Plan, IsToldAlikeInEveryFloatMode) {
+    const Plan::Compiled made =
+        compiled({{.a = 0, .b = 1, .effects = Ask::within, .tolerance = 0x1p-1060}});
+    ASSERT_TRUE(made.plan);
+    const std::string expected = made.plan->describe();
+    for (const test::FloatMode& mode : test::float_modes()) {
+        double reach = 1;
+        std::string text;
+        static_cast<void>(test::run_in(mode, [&] {
+            reach = made.plan->reach_of(0);
+            text = made.plan->describe();
+        }));
+        EXPECT_EQ(reach, 0x1p-1061) << mode.name;
+        EXPECT_EQ(text, expected) << mode.name;
+    }
 }
 
 TEST(Plan, AsksForSolidsWhereTheyAreRead) {

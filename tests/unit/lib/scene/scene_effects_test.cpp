@@ -14,11 +14,13 @@
 #include "cdprep/scene.h"
 #include "cdprep/self.h"
 #include "support/aligned_bytes.h"
+#include "support/float_modes.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 #include "support/rounds.h"
 #include "support/run_threads.h"
 #include "support/same_distance.h"
+#include "support/slanted_panes.h"
 
 namespace cdprep {
 namespace {
@@ -325,6 +327,30 @@ TEST(SceneDeform, AChangeIsFoundWithoutACall) {
     EXPECT_EQ(b.counts().kept, b.counts().candidates);
 }
 
+// By hand: a ball inside another collides with it. Once the outer one has torn, it may be open, so
+// nothing is known, although it has all its triangles again.
+TEST(SceneDeform, ATearIsFoundThoughNoTriangleIsMissing) {
+    const std::vector<LayerPair> pairs = {
+        {.effects = Ask::collide | Ask::tear, .body = Body::solid}};
+    const Plan plan = effects_plan(pairs);
+    const test::TestMesh ball = test::icosphere(2);
+    Live outer(test::moved_by(ball, 4, {}), {.triangles = 400});
+    const test::OpenModel inner = test::open_tiny(ball);
+    Scene scene(plan);
+    std::vector<Workspace> workspaces(1);
+    static_cast<void>(scene.add({&outer.model(), 0, Pose()}));
+    static_cast<void>(scene.add({&inner.model, 0, Pose()}));
+    ASSERT_TRUE(scene.step(workspaces).complete);
+    ASSERT_EQ(scene.hits().size(), 1U);
+    EXPECT_EQ(scene.hits()[0].collision.hit, Answer::yes);
+    const std::vector<format::Triangle> again = {ball.triangles[0]};
+    const std::vector<std::uint32_t> number = {(*outer).append(again).value()};
+    EXPECT_TRUE((*outer).remove(number));
+    ASSERT_TRUE(scene.step(workspaces).complete);
+    ASSERT_EQ(scene.hits().size(), 1U);
+    EXPECT_EQ(scene.hits()[0].collision.hit, Answer::unknown);
+}
+
 TEST(SceneHaptic, BoundsHoldAndTheLastAnswerStays) {
     const std::vector<LayerPair> bounded = {
         {.effects = Ask::haptic, .max_distance = 3, .work = 40}};
@@ -400,6 +426,99 @@ TEST(SceneEffects, GivenCandidatesGiveTheSame) {
             const bool are_of_one = own.model_of(hit.a) == nullptr || hit.a == hit.b;
             EXPECT_TRUE(are_of_one || hit.pair != 2U) << "objects of a layer that asks for self";
         }
+    }
+}
+
+// The box of a model without triangles is absent, though its numbers lie within those of others.
+TEST(SceneEffects, GivenPairsWithAbsentBoxesAreIgnored) {
+    const std::vector<LayerPair> pairs = {{.effects = Ask::collide}};
+    const Plan plan = effects_plan(pairs, {.objects = 3, .pairs = 1});
+    const test::OpenModel ball = test::open_tiny(test::icosphere(1));
+    const test::OpenModel empty = test::open_tiny(test::TestMesh{});
+    Scene scene(plan);
+    std::vector<Workspace> workspaces(1);
+    for (const test::OpenModel* model : {&ball, &ball, &empty}) {
+        static_cast<void>(scene.add({&model->model, 0, Pose()}));
+    }
+    const std::vector<BoxPair> all = {{0, 1}, {0, 2}, {1, 2}};
+    EXPECT_GT(scene.boxes()[2].lower[0], scene.boxes()[2].upper[0]);
+    ASSERT_TRUE(scene.step(workspaces).complete);
+    EXPECT_EQ(scene.counts().candidates, 1U);
+    const SceneStep given = scene.step_with(all, workspaces);
+    EXPECT_TRUE(given.complete);
+    EXPECT_EQ(given.needed_pairs, 0U);
+    EXPECT_EQ(scene.counts().candidates, 1U);
+}
+
+// By hand: one pane is 0.95 above the plate. Another is 1 above it, up to rounding, as the limit.
+TEST(SceneEffects, APermittedErrorKeepsWhatIsWithinTheLimit) {
+    const test::OpenModel plate = test::open_slanted(test::slanted_plate());
+    std::vector<Workspace> workspaces(1);
+    for (const double error : {0.0, 0.1}) {
+        const std::vector<LayerPair> pairs = {{.a = 0,
+                                               .b = 1,
+                                               .effects = Ask::distance | Ask::within,
+                                               .tolerance = 0.97,
+                                               .max_distance = 1,
+                                               .max_error = error}};
+        const Plan plan = effects_plan(pairs);
+        for (int k = 0; k < 40; ++k) {
+            const test::OpenModel panes =
+                test::open_slanted(test::slanted_panes(1 + k * 2.5e-13, 0.95));
+            Scene scene(plan);
+            static_cast<void>(scene.add({&plate.model, 0, Pose()}));
+            static_cast<void>(scene.add({&panes.model, 1, Pose()}));
+            ASSERT_TRUE(scene.step(workspaces).complete);
+            ASSERT_EQ(scene.hits().size(), 1U) << k;
+            EXPECT_EQ(scene.hits()[0].holds, Ask::distance | Ask::within) << k;
+        }
+    }
+}
+
+// In modes that take small numbers for 0, a way of such a length is one, and such a gap too.
+TEST(SceneEffects, FloatModesChangeNeitherWaysNorGivenPairs) {
+    const std::vector<LayerPair> pairs = {{.effects = Ask::continuous | Ask::distance}};
+    const Plan plan = effects_plan(pairs);
+    const test::OpenModel speck = test::open_tiny(test::moved_by(test::unit_cube(), 0x1p-140, {}),
+                                                  {.double_precision = true});
+    const std::vector<BoxPair> all = {{0, 1}};
+    for (const test::FloatMode& mode : test::float_modes()) {
+        Scene scene(plan);
+        std::vector<Workspace> workspaces(1);
+        const ObjectId first = *scene.add({&speck.model, 0, Pose()});
+        static_cast<void>(scene.add({&speck.model, 0, shifted(0x1p-138, 0, 0)}));
+        const Pose moved = shifted(0, 0x1p-1060, 0);
+        std::vector<std::uint64_t> counts;
+        static_cast<void>(test::run_in(mode, [&] {
+            for (int step = 0; step < 4; ++step) {
+                if (step == 1) static_cast<void>(scene.set_pose(first, moved));
+                static_cast<void>(scene.step_with(all, workspaces));
+                counts.push_back(scene.counts().moved);
+                counts.push_back(scene.counts().candidates);
+            }
+        }));
+        EXPECT_EQ(counts, (std::vector<std::uint64_t>{2, 0, 1, 0, 1, 0, 0, 0})) << mode.name;
+    }
+}
+
+// The triangles of a distance of 0 are left out, those of a small distance are not.
+TEST(SceneEffects, FloatModesChangeNoHash) {
+    const std::vector<LayerPair> pairs = {{.effects = Ask::distance, .max_distance = 0x1p-1000}};
+    const Plan plan = effects_plan(pairs);
+    const test::OpenModel speck = test::open_tiny(test::moved_by(test::unit_cube(), 0x1p-1060, {}),
+                                                  {.double_precision = true});
+    Scene scene(plan);
+    std::vector<Workspace> workspaces(1);
+    static_cast<void>(scene.add({&speck.model, 0, Pose()}));
+    static_cast<void>(scene.add({&speck.model, 0, shifted(0x1p-1058, 0, 0)}));
+    ASSERT_TRUE(scene.step(workspaces).complete);
+    ASSERT_EQ(scene.distances().size(), 1U);
+    ASSERT_GT(scene.distances()[0].distance.lower, 0);
+    const std::uint64_t expected = scene.state_hash();
+    for (const test::FloatMode& mode : test::float_modes()) {
+        std::uint64_t hash = 0;
+        static_cast<void>(test::run_in(mode, [&] { hash = scene.state_hash(); }));
+        EXPECT_EQ(hash, expected) << mode.name;
     }
 }
 

@@ -16,6 +16,7 @@
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/advanced/refit_bvh.h"
 #include "cdprep/advanced/self_walk.h"
+#include "cdprep/bounded_distance.h"
 #include "cdprep/cells.h"
 #include "cdprep/cells/build_adaptive_octree.h"
 #include "cdprep/cells/build_octree.h"
@@ -32,6 +33,9 @@
 #include "cdprep/parallel.h"
 #include "cdprep/points.h"
 #include "cdprep/self.h"
+#include "cdprep/sweep.h"
+#include "cdprep/time_of_impact.h"
+#include "cdprep/window.h"
 #include "support/aligned_bytes.h"
 #include "support/answer_bytes.h"
 #include "support/every_structure.h"
@@ -126,6 +130,7 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
         std::vector<std::uint64_t> bits_a(a.triangle_count() / 64 + 1);
         std::vector<std::uint64_t> bits_b(b.triangle_count() / 64 + 1);
         const double near = 0.125 * s.scale, exactly = 0;
+        const Double3 way = {-2 * s.scale, 0, 0};
         const auto each = [&](const char* name, const Query& question) {
             expect_same_in_every_mode(s.name + ": " + name, question);
         };
@@ -166,6 +171,31 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
             out.bytes.add(distance({a, b, s.placement}, workspace));
             out.bytes.add(distance({a, b, s.placement}, workspace, {.relative_error = 0.1}));
             out.bytes.add(distance({a, b, s.placement, {.body = Body::solid}}, workspace));
+        });
+        each("bounded_distance", [&](Asked& out) {
+            for (const std::uint64_t work : {0U, 200U}) {
+                const BoundedDistance found =
+                    bounded_distance({a, b, s.placement}, workspace, {}, {.work = work});
+                out.bytes.add(found.is_complete);
+                out.bytes.add(found.lower);
+                out.bytes.add(found.upper);
+                out.bytes.add(found.nearest);
+            }
+        });
+        each("time_of_impact", [&](Asked& out) {
+            const Motion motion = Motion::by_velocity(s.placement.pose_b(), way, {0, 0, 1}).value();
+            out.bytes.add(motion.at(0.25).translation());
+            out.bytes.add(time_of_impact({a, b, Motion(), motion}, workspace));
+        });
+        each("window", [&](Asked& out) {
+            AlignedBytes memory(Window::bytes({.leaves = 300}).value());
+            Window window = Window::in(memory.span(), {.leaves = 300}).value();
+            const WindowFill held = window.fill({a, b, s.placement}, near);
+            out.bytes.add(held.radius);
+            out.bytes.add(held.leaves);
+            out.bytes.add(window.model().header().content_hash);
+            out.bytes.add(window.margin(b, s.placement));
+            out.bytes.add(window.distance({window.model(), b, s.placement}, workspace).nearest);
         });
         each("within", [&](Asked& out) {
             out.bytes.add(within({a, b, s.placement}, near, workspace));
@@ -511,6 +541,38 @@ TEST(FloatModes, ChangeNoLiveModel) {
                     build_live(positions, moved, mesh.triangles, {.triangles = room}, out);
                 });
         }
+    }
+}
+
+// By hand: a blade is between the two heights of a triangle, all of them below the range of normal
+// floats. A mode may take them for 0.
+TEST(FloatModes, ChangeNoSweep) {
+    constexpr float kSide = 0x1p-100F;
+    const std::vector<format::Triangle> one = {{{0, 1, 2}}};
+    Floats above, below;
+    for (const auto& [height, to] : {std::pair(0x1p-128F, &above), std::pair(0x1p-130F, &below)}) {
+        *to = {{0, 0, height}, {kSide, 0, height}, {0, kSide, height}};
+    }
+    constexpr double kLow = kSide / 5, kHigh = kSide / 4, kAt = 0x1p-129;
+    const OpenModel blade =
+        open_tiny(TestMesh{{{kLow, kLow, kAt}, {kHigh, kLow, kAt}, {kLow, kHigh, kAt}}, one},
+                  {.double_precision = true});
+    const auto arrays =
+        build::build_model(above, one, {.bounds = build::BvhBounds::aligned}).value();
+    Workspace workspace;
+    for (const FloatMode& mode : float_modes()) {
+        AlignedBytes memory(LiveModel::bytes(arrays).value());
+        LiveModel live = LiveModel::in(memory.span(), arrays).value();
+        AlignedBytes room(Sweep::bytes(live.model()));
+        Sweep sweep = Sweep::in(room.span(), live.model()).value();
+        bool found = false;
+        (void)run_in(mode, [&] {
+            sweep.begin();
+            (void)live.refit(below);
+            sweep.end();
+            found = may_touch(sweep, blade.model, Motion(), workspace);
+        });
+        EXPECT_TRUE(found) << mode.name;
     }
 }
 
