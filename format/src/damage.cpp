@@ -54,7 +54,7 @@ std::string fault(const Damage& damage) {
             return section + at + " is out of order: found " + found + ", expected " + limit;
         case Kind::bad_box:
             return section + at + ": box " + found +
-                   " is inverted or does not contain what lies below it";
+                   " is inverted, leaves the frame or does not contain what lies below it";
         case Kind::bad_fact:
             return section + at + " contradicts the geometry: found " + found + ", expected " +
                    limit;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "bvh_boxes.h"
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/checksum.h"
 #include "cdprep/format/content_hash.h"
@@ -27,8 +28,6 @@ using Bytes = std::span<const std::byte>;
 
 constexpr SectionId kUserBlock{0};
 constexpr std::uint32_t kKnownFeatures = 0;
-/// The frame scales extents of 2^-1074 to 2^1001 to about 1.
-constexpr std::int32_t kMaxFrameExponent = 1100;
 
 template <class T>
 T read(Bytes file, std::uint64_t at) noexcept {
@@ -116,7 +115,7 @@ Found find_bad_field(const FileHeader& header) {
             above(offsetof(FileHeader, triangle_count), header.triangle_count, kMaxTriangles)) {
         return damage;
     }
-    if (std::abs(std::int64_t{header.frame_exponent}) > kMaxFrameExponent) {
+    if (header.frame_exponent < kMinFrameExponent || header.frame_exponent > kMaxFrameExponent) {
         return in_header(DamageKind::bad_header, offsetof(FileHeader, frame_exponent),
                          static_cast<std::uint32_t>(header.frame_exponent), kMaxFrameExponent);
     }
@@ -242,6 +241,16 @@ Found find_bad_float(const Content& content) {
         }
     }
     return std::nullopt;
+}
+
+/// Finds a number of the BVH that is not finite, or else a box outside the frame.
+Found find_bad_boxes(const Content& content) {
+    const BvhShape shape = bvh_shape(content.header.triangle_count);
+    const SectionView<BvhNode> nodes(content.file, content.entry);
+    const Found damage = find_bad_bvh_box(nodes, shape);
+    if (!damage) return std::nullopt;
+    const Found not_finite = find_bad_float(content);
+    return not_finite ? not_finite : damage;
 }
 
 /// Finds a uint32 of a section above `limit`.
@@ -432,7 +441,8 @@ Found find_bad_content(const Content& content) {
             return content.count_must_be(triangles);
         case SectionId::bvh_nodes:
             return counted(bvh_shape(content.header.triangle_count).node_count,
-                           [&] { return find_bad_float(content); });
+                           [&] { return find_bad_boxes(content); });
+        // Boxes are checked at the end, with the leaves, which fix the shape of the tree.
         case SectionId::piece_nodes:
             return find_bad_float(content);
         case SectionId::piece_swept:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "bvh_boxes.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/pieces.h"
 #include "reference_lists.h"
@@ -83,6 +84,7 @@ std::optional<Damage> find_piece_tree_damage(std::span<const std::byte> file,
     if (nodes.count() != shape.node_count) {
         return nodes.damage(DamageKind::bad_count, 0, nodes.count(), shape.node_count);
     }
+    if (const Found damage = find_bad_bvh_box(nodes, shape)) return damage;
     if (swept.count() != shape.node_count) {
         return swept.damage(DamageKind::bad_count, 0, swept.count(), shape.node_count);
     }

@@ -19,6 +19,11 @@ struct SectionView {
     std::span<const std::byte> file;
     SectionEntry entry{};
 
+    /// Makes a view of a section by its entry in the table.
+    SectionView(std::span<const std::byte> of, const SectionEntry& of_table) noexcept
+        : file(of), entry(of_table) {
+        assert(entry.count == 0 || entry.element_size == sizeof(T));
+    }
     /// Makes a view of a section. It is empty if the section is missing or not wanted.
     SectionView(std::span<const std::byte> of, SectionId id, SectionSet wanted) noexcept
         : file(of) {

@@ -201,10 +201,10 @@ private:
     /// it. A branch tests for the cut's bin, which is predictable.
     static void scatter(std::span<const Item> items, const Cut& cut,
                         std::array<std::size_t, 3> target, std::span<Item> out) {
-        const auto border = static_cast<std::ptrdiff_t>(cut.bin);
+        const auto border = static_cast<std::int64_t>(cut.bin);
         auto [before, in, behind] = target;
         for (const Item& item : items) {
-            const auto bin = static_cast<std::ptrdiff_t>(cut.binning.bin(item.middle(cut.axis)));
+            const auto bin = static_cast<std::int64_t>(cut.binning.bin(item.middle(cut.axis)));
             if (bin == border) {
                 out[in++] = item;
                 continue;

@@ -90,8 +90,7 @@ int read(Call& call, const cdprep_live_options* given, Asked& asked) {
     asked.index = aligned(sizeof(cdprep_live));
     const bool has_index = options.max_triangles == 0;
     asked.start = asked.index + (has_index ? aligned(index_size(asked.base())) : 0);
-    asked.size = asked.start + *size;
-    return CDPREP_OK;
+    return check_size(call, "The live model", std::uint64_t{asked.start} + *size, asked.size);
 }
 
 int make(Call& call, const Asked& asked, const Given& given, cdprep_live** to) {
@@ -143,7 +142,7 @@ int check_positions(Call& call, const char* field, const Real* numbers,
 
 template <class Position>
 int move_all(Call& call, LiveModel& live, const cdprep_live_move& move, const Position* positions,
-             const CallersThreads& threads) {
+             const LanesThreads& threads) {
     const std::span<const Position> to(positions, move.count);
     const Result<Done> done = move.vertices == nullptr
                                   ? live.refit(to, threads)
@@ -155,7 +154,7 @@ int move_all(Call& call, LiveModel& live, const cdprep_live_move& move, const Po
 int refit(Call& call, LiveModel& live, const cdprep_live_move& move,
           const cdprep_workspace& workspace) {
     if (const int code = check_move(call, move)) return code;
-    const CallersThreads threads(workspace);
+    const LanesThreads threads(workspace);
     if (move.positions_f32 != nullptr) {
         if (const int code =
                 check_positions(call, "positions_f32", move.positions_f32, move.count)) {

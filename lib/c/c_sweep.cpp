@@ -30,13 +30,14 @@ int check_model(Call& call, const cdprep_model* model) noexcept {
     return check_serves(call, {"model"}, *model, Ask::within | Ask::corners);
 }
 
-std::size_t size_for(const cdprep_model& model) noexcept {
-    return kStart + Sweep::bytes(model.model);
+int find_size(Call& call, const cdprep_model& model, std::size_t& size) noexcept {
+    return check_size(call, "The sweep", std::uint64_t{kStart} + Sweep::bytes(model.model), size);
 }
 
 int make(Call& call, const cdprep_model& model, const cdprep_allocator* allocator,
          const Given& given, cdprep_sweep** to) {
-    const std::size_t size = size_for(model);
+    std::size_t size = 0;
+    if (const int code = find_size(call, model, size)) return code;
     cdprep_allocator functions;
     if (const int code = read_allocator(call, {"allocator"}, allocator, functions)) return code;
     if (const int code = check_memory(call, given, size, allocator)) return code;
@@ -87,8 +88,7 @@ int cdprep_sweep_size(const cdprep_model* model, size_t* size, cdprep_error* err
     return guarded(error, [&](Call& call) -> int {
         if (const int code = cdprep::c::check_model(call, model)) return code;
         if (const int code = call.need(size, {"size"})) return code;
-        *size = cdprep::c::size_for(*model);
-        return CDPREP_OK;
+        return cdprep::c::find_size(call, *model, *size);
     });
 }
 

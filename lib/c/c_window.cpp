@@ -66,8 +66,7 @@ int read(Call& call, const cdprep_window_options* given, Asked& asked) {
                                 size.error().message);
     }
     asked.start = aligned(sizeof(cdprep_window));
-    asked.size = asked.start + *size;
-    return CDPREP_OK;
+    return check_size(call, "The window", std::uint64_t{asked.start} + *size, asked.size);
 }
 
 int make(Call& call, const Asked& asked, const Given& given, cdprep_window** to) {

@@ -161,7 +161,7 @@ void LanesThreads::operator()(std::size_t count, Task task) const {
 }
 
 void CallersThreads::operator()(std::size_t count, Task task) const {
-    assert(count <= kMostLanes);
+    if (count > kMostLanes) return LanesThreads(workspace_)(count, task);
     std::array<std::atomic<bool>, kMostLanes> begun{};
     const Handed handed = {task, count, &begun};
     if (workspace_.run != nullptr && count > 1) {

@@ -71,7 +71,8 @@ private:
     const cdprep_workspace& workspace_;
 };
 
-/// The caller's threads, as queries use them. Each task runs once, whatever `run` does.
+/// The caller's threads, as queries use them. Each task runs once, whatever `run` does. More than
+/// kMostLanes tasks are shared out as LanesThreads does, so none of them may throw.
 class CallersThreads {
 public:
     explicit CallersThreads(const cdprep_workspace& workspace) noexcept : workspace_(workspace) {}

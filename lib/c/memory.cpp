@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "c/memory.h"
 
+#include <array>
 #include <cassert>
 #include <cstdint>
+#include <cstdio>
 #include <new>
 
 namespace cdprep::c {
@@ -50,6 +52,19 @@ int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size, Me
     return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name,
                        "returned memory that does not start at a multiple of %d.",
                        CDPREP_ALIGNMENT);
+}
+
+int check_size(Call& call, const char* what, std::uint64_t needed, std::size_t& size) noexcept {
+    if (needed <= PTRDIFF_MAX) {
+        size = static_cast<std::size_t>(needed);
+        return CDPREP_OK;
+    }
+    std::array<char, 128> sentence{};
+    std::snprintf(sentence.data(), sentence.size(),
+                  "%s needs at least %llu bytes; memory holds at most %llu.", what,
+                  static_cast<unsigned long long>(needed),
+                  static_cast<unsigned long long>(PTRDIFF_MAX));
+    return call.fail(CDPREP_OVER_BUDGET, sentence.data());
 }
 
 OwnedMemory::~OwnedMemory() {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "c/call.h"
@@ -16,7 +18,8 @@ struct Memory {
 };
 
 /// Returns a size rounded up to a multiple of CDPREP_ALIGNMENT.
-constexpr std::size_t aligned(std::size_t size) noexcept {
+template <std::unsigned_integral Size>
+constexpr Size aligned(Size size) noexcept {
     return (size + CDPREP_ALIGNMENT - 1) / CDPREP_ALIGNMENT * CDPREP_ALIGNMENT;
 }
 
@@ -30,6 +33,10 @@ inline constexpr Name kAllocatorOfOptions = {"options", Name::kNone, "allocator"
 /// Allocates `size` bytes, aligned to CDPREP_ALIGNMENT. Allocates nothing for 0.
 int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size, Memory& memory,
              const Name& name = kAllocatorOfOptions) noexcept;
+
+/// Stores the size of a block that is needed for `what`, such as "The scene". Fails if no memory
+/// holds it. With 32 bits, limits may ask for more.
+int check_size(Call& call, const char* what, std::uint64_t needed, std::size_t& size) noexcept;
 
 void release(const Memory& memory) noexcept;
 

@@ -159,24 +159,27 @@ struct BroadPhase::State {
     State(Carver& carver, const BroadPhaseLimits& most) noexcept
         : limits(most),
           tree(carver, most.boxes),
-          exact(carver.take<float>(most.boxes * kPaddedBox)),
-          larger(carver.take<float>(most.boxes * kPaddedBox)),
-          previous(carver.take<float>(most.boxes * kPaddedBox)),
+          exact(carver.take<float>(numbers_of_boxes())),
+          larger(carver.take<float>(numbers_of_boxes())),
+          previous(carver.take<float>(numbers_of_boxes())),
           filters(carver.take<BoxFilter>(most.boxes)),
           leaves(carver.take<std::uint8_t>(most.boxes)),
-          numbers(carver.take<std::uint32_t>(numbers_of_thread() * most.threads)),
+          numbers(carver.take<std::uint32_t>(std::uint64_t{most.threads} * numbers_of_thread())),
           leavers(carver.take<std::uint32_t>(numbers_of_thread())),
           writers(carver.take<PairPages::Writer>(most.threads)),
-          pages(carver.take<BoxPair>(page_room())),
+          pages(carver.take<BoxPair>(PairPages::room_for(most.pairs, most.threads))),
           kept(carver.take<BoxPair>(most.pairs)),
-          found(carver.take<BoxPair>(page_room())) {}
+          found(carver.take<BoxPair>(PairPages::room_for(most.pairs, most.threads))) {}
 
+    [[nodiscard]] std::uint64_t numbers_of_boxes() const noexcept {
+        return std::uint64_t{limits.boxes} * kPaddedBox;
+    }
     /// Scratch of a thread: what a search finds, or the places of a sort.
     [[nodiscard]] std::size_t numbers_of_thread() const noexcept {
         return std::size_t{limits.boxes} + 1;
     }
     [[nodiscard]] std::size_t page_room() const noexcept {
-        return PairPages::room_for(limits.pairs, limits.threads);
+        return static_cast<std::size_t>(PairPages::room_for(limits.pairs, limits.threads));
     }
 
     BroadPhaseUpdate update_all(std::span<const WorldBox> boxes,

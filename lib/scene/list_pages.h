@@ -46,7 +46,7 @@ public:
     ListPages(Carver& carver, std::uint32_t most, std::uint32_t threads) noexcept
         : page_count_(most / kPage + threads),
           threads_(threads),
-          items_(carver.take<T>(page_count_ * kPage)),
+          items_(carver.take<T>(std::uint64_t{page_count_} * kPage)),
           next_page_(carver.take<std::size_t>(page_count_)),
           writers_(carver.take<Writer>(threads)) {}
 

@@ -16,9 +16,10 @@ namespace {
 
 constexpr float kLargest = std::numeric_limits<float>::max();
 
-/// The next float that is not above, or one below that.
+/// The next float that is not above, or one below that. NaN gives -infinity: a box of which nothing
+/// is known contains everything. Sums that overflow lead to NaN, and files opened unchecked.
 float rounded_down(double x) noexcept {
-    if (x < -double{kLargest}) return -std::numeric_limits<float>::infinity();
+    if (!(x >= -double{kLargest})) return -std::numeric_limits<float>::infinity();
     if (x > double{kLargest}) return kLargest;
     return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
 }

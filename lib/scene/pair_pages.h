@@ -19,8 +19,8 @@ public:
     static constexpr std::size_t kPage = 256;  ///< pairs
 
     /// Returns the room that `pairs` pairs of so many threads take at most.
-    static std::size_t room_for(std::size_t pairs, std::size_t threads) noexcept {
-        return (pairs / kPage + threads) * kPage;
+    static std::uint64_t room_for(std::uint32_t pairs, std::uint32_t threads) noexcept {
+        return (std::uint64_t{pairs} / kPage + threads) * kPage;
     }
 
     /// One thread's access.

@@ -6,6 +6,7 @@
 #include <new>
 #include <utility>
 
+#include "cdprep/format/float_environment.h"
 #include "cdprep/format/portable.h"
 #include "core/require.h"
 #include "scene/scene_state.h"
@@ -93,7 +94,7 @@ std::size_t Scene::size(const Plan& plan) noexcept {
     Carver carver(nullptr);
     carver.take_room<State>();
     const State measured(carver, plan);
-    return carver.used() + BroadPhase::size(broad_phase_limits(plan));
+    return saturated(std::uint64_t{carver.used()} + BroadPhase::size(broad_phase_limits(plan)));
 }
 
 std::size_t Scene::alignment() noexcept {
@@ -247,6 +248,7 @@ std::uint64_t SceneCounts::calls_of(Ask effect) const noexcept {
 }
 
 std::uint64_t Scene::state_hash() const noexcept {
+    const format::FloatEnvironment environment;
     Hash hash;
     const auto add_stream = [&](const auto& stream, const auto& add_result) {
         hash.add(std::uint64_t{stream.size()});

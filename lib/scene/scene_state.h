@@ -66,7 +66,8 @@ struct Scene::State {
           kernels(carver.take<PairKernel>(of.pairs().size())),
           ticks(carver.take<EffectTicks>(of.limits().threads)),
           hits(carver.take<SceneHit>(of.limits().pairs)),
-          events(carver.take<SceneEvent>(2 * effect_count(planned) * of.limits().pairs)),
+          events(carver.take<SceneEvent>(std::uint64_t{of.limits().pairs} * 2 *
+                                         effect_count(planned))),
           last(carver, of),
           next(carver, of) {
         const SceneLimits& limits = of.limits();
@@ -94,7 +95,7 @@ struct Scene::State {
             contacts = carver.take<SceneContacts>(limits.pairs);
             contact_pages.emplace(carver, limits.contacts, limits.threads);
             most_contacts = most_contacts_of(of);
-            contact_room = carver.take<Contact>(std::size_t{limits.threads} * most_contacts);
+            contact_room = carver.take<Contact>(std::uint64_t{limits.threads} * most_contacts);
         }
     }
 

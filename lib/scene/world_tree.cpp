@@ -106,7 +106,7 @@ std::array<float, kPaddedBox> box_around(const float* node) noexcept {
 }  // namespace
 
 WorldTree::WorldTree(Carver& carver, std::uint32_t most) noexcept
-    : nodes_(carver.take<float>(node_count(most) * kBoxNode)),
+    : nodes_(carver.take<float>(std::uint64_t{kBoxNode} * node_count(most))),
       box_at_(carver.take<std::uint32_t>(groups_of(most) * kLanes)),
       place_of_(carver.take<std::uint32_t>(most)),
       keys_(carver.take<std::uint64_t>(most)),

@@ -57,6 +57,15 @@ const [c, s] = [Math.fround(Math.cos(0.3)), Math.fround(Math.sin(0.3))];
 const floats = [c, s, 0, 0, -s, c, 0, 0, 0, 0, 1, 0, 1000, 0, 0, 1];
 assert.equal(model.collide(other, floats), false);
 refuses(() => model.collide(other, floats, { exact: true }), 2, "scales or shears");
+
+// A pose has no last row, so that of an exact matrix must be 0 0 0 1.
+for (const [i, wrong] of [[3, 0.5], [7, -1e-9], [11, NaN], [15, 2], [15, 0]]) {
+  const projecting = apart.map((x, k) => k === i ? wrong : x);
+  for (const ask of ["collide", "overlaps", "distance"]) {
+    refuses(() => model[ask](other, projecting, { exact: true }), 2, "its last row must be 0 0 0 1");
+  }
+}
+assert.equal(model.collide(other, apart.map((x, k) => k === 3 ? -0 : x), { exact: true }), false);
 refuses(() => model.collide(other, apart.map((x, i) => i < 15 ? 2 * x : x)), 2, "scales");
 refuses(() => model.collide(other, [1, 2, 3]), 2, "3 numbers; 16");
 refuses(() => model.collide({}), 2, "is not a model of this module");

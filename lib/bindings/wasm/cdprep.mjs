@@ -8,7 +8,7 @@
 //
 // A matrix has 16 numbers, column by column as in WebGL and three.js. It moves the other model into
 // this one's frame. Floats are taken: a matrix that is rigid but for 1e-5 is replaced by the nearest
-// rigid motion. With { exact: true } its numbers are used as they are.
+// rigid motion. With { exact: true } its numbers are used as they are; its last row must be 0 0 0 1.
 
 const TOLERANCE = 1e-5;
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];

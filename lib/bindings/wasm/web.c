@@ -2,6 +2,7 @@
 /* The C API with plain arguments, for cdprep.mjs: structs stay on this side. Numbers go through one
  * array. A function that fails returns less than 0, or null; then web_message() has the sentence.
  * There is one thread, so one workspace and one error serve all calls. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -73,6 +74,22 @@ int web_mesh(const cdprep_model* model, double* positions, size_t vertices, uint
     return -cdprep_model_mesh(model, &mesh, &error);
 }
 
+/* Refuses a matrix whose last row is not 0 0 0 1. A pose has no such row. */
+static int check_last_row(void) {
+    for (int column = 0; column < 4; ++column) {
+        const double number = numbers[4 * column + 3], expected = column == 3 ? 1 : 0;
+        if (number == expected) continue;
+        error.code = CDPREP_BAD_ARGUMENT;
+        error.why = CDPREP_WHY_NOT_RIGID;
+        strcpy(error.argument, "matrix");
+        snprintf(error.message, sizeof error.message,
+                 "The matrix projects: its last row must be 0 0 0 1, but number %d of it is %.17g.",
+                 column + 1, number);
+        return error.code;
+    }
+    return CDPREP_OK;
+}
+
 /* Places B by the matrix in the first 16 numbers, column by column as in WebGL. With the tolerance
  * 0, takes the numbers as they are. */
 static int place(const cdprep_model* a, const cdprep_model* b, double tolerance,
@@ -83,6 +100,7 @@ static int place(const cdprep_model* a, const cdprep_model* b, double tolerance,
     if (tolerance != 0) {
         return cdprep_pose_nearest(numbers, CDPREP_COLUMNS, tolerance, &pair->pose_b, &error);
     }
+    if (check_last_row()) return error.code;
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column) {
             pair->pose_b.rows[3 * row + column] = numbers[4 * column + row];

@@ -86,7 +86,8 @@ int read(Call& call, const Options* given, Asked& asked) noexcept {
                            kMostLanes);
     }
     asked.limits = {options.max_boxes, options.max_pairs, options.lanes};
-    asked.size = kStart + BroadPhase::size(asked.limits);
+    const std::uint64_t size = std::uint64_t{kStart} + BroadPhase::size(asked.limits);
+    if (const int code = check_size(call, "The broad phase", size, asked.size)) return code;
     asked.given_allocator = options.allocator;
     return read_allocator(call, name.of("allocator"), options.allocator, asked.allocator);
 }

@@ -38,72 +38,77 @@ constexpr std::array kFields = {
 
 static_assert(alignof(cdprep_scene) <= CDPREP_ALIGNMENT);
 
-/// The offset of each part of a scene's block.
+/// The offset of each part of a scene's block. With 32 bits, the block may be larger than memory,
+/// so nothing is computed in std::size_t.
 struct Layout {
     explicit Layout(const Plan& plan) noexcept
         : hits(aligned(sizeof(cdprep_scene))),
-          overlaps(hits + aligned(plan.limits().pairs * sizeof(cdprep_scene_hit))),
-          distances(overlaps +
-                    aligned(results_of(plan, Ask::overlap) * sizeof(cdprep_scene_overlap))),
-          contacts(distances +
-                   aligned(results_of(plan, Ask::distance) * sizeof(cdprep_scene_distance))),
-          contact_items(contacts +
-                        aligned(results_of(plan, Ask::contacts) * sizeof(cdprep_scene_contact))),
-          events(contact_items + aligned(contacts_of(plan) * sizeof(cdprep_contact))),
-          self_overlaps(events + aligned(events_of(plan) * sizeof(cdprep_event))),
-          impacts(self_overlaps +
-                  aligned(results_of(plan, Ask::self) * sizeof(cdprep_scene_self_overlap))),
-          bounded_distances(
-              impacts + aligned(results_of(plan, Ask::continuous) * sizeof(cdprep_scene_impact))),
-          models(bounded_distances +
-                 aligned(results_of(plan, Ask::haptic) * sizeof(cdprep_scene_bounded))),
-          scene(models + aligned(plan.limits().objects * sizeof(const cdprep_model*))),
-          scene_size(aligned(Scene::size(plan))),
+          overlaps(hits + room_of<cdprep_scene_hit>(plan.limits().pairs)),
+          distances(overlaps + room_of<cdprep_scene_overlap>(results_of(plan, Ask::overlap))),
+          contacts(distances + room_of<cdprep_scene_distance>(results_of(plan, Ask::distance))),
+          contact_items(contacts + room_of<cdprep_scene_contact>(results_of(plan, Ask::contacts))),
+          events(contact_items + room_of<cdprep_contact>(contacts_of(plan))),
+          self_overlaps(events + room_of<cdprep_event>(events_of(plan))),
+          impacts(self_overlaps + room_of<cdprep_scene_self_overlap>(results_of(plan, Ask::self))),
+          bounded_distances(impacts +
+                            room_of<cdprep_scene_impact>(results_of(plan, Ask::continuous))),
+          models(bounded_distances + room_of<cdprep_scene_bounded>(results_of(plan, Ask::haptic))),
+          scene(models + room_of<const cdprep_model*>(plan.limits().objects)),
+          scene_size(aligned(std::uint64_t{Scene::size(plan)})),
           size(scene + scene_size) {}
 
-    static std::size_t results_of(const Plan& plan, Ask effect) noexcept {
+    template <class T>
+    static std::uint64_t room_of(std::uint64_t count) noexcept {
+        return aligned(count * sizeof(T));
+    }
+    static std::uint64_t results_of(const Plan& plan, Ask effect) noexcept {
         return contains(plan.effects(), effect) ? plan.limits().pairs : 0;
     }
-    static std::size_t contacts_of(const Plan& plan) noexcept {
+    static std::uint64_t contacts_of(const Plan& plan) noexcept {
         return contains(plan.effects(), Ask::contacts) ? plan.limits().contacts : 0;
     }
     /// All effects of the last step end, and as many begin.
-    static std::size_t events_of(const Plan& plan) noexcept {
+    static std::uint64_t events_of(const Plan& plan) noexcept {
         const auto effects = static_cast<std::uint32_t>(without(plan.effects(), kSceneChanges));
-        return 2 * static_cast<std::size_t>(std::popcount(effects)) * plan.limits().pairs;
+        return 2 * static_cast<std::uint64_t>(std::popcount(effects)) * plan.limits().pairs;
     }
 
-    std::size_t hits;
-    std::size_t overlaps;
-    std::size_t distances;
-    std::size_t contacts;
-    std::size_t contact_items;
-    std::size_t events;
-    std::size_t self_overlaps;
-    std::size_t impacts;
-    std::size_t bounded_distances;
-    std::size_t models;
-    std::size_t scene;
-    std::size_t scene_size;
-    std::size_t size;
+    std::uint64_t hits;
+    std::uint64_t overlaps;
+    std::uint64_t distances;
+    std::uint64_t contacts;
+    std::uint64_t contact_items;
+    std::uint64_t events;
+    std::uint64_t self_overlaps;
+    std::uint64_t impacts;
+    std::uint64_t bounded_distances;
+    std::uint64_t models;
+    std::uint64_t scene;
+    std::uint64_t scene_size;
+    std::uint64_t size;
 };
+
+int find_size(Call& call, const Layout& layout, std::size_t& size) noexcept {
+    return check_size(call, "The scene", layout.size, size);
+}
 
 /// Makes an array in the block. Elements are written before they are read.
 template <class T>
-T* array_at(std::byte* block, std::size_t offset) noexcept {
+T* array_at(std::byte* block, std::uint64_t offset) noexcept {
     static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= CDPREP_ALIGNMENT);
     return reinterpret_cast<T*>(block + offset);
 }
 
 int make(Call& call, cdprep_plan& plan, const Given& given, cdprep_scene** to) noexcept {
     const Layout layout(plan.plan);
+    std::size_t size = 0;
+    if (const int code = find_size(call, layout, size)) return code;
     OwnedMemory own;
     std::byte* block = nullptr;
-    if (const int code = take_memory(call, given, layout.size, plan.allocator, own, block))
-        return code;
+    if (const int code = take_memory(call, given, size, plan.allocator, own, block)) return code;
     assert(Scene::alignment() <= CDPREP_ALIGNMENT);
-    std::optional<Scene> scene =
-        Scene::in_memory({block + layout.scene, layout.scene_size}, plan.plan);
+    std::optional<Scene> scene = Scene::in_memory(
+        {block + layout.scene, static_cast<std::size_t>(layout.scene_size)}, plan.plan);
     if (!scene) return call.fail(CDPREP_INTERNAL, "The scene does not fit into its own memory.");
     const SceneResults results = {array_at<cdprep_scene_hit>(block, layout.hits),
                                   array_at<cdprep_scene_overlap>(block, layout.overlaps),
@@ -317,8 +322,7 @@ int cdprep_scene_size(const cdprep_plan* plan, size_t* size, cdprep_error* error
     if (size != nullptr) *size = 0;
     if (const int code = call.need(plan, {"plan"})) return code;
     if (const int code = call.need(size, {"size"})) return code;
-    *size = cdprep::c::Layout(plan->plan).size;
-    return CDPREP_OK;
+    return cdprep::c::find_size(call, cdprep::c::Layout(plan->plan), *size);
 }
 
 int cdprep_scene_make(cdprep_plan* plan, void* memory, size_t size, cdprep_scene** scene,

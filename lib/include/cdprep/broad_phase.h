@@ -94,7 +94,8 @@ public:
     [[nodiscard]] CDPREP_API static std::optional<BroadPhase> in_memory(
         std::span<std::byte> memory, const BroadPhaseLimits& limits) noexcept;
     /// Returns the size in bytes: about 165 for each box, 24 for each pair and 4 KiB for each
-    /// thread. Each thread but the first adds 4 for each box.
+    /// thread. Each thread but the first adds 4 for each box. If std::size_t has 32 bits and the
+    /// size does not fit, returns a number of bytes that no memory has.
     [[nodiscard]] CDPREP_API static std::size_t size(const BroadPhaseLimits& limits) noexcept;
     [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two
 

@@ -203,7 +203,9 @@ public:
     [[nodiscard]] CDPREP_API static std::optional<Scene> in_memory(std::span<std::byte> memory,
                                                                    const Plan& plan) noexcept;
     static std::optional<Scene> in_memory(std::span<std::byte> memory, Plan&& plan) = delete;
-    [[nodiscard]] CDPREP_API static std::size_t size(const Plan& plan) noexcept;  ///< bytes
+    /// Returns the size in bytes. If std::size_t has 32 bits and the size does not fit, returns a
+    /// number of bytes that no memory has.
+    [[nodiscard]] CDPREP_API static std::size_t size(const Plan& plan) noexcept;
     [[nodiscard]] CDPREP_API static std::size_t alignment() noexcept;  ///< bytes, a power of two
 
     CDPREP_API Scene(Scene&&) noexcept;

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 #include "cdprep/format/sections.h"
 #include "cdprep/format/verdict.h"
@@ -156,6 +158,63 @@ TEST(FindDamage, NumbersMustBeFinite) {
                   DamageKind::bad_number);
         EXPECT_EQ(kind_of(damage_of(with(file, start_of(file, SectionId::bvh_nodes), value))),
                   DamageKind::bad_number);
+    }
+}
+
+// The largest and the smallest mesh have the extreme exponents, by hand: 2^1000 * 2^-1002 is 1/4,
+// and so is 2^-1074 * 2^1072.
+TEST(FindDamage, FrameExponentsAreThoseOfABake) {
+    const std::vector<Triangle> triangle = {{{0, 1, 2}}};
+    const auto exponent_of = [&](double low, double high) {
+        const std::vector<Double3> corners = {{low, low, 0}, {high, low, 0}, {low, high, 0}};
+        const AlignedBytes file = test::bake_tiny(corners, triangle, {.double_precision = true});
+        EXPECT_FALSE(find_deep_damage(file.span()));
+        return read_header(file.span()).frame_exponent;
+    };
+    EXPECT_EQ(exponent_of(-kMaxCoordinate, kMaxCoordinate), kMinFrameExponent);
+    EXPECT_EQ(exponent_of(0, std::numeric_limits<double>::denorm_min()), kMaxFrameExponent);
+    EXPECT_EQ(exponent_of(0, 0), 0);
+    const AlignedBytes cube = baked_cube();
+    const auto kind_with = [&](std::int32_t exponent) {
+        return kind_of(damage_of(with(cube, offsetof(FileHeader, frame_exponent), exponent)));
+    };
+    EXPECT_EQ(kind_with(kMinFrameExponent), DamageKind{0});
+    EXPECT_EQ(kind_with(kMaxFrameExponent), DamageKind{0});
+    for (const std::int32_t wrong :
+         {kMinFrameExponent - 1, kMaxFrameExponent + 1, -1100, 1100,
+          std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()}) {
+        EXPECT_EQ(kind_with(wrong), DamageKind::bad_header) << wrong;
+    }
+}
+
+// Two leaves: boxes 0 and 1 are used, the other six are not.
+TEST(FindDamage, BoxesLieInTheFrameAndAreOrdered) {
+    const AlignedBytes file = baked_cube();
+    const std::uint64_t nodes = start_of(file, SectionId::bvh_nodes);
+    const auto damage_with = [&](bool is_upper, std::uint64_t axis, std::uint64_t box, float x) {
+        const std::uint64_t row = is_upper ? offsetof(BvhNode, upper) : offsetof(BvhNode, lower);
+        return damage_of(with(file, nodes + row + 4 * (axis * kBvhWidth + box), x));
+    };
+    const float above = std::nextafter(1.0F, 2.0F);
+    for (std::uint64_t axis = 0; axis < 3; ++axis) {
+        for (std::uint64_t box = 0; box < kBvhWidth; ++box) {
+            for (const bool is_upper : {false, true}) {
+                for (const float wrong : {-above, above, -1e30F, 1e30F}) {
+                    const auto damage = damage_with(is_upper, axis, box, wrong);
+                    ASSERT_EQ(kind_of(damage), DamageKind::bad_box) << axis << " " << box;
+                    EXPECT_EQ(damage->section, SectionId::bvh_nodes);
+                    EXPECT_EQ(damage->at, nodes);
+                    EXPECT_EQ(damage->found, box);
+                }
+                const float nan = std::numeric_limits<float>::quiet_NaN();
+                EXPECT_EQ(kind_of(damage_with(is_upper, axis, box, nan)), DamageKind::bad_number);
+            }
+            const bool is_used = box < 2;
+            EXPECT_EQ(damage_with(false, axis, box, -1).has_value(), false);
+            EXPECT_EQ(damage_with(true, axis, box, 1).has_value(), false);
+            EXPECT_EQ(damage_with(false, axis, box, 1).has_value(), is_used);
+            EXPECT_EQ(damage_with(true, axis, box, -1).has_value(), is_used);
+        }
     }
 }
 

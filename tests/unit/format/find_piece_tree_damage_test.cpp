@@ -94,6 +94,17 @@ TEST(FindPieceTreeDamage, RefusesLeavesThatAreNoRunsOfTheirPiece) {
                       [](PieceLeaf& l) { l.piece += l.piece == 0 ? 1 : -1; });
 }
 
+TEST(FindPieceTreeDamage, RefusesBoxesThatAreInvertedOrLeaveTheFrame) {
+    constexpr auto kNodes = SectionId::piece_nodes;
+    for (const float wrong : {-1.5F, 1.5F, 1e30F}) {
+        expect<BvhNode>(DamageKind::bad_box, kNodes, 1, [&](BvhNode& n) { n.lower[2][1] = wrong; });
+        expect<BvhNode>(DamageKind::bad_box, kNodes, 1, [&](BvhNode& n) { n.upper[0][7] = wrong; });
+    }
+    expect<BvhNode>(DamageKind::bad_box, kNodes, 0, [](BvhNode& n) { n.upper[1][0] = -1; });
+    expect<BvhNode>(DamageKind::bad_number, kNodes, 0,
+                    [](BvhNode& n) { n.upper[1][0] = std::nanf(""); });
+}
+
 // By hand: what is sound to read is not right.
 TEST(FindPieceTreeDamage, DeepCheckRefusesBoundsThatAreTooSmall) {
     const auto damage_of = [](SectionId id, auto change) {

@@ -35,9 +35,9 @@ enum class DamageKind : std::uint32_t {
     bad_order = 15,        ///< runs, nodes or lists out of sequence, links that contradict each
                            ///< other, or names that do not end with a zero
     bad_box = 16,          ///< deep check: a box does not contain what lies below it. Safety check:
-                           ///< an octree's box has lower > upper or leaves the frame. Or a split
-                           ///< point lies outside its node's box, divides no axis, or is not zero
-                           ///< in a leaf.
+                           ///< a box of a BVH or an octree has lower > upper or leaves the frame.
+                           ///< Or a split point lies outside its node's box, divides no axis, or is
+                           ///< not zero in a leaf.
     bad_fact = 17,         ///< deep check: a recorded fact is false (corner, bounds, hash, number)
 };
 
@@ -71,9 +71,10 @@ struct Damage {
 /// Proves that a file is safe to query. Runs find_header_damage(). Then checks each present section
 /// in `wanted`: its checksum, its element count, every coordinate, and every index that queries
 /// follow. Numbers in the imported file, such as source_vertex, are not checked. Vertex coordinates
-/// must be finite and at most kMaxCoordinate in absolute value. A section that a present one
-/// requires must be present too, wanted or not. The one exception: missing boxes of a tetra-tree
-/// are found only if the tetra-tree is wanted. Returns nothing if no damage is found.
+/// must be finite and at most kMaxCoordinate in absolute value. Aligned boxes must lie in the
+/// frame. A section that a present one requires must be present too, wanted or not. The one
+/// exception: missing boxes of a tetra-tree are found only if the tetra-tree is wanted. Returns
+/// nothing if no damage is found.
 ///
 /// Sections outside `wanted` are not read. Sections that depend on each other are checked together,
 /// such as an octree's tables, nodes, grid and references. A section is not proven safe if `wanted`

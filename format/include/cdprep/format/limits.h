@@ -24,4 +24,10 @@ inline constexpr std::uint32_t kMaxSections = 120;  ///< entries that fit in the
 /// coordinates stay far below the largest double.
 inline constexpr double kMaxCoordinate = 0x1p1000;
 
+/// The limits of FileHeader::frame_exponent. Vertices that reach r from the origin of their frame
+/// get the exponent -2 - floor(log2 r), and r is 2^-1074 to kMaxCoordinate. So corners of boxes are
+/// at most 2^1002 from the origin in model units, far below the largest double.
+inline constexpr std::int32_t kMinFrameExponent = -1002;
+inline constexpr std::int32_t kMaxFrameExponent = 1072;
+
 }  // namespace cdprep::format

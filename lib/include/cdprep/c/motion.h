@@ -103,6 +103,7 @@ typedef struct cdprep_sweep cdprep_sweep;
 
 /* Stores the number of bytes that cdprep_sweep_make() needs: 24 per vertex and about 4
  * per triangle. On failure *size is 0.
+ * Errors: CDPREP_OVER_BUDGET: the sweep is larger than memory can be, with pointers of 32 bits.
  * Needs of the model: CDPREP_ASK_WITHIN, CDPREP_ASK_CORNERS */
 CDPREP_API int cdprep_sweep_size(const cdprep_model* model, size_t* size, cdprep_error* error);
 

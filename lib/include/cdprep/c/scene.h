@@ -195,7 +195,8 @@ typedef struct cdprep_object {
  * max_error. It is about 460 to 620 bytes for each object and 360 to 2,450 for each pair.
  * CDPREP_ASK_HAPTIC takes 2,300 more for each pair. CDPREP_ASK_OVERLAP and _SELF take 24 more for
  * each triangle pair, and 16 KiB for each lane. CDPREP_ASK_CONTACTS takes 1,630 more for each
- * contact, and 16 to 120 KiB for each lane. */
+ * contact, and 16 to 120 KiB for each lane. On failure *size is 0.
+ * Errors: CDPREP_OVER_BUDGET: the scene is larger than memory can be, with pointers of 32 bits. */
 CDPREP_API int cdprep_scene_size(const cdprep_plan* plan, size_t* size, cdprep_error* error);
 
 /* Makes an empty scene in the caller's memory. The memory must start at a multiple of
@@ -520,7 +521,9 @@ CDPREP_API void cdprep_broad_phase_options_init(cdprep_broad_phase_options* opti
 
 /* Stores the number of bytes that cdprep_broad_phase_make() needs for these options. It is about
  * 165 for each box, 24 for each pair and 4 KiB for each lane. Each lane but the first adds 4 for
- * each box. `options` may be null. */
+ * each box. `options` may be null. On failure *size is 0. Errors: those of
+ * cdprep_broad_phase_make(). CDPREP_OVER_BUDGET also means that the broad phase is larger than
+ * memory can be, with pointers of 32 bits. */
 CDPREP_API int cdprep_broad_phase_size(const cdprep_broad_phase_options* options, size_t* size,
                                        cdprep_error* error);
 

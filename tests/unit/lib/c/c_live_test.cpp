@@ -2,10 +2,12 @@
 // Live models through the C API: their answers, and what a caller can get wrong.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -166,6 +168,51 @@ TEST(CLiveModel, ARebuildKeepsNumbersAndCorners) {
         ASSERT_EQ(cdprep_model_corners(live.model(), &i, 1, &corners, nullptr), CDPREP_OK);
         EXPECT_EQ(corners.vertex[2], cloud.triangles[i].vertex[2]);
         EXPECT_EQ(corners.point[2][0], cloud.positions[cloud.triangles[i].vertex[2]].x);
+    }
+}
+
+/// Counts the rays from above that miss a strip or hit it elsewhere than at this height. Every run
+/// of 64 leaves gets a ray or more.
+std::size_t wrong_heights(const cdprep_model* strip, std::uint32_t length, double height,
+                          cdprep_workspace* workspace) {
+    std::vector<cdprep_ray> rays;
+    for (std::uint32_t i = 0; i < length; i += 128) {
+        rays.push_back({{0.25, i + 0.25, 100}, {0, 0, -1}, 1000});
+    }
+    std::vector<cdprep_ray_hit> hits(rays.size());
+    cdprep_ray_query query;
+    cdprep_ray_query_init(&query, sizeof query);
+    query.model = strip;
+    query.rays = rays.data();
+    query.count = rays.size();
+    EXPECT_EQ(cdprep_rays_cast(&query, workspace, hits.data(), nullptr), CDPREP_OK);
+    return static_cast<std::size_t>(
+        std::count_if(hits.begin(), hits.end(), [&](const cdprep_ray_hit& hit) {
+            return hit.found == CDPREP_NO || hit.point[2] != height;
+        }));
+}
+
+// The tasks of a move are more than the most lanes: one for 4,096 vertices or 4,096 triangles. The
+// strip is flat, so its height is known everywhere. A `run` that skips tasks changes nothing.
+TEST(CLiveModel, AMoveOfAMillionTrianglesReachesAllOfThem) {
+    constexpr std::uint32_t kLength = 524'289;  // 1,048,578 triangles and 1,048,580 vertices
+    TestMesh strip = grid_sheet(1, kLength);
+    ASSERT_GT(strip.triangles.size(), 1U << 20);
+    const CLanes one(1), three(3, run_badly);
+    cdprep_build_options options = build_options_of(strip);
+    options.ask = CDPREP_ASK_OVERLAP | CDPREP_ASK_CORNERS | CDPREP_ASK_DEFORM | CDPREP_ASK_RAY;
+    const CBuilt base(options, one.get());
+    CLive live(options_for(base.get()));
+    std::vector<std::uint32_t> all(strip.positions.size());
+    std::iota(all.begin(), all.end(), 0U);
+    double height = 0;
+    for (cdprep_workspace* const workspace : {one.get(), three.get()}) {
+        for (const std::vector<std::uint32_t>& vertices : {std::vector<std::uint32_t>{}, all}) {
+            height += 1;
+            for (Double3& p : strip.positions) p.z = height;
+            live.move(vertices, strip.positions, workspace);
+            EXPECT_EQ(wrong_heights(live.model(), kLength, height, one.get()), 0U) << height;
+        }
     }
 }
 

@@ -102,6 +102,18 @@ TEST(ObjectBox, AroundAWayHoldsTheModelAtAllTimes) {
     EXPECT_GT(outside, 1000);
 }
 
+// The largest reach overflows: 0 times infinity is no number. Then the box is around all points.
+TEST(ObjectBox, AroundMoreThanNumbersHoldIsEverything) {
+    const test::OpenModel ball = test::open_tiny(test::icosphere(1));
+    const RootBox root = root_box(ball.model, {}, std::numeric_limits<double>::max());
+    const WorldBox box = world_box(root, {});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        EXPECT_EQ(box.lower[axis], -std::numeric_limits<float>::infinity());
+        EXPECT_EQ(box.upper[axis], std::numeric_limits<float>::infinity());
+    }
+    EXPECT_TRUE(may_meet(root, root_box(ball.model, {}, 0)));
+}
+
 TEST(ObjectBoxDeathTest, AReachThatIsNoLengthEndsTheProgram) {
     const test::OpenModel ball = test::open_tiny(test::icosphere(1));
     for (const double reach : {-1.0, -0x1p-1060, std::numeric_limits<double>::infinity(),
