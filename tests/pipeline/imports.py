@@ -165,6 +165,64 @@ def wrong_numbers_of_3mf(program, folder):
     refused(program, folder / "bad.3mf", "12 finite numbers")
 
 
+def damaged_parts_of_3mf(program, folder):
+    """One digit of a part is changed, so that its checksum is wrong."""
+    root = placed('<item objectid="1"/>')
+    with zipfile.ZipFile(folder / "stored.3mf", "w", zipfile.ZIP_STORED) as archive:
+        archive.writestr("_rels/.rels", RELATIONSHIPS)
+        archive.writestr("3D/3dmodel.model", root)
+    whole = (folder / "stored.3mf").read_bytes()
+    must(validated(program, folder / "stored.3mf")["triangles"] == 2, "a stored package")
+    (folder / "stored.3mf").write_bytes(whole.replace(b'y="2"', b'y="9"'))
+    refused(program, folder / "stored.3mf", "3D/3dmodel.model", "CRC")
+
+
+def source(name, values, stride, parameter):
+    return (f'<source id="{name}">{values}<technique_common><accessor source="#{name}a" count="1" '
+            f'stride="{stride}"><param {parameter}/></accessor></technique_common></source>')
+
+
+# A triangle whose only bone is 5 away.
+SKIN = ('<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"><asset/>'
+        '<library_geometries><geometry id="g"><mesh><source id="p"><float_array id="pa" count="9">'
+        '0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source="#pa" count="3" '
+        'stride="3"><param name="X" type="float"/><param name="Y" type="float"/>'
+        '<param name="Z" type="float"/></accessor></technique_common></source><vertices id="v">'
+        '<input semantic="POSITION" source="#p"/></vertices><triangles count="1">'
+        '<input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh>'
+        '</geometry></library_geometries><library_controllers><controller id="c">'
+        '<skin source="#g">' +
+        source("j", '<Name_array id="ja" count="1">bone</Name_array>', 1,
+               'name="JOINT" type="name"') +
+        source("b", '<float_array id="ba" count="16">1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</float_array>',
+               16, 'name="TRANSFORM" type="float4x4"') +
+        source("w", '<float_array id="wa" count="1">1</float_array>', 1,
+               'name="WEIGHT" type="float"') +
+        '<joints><input semantic="JOINT" source="#j"/>'
+        '<input semantic="INV_BIND_MATRIX" source="#b"/></joints><vertex_weights count="3">'
+        '<input semantic="JOINT" source="#j" offset="0"/>'
+        '<input semantic="WEIGHT" source="#w" offset="1"/><vcount>1 1 1</vcount>'
+        '<v>0 0 0 0 0 0</v></vertex_weights></skin></controller></library_controllers>'
+        '<library_visual_scenes><visual_scene id="s"><node id="n"><instance_controller url="#c">'
+        '<skeleton>#bone</skeleton></instance_controller></node><node id="bone" sid="bone" '
+        'type="JOINT"><translate>5 0 0</translate></node></visual_scene></library_visual_scenes>'
+        '<scene><instance_visual_scene url="#s"/></scene></COLLADA>')
+
+
+def skins_that_are_not_applied(program, folder):
+    """Every command that reads such a mesh says so."""
+    file = folder / "skin.dae"
+    file.write_text(SKIN)
+    words = "1 mesh has a skin or morph weights, which are not applied"
+    must(words in validated(program, file)["remarks"][0], "validate is silent on a skin")
+    done = run(program, "bake", file, "-o", folder / "skin.cdp.h5")
+    must(done.returncode == 0 and words in done.stdout, f"bake: {done.stdout}{done.stderr}")
+    for command in (["hull", "-o", folder / "h.obj"], ["repair", "-o", folder / "r.obj"],
+                    ["decompose"]):
+        done = run(program, command[0], file, *command[1:])
+        must(words in done.stderr, f"{command} is silent on a skin: {done.stdout}{done.stderr}")
+
+
 def missing_parts(program, folder):
     (folder / "s.lws").write_text("LWSC\n3\n\nLoadObjectLayer 1 gone.lwo\nShowObject 5 7\n\n"
                                   "LoadObjectLayer 1 lost.lwo\nShowObject 5 7\n")
@@ -232,6 +290,8 @@ def main():
         else:
             corners_of_3mf_files(program, folder)
         wrong_numbers_of_3mf(program, folder)
+        damaged_parts_of_3mf(program, folder)
+        skins_that_are_not_applied(program, folder)
         missing_parts(program, folder)
         empty_files(program, folder)
         sources_and_units(program, folder)

@@ -34,7 +34,7 @@ struct BakeReport {
     std::string repaired;               ///< the preset, or empty
     std::vector<std::string> promises;  ///< the guarantees of queries on it, as promise_words()
     bool crossings_complete = true;     ///< all pairs of triangles were examined
-    std::vector<std::string> remarks;   ///< on colliders left out, and limits reached
+    std::vector<std::string> remarks;   ///< on the import, colliders left out, limits reached
     std::uint64_t warnings = 0;         ///< rules that found a warning or an error
     bool single_precision = false;
     std::vector<StructureReport> structures;

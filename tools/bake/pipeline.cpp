@@ -302,7 +302,9 @@ private:
         report_.promises = report::promise_words(found_.defects.defects.verdicts[0]);
         report_.warnings = count_warnings(found_.defects);
         report_.crossings_complete = found_.defects.defects.crossings_complete;
-        report_.remarks = found_.defects.remarks;
+        report_.remarks = soup_.remarks;
+        const std::vector<std::string>& found = found_.defects.remarks;
+        report_.remarks.insert(report_.remarks.end(), found.begin(), found.end());
         if (!repair_.worse.empty()) {
             report_.remarks.push_back("The repair made crossings: " + repair_.worse + ".");
         }

@@ -92,6 +92,7 @@ Result<mesh::TriangleSoup> load_soup(const std::filesystem::path& input,
     if (!imported) return imported.error();
     mesh::TriangleSoup soup = std::move(imported).value();
     if (const auto error = find_refusal(input, soup)) return *error;
+    if (options.tell) std::for_each(soup.remarks.begin(), soup.remarks.end(), options.tell);
     heed_colliders(soup, options);
     if (options.normalize) mesh::normalize(soup);
     if (const auto error = find_wide_weld(input, soup, options.weld_distance)) return *error;

@@ -27,7 +27,8 @@ struct LoadOptions {
     bool normalize = false;
     double weld_distance = 0;        ///< model units
     bool without_colliders = false;  ///< leaves out what leave_out_colliders() does
-    /// Called with sentences about colliders that stay a part of the mesh. May be empty.
+    /// Called with the remarks of the import, and with sentences about colliders that stay a part
+    /// of the mesh. May be empty.
     std::function<void(const std::string&)> tell;
     import::ImportOptions import;
 };

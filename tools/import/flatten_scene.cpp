@@ -232,7 +232,8 @@ private:
                 const auto mesh = element<std::uint32_t>(arrays_.node_meshes, next_mesh++);
                 if (mesh >= meshes_.size()) return false;
                 if (meshes_[mesh].triangle_count == 0) continue;
-                uses_.push_back({mesh, i, model_from_node_.back()});
+                uses_.push_back(
+                    {mesh, i, node.is_posed == 1 ? kIdentity : model_from_node_.back()});
             }
         }
         return true;
@@ -309,6 +310,11 @@ private:
 
     void describe(std::span<const Use> uses, mesh::TriangleSoup& soup) const {
         for (const std::string& name : other_files_) soup.other_files.push_back({name, 0});
+        if (const std::uint64_t count = arrays_.header.unposed_meshes; count > 0) {
+            soup.remarks.push_back(
+                std::to_string(count) + (count == 1 ? " mesh has" : " meshes have") +
+                " a skin or morph weights, which are not applied: vertices stay as stored.");
+        }
         soup.metres_per_unit =
             std::isfinite(arrays_.header.metres_per_unit) && arrays_.header.metres_per_unit > 0
                 ? arrays_.header.metres_per_unit

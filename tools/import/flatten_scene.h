@@ -23,7 +23,7 @@ struct MeshNode {
     std::uint32_t number = 0;           ///< depth first
     std::string path;                   ///< "root/arm/hand"; several nodes may have the same
     std::vector<std::uint32_t> meshes;  ///< those with triangles; equal lists are equal geometry
-    Affine world_from_node{};
+    Affine world_from_node{};           ///< of its meshes: the identity if a skin places them
 };
 
 /// A use of a node's meshes, moved by `model_from_mesh` instead of the node's own transform.

@@ -12,6 +12,7 @@
 #include "import/file_kind.h"
 #include "import/readers.h"
 #include "import/source_file.h"
+#include "mesh/half_edges.h"
 
 namespace cdprep::import {
 namespace {
@@ -46,6 +47,11 @@ Error empty(const SourceFile& file, const mesh::TriangleSoup& soup) {
                            ". Check the file, or give --allow-empty to accept it");
 }
 
+Error too_many(const SourceFile& file, std::size_t triangles) {
+    return file.over_budget("has " + std::to_string(triangles) + " triangles; at most " +
+                            std::to_string(mesh::kMostMeshTriangles) + " are allowed");
+}
+
 }  // namespace
 
 std::optional<Error> note_files(const SourceFile& file, const std::filesystem::path& path,
@@ -70,6 +76,9 @@ Result<mesh::TriangleSoup> import_file(const std::filesystem::path& path,
         Result<mesh::TriangleSoup> soup = read(file, path, options);
         if (!soup) return soup;
         if (soup->triangles.empty() && !options.allow_empty) return empty(file, *soup);
+        if (soup->triangles.size() > mesh::kMostMeshTriangles) {
+            return too_many(file, soup->triangles.size());
+        }
         if (const auto error = note_files(file, path, options, *soup)) return *error;
         if (options.metres_per_unit) soup->metres_per_unit = *options.metres_per_unit;
         if (options.up_axis) soup->up_axis = *options.up_axis;

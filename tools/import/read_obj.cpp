@@ -65,7 +65,7 @@ public:
     std::optional<Fault> read() {
         while (at_ < end_) {
             const char first = *at_;
-            const bool one_letter = at_ + 1 < end_ && is_blank(at_[1]);
+            const bool one_letter = ends_word(at_ + 1, end_);
             if (first == 'v' && one_letter) {
                 ++at_;
                 if (!read_vertex()) return std::move(fault_);
@@ -219,7 +219,7 @@ Result<mesh::TriangleSoup> read_obj(const SourceFile& file, const ImportOptions&
                                " is zero: the file is not OBJ text");
     }
     const std::vector<std::string_view> texts =
-        split_lines(file.bytes(),
+        split_lines(without_byte_order_mark(file.bytes()),
                     [&](const char* line, const char*) { return !is_continued(begin, line - 1); });
     std::vector<PolygonChunk> chunks(texts.size());
     std::vector<std::optional<Fault>> faults(texts.size());
@@ -237,6 +237,7 @@ Result<mesh::TriangleSoup> read_obj(const SourceFile& file, const ImportOptions&
 
 bool looks_like_obj(std::string_view bytes) noexcept {
     constexpr std::size_t kLookedAt = 65536;
+    bytes = without_byte_order_mark(bytes);
     const bool is_cut = bytes.size() > kLookedAt;
     const char* at = bytes.data();
     const char* const end = at + std::min(bytes.size(), kLookedAt);

@@ -33,6 +33,7 @@ std::size_t keyword_length(const char* at, const char* end) noexcept {
 
 /// Reads the header: an optional keyword, the counts of vertices and faces, and perhaps of edges.
 std::optional<Fault> read_header(std::string_view text, Header& header) {
+    text = without_byte_order_mark(text);
     const char* const end = text.data() + text.size();
     const char* at = next_row(text.data(), end);
     if (const std::size_t length = keyword_length(at, end)) {
@@ -255,6 +256,7 @@ Result<mesh::TriangleSoup> read_off(const SourceFile& file, const ImportOptions&
 
 bool looks_like_off(std::string_view bytes) noexcept {
     constexpr std::size_t kLookedAt = 65536;
+    bytes = without_byte_order_mark(bytes);
     const char* const end = bytes.data() + std::min(bytes.size(), kLookedAt);
     const char* const at = next_row(bytes.data(), end);
     const std::size_t length = keyword_length(at, end);

@@ -2,10 +2,12 @@
 #include "import/readers.h"
 
 #include <cstddef>
+#include <string_view>
 #include <utility>
 
 #include "import/join_chunks.h"
 #include "import/read_ply_body.h"
+#include "import/text_chunks.h"
 
 namespace cdprep::import {
 
@@ -23,10 +25,10 @@ void add_strip(const std::vector<std::int64_t>& strip, PolygonChunk& chunk) {
 }
 
 Result<mesh::TriangleSoup> read_ply(const SourceFile& file, const ImportOptions& options) {
-    if (!file.bytes().starts_with("ply")) {
-        return file.unreadable(
-            "line 1: a PLY file begins with 'ply', not with " +
-            quoted_word(file.bytes().data(), file.bytes().data() + file.bytes().size()));
+    const std::string_view bytes = without_byte_order_mark(file.bytes());
+    if (!bytes.starts_with("ply")) {
+        return file.unreadable("line 1: a PLY file begins with 'ply', not with " +
+                               quoted_word(bytes.data(), bytes.data() + bytes.size()));
     }
     const Result<PlyHeader> header = read_ply_header(file);
     if (!header) return header.error();

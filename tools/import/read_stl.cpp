@@ -81,6 +81,15 @@ const char* skip_space(const char* at, const char* end) noexcept {
     return at;
 }
 
+/// Returns the place of a lower-case word, in upper or lower case, or `end`.
+const char* find_word(std::string_view lower, const char* at, const char* end) noexcept {
+    at = skip_space(at, end);
+    while (at < end && !is_word(word_at(at, end), lower)) {
+        at = skip_space(at + word_at(at, end).size(), end);
+    }
+    return at;
+}
+
 /// Reads facets word by word, because some files have a whole facet on one line. Words without a
 /// position (normals, loops) are skipped.
 class StlChunkReader {
@@ -176,17 +185,41 @@ private:
         return true;
     }
 
+    /// Returns the end of a solid's name at at_: the end of the line, or the first facet if a whole
+    /// facet follows on the line. Names may have any words, and some files any number of solids on
+    /// a line.
+    [[nodiscard]] const char* end_of_name() const {
+        const char* const line_end = next_line(at_, end_);
+        const char* facet = line_end;
+        bool has_vertex = false;
+        for (const char* at = skip_space(at_, line_end); at < line_end;) {
+            const std::string_view word = word_at(at, line_end);
+            if (is_word(word, "endfacet") && has_vertex) return facet;
+            if (is_word(word, "facet")) {
+                facet = at;
+                has_vertex = false;
+            }
+            has_vertex = has_vertex || (facet < line_end && is_word(word, "vertex"));
+            at = skip_space(at + word.size(), line_end);
+        }
+        return line_end;
+    }
+
     void start_solid() {
-        const std::string_view name = trimmed_line(at_, end_);
+        const char* const name_end = end_of_name();
+        const std::string_view name = trimmed_line(at_, name_end);
         const auto triangle = static_cast<std::uint32_t>(chunk_.positions.size() / 3);
         chunk_.groups.push_back({triangle, std::string(name)});
         saw_end_ = false;
-        at_ = next_line(at_, end_);
+        at_ = name_end;
     }
 
+    /// Another solid may begin on the line.
     void end_solid() {
         saw_end_ = true;
-        at_ = next_line(at_, end_);
+        const char* const name_end = end_of_name();
+        const bool is_whole_line = name_end == next_line(at_, end_);
+        at_ = is_whole_line ? name_end : find_word("solid", at_, name_end);
     }
 
     void add_triangles() {
@@ -211,7 +244,8 @@ bool starts_facet(const char* line, const char* end) noexcept {
 }
 
 Result<mesh::TriangleSoup> read_text(const SourceFile& file, const ImportOptions& options) {
-    const std::vector<std::string_view> texts = split_lines(file.bytes(), starts_facet);
+    const std::vector<std::string_view> texts =
+        split_lines(without_byte_order_mark(file.bytes()), starts_facet);
     std::vector<PolygonChunk> chunks(texts.size());
     std::vector<std::optional<Fault>> faults(texts.size());
     std::vector<std::uint8_t> ended(texts.size(), 0);
@@ -241,12 +275,15 @@ bool is_binary_stl(std::string_view bytes) noexcept {
 
 bool looks_like_text_stl(std::string_view bytes) noexcept {
     constexpr std::size_t kLookedAt = 1024;  // names may be long
+    bytes = without_byte_order_mark(bytes);
     const char* const end = bytes.data() + std::min(bytes.size(), kLookedAt);
     const char* at = skip_space(bytes.data(), end);
-    if (!is_word(word_at(at, end), "solid")) return false;
+    const std::string_view first = word_at(at, end);
+    if (!is_word(first, "solid")) return false;
     if (std::find(at, end, '\0') != end) return false;
     if (bytes.size() < kHeaderBytes) return true;
-    for (at = next_line(at, end); at < end; at = skip_space(at, end)) {
+    // The first line may have a facet too.
+    for (at = skip_space(at + first.size(), end); at < end; at = skip_space(at, end)) {
         const std::string_view word = word_at(at, end);
         if (is_word(word, "facet") || is_word(word, "endsolid")) return true;
         at += word.size();

@@ -8,6 +8,8 @@
 
 namespace cdprep::import {
 
+// Text may begin with the byte order mark of UTF-8.
+
 /// Reads Wavefront OBJ: v and f in all spellings, g, o and usemtl. Lines may end in LF or CR LF,
 /// and a backslash may continue them. Everything else (normals, points, lines, free forms) is
 /// skipped. Faces may use later vertices.
@@ -39,7 +41,8 @@ namespace cdprep::import {
                                                   const ImportOptions& options);
 
 /// Reads STL, binary or text. Every triangle has three vertices of its own;
-/// normals and colours are skipped; the solids of a text file are its groups.
+/// normals and colours are skipped; the solids of a text file are its groups. A solid may be one
+/// line, and a line may have several.
 ///
 /// A file is binary if its length matches its count, whatever its first word is. Otherwise
 /// looks_like_text_stl() decides. Fails with `unreadable` on a binary file of another length and

@@ -27,6 +27,8 @@ struct SceneHeader {
     std::uint32_t up_axis;      ///< format::UpAxis
     double metres_per_unit;     ///< 0: the file has no unit
     std::uint64_t input_bytes;  ///< of all files opened
+    /// Meshes with a skin or morph weights that were not applied.
+    std::uint64_t unposed_meshes;
     // Arrays follow, in this order:
     std::uint64_t mesh_count;       ///< SceneMesh
     std::uint64_t node_count;       ///< SceneNode, parents before children, depth first
@@ -62,10 +64,10 @@ struct SceneNode {
     std::uint32_t parent;                     ///< kNoParent for the root
     std::uint32_t mesh_count;
     std::uint32_t name_bytes;
-    std::uint32_t reserved;  ///< zero
+    std::uint32_t is_posed;  ///< 1: its meshes are in the model's space, placed by a skin
 };
 
-static_assert(sizeof(SceneHeader) == 104 && std::is_trivially_copyable_v<SceneHeader>);
+static_assert(sizeof(SceneHeader) == 112 && std::is_trivially_copyable_v<SceneHeader>);
 static_assert(sizeof(SceneMesh) == 32 && std::is_trivially_copyable_v<SceneMesh>);
 static_assert(sizeof(SceneNode) == 144 && std::is_trivially_copyable_v<SceneNode>);
 

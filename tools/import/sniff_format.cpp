@@ -3,6 +3,7 @@
 
 #include "import/mesh_endings.h"
 #include "import/readers.h"
+#include "import/text_chunks.h"
 
 namespace cdprep::import {
 namespace {
@@ -13,6 +14,7 @@ bool has_scene_magic(std::string_view bytes) {
 }
 
 bool has_ply_magic(std::string_view bytes) {
+    bytes = without_byte_order_mark(bytes);
     return bytes.starts_with("ply\n") || bytes.starts_with("ply\r");
 }
 

@@ -16,6 +16,12 @@ namespace cdprep::import {
 /// second-level cache.
 inline constexpr std::size_t kChunkBytes = std::size_t{1} << 19;
 
+/// Returns the text without the byte order mark of UTF-8, with which some editors begin a file.
+constexpr std::string_view without_byte_order_mark(std::string_view text) noexcept {
+    constexpr std::string_view kMark = "\xef\xbb\xbf";
+    return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
 constexpr bool is_blank(char c) noexcept {
     return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }

@@ -44,7 +44,7 @@ struct InputFile {
 ///
 /// Triangles are in source order: nodes depth first, faces in file order, the triangles of an
 /// n-gon one after the other. The position of a triangle is its source number. A triangle with a
-/// corner out of range keeps its position; all its corners are vertex 0, and `bad_numbers` lists
+/// corner out of range keeps its position; all its corners are vertex 0, and `out_of_range` lists
 /// it.
 struct TriangleSoup {
     std::vector<Double3> positions;   ///< model units, node transforms applied
@@ -62,8 +62,11 @@ struct TriangleSoup {
     std::vector<InputFile> other_files;  ///< files that it refers to and that were read, by name
     double metres_per_unit = 0;          ///< 0: unknown
     format::UpAxis up_axis = format::UpAxis::unknown;
+    std::vector<std::string> remarks;    ///< sentences on content that the import did not apply
     std::vector<BadNumber> bad_numbers;  ///< the first 1000 at most, lowest first
     std::uint64_t bad_number_count = 0;  ///< of all bad numbers
+    /// All triangles with a corner out of range, ascending; bad_numbers may lack some.
+    std::vector<std::uint32_t> out_of_range;
 };
 
 /// A mesh with shared vertices: every stored vertex is used, and no two are equal.

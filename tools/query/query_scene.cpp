@@ -195,7 +195,7 @@ private:
             std::move(options), style_, threads_);
         if (!loaded.errors.empty()) return fail_all("query", loaded.errors);
         models_ = std::move(loaded.models);
-        for (const std::string& line : scenes::kept_colliders(scene(), models_)) {
+        for (const std::string& line : scenes::import_lines(scene(), models_)) {
             std::cerr << "cdprep query: " << line << '\n';
         }
         return std::nullopt;

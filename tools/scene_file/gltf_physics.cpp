@@ -229,16 +229,9 @@ private:
         }
         if (!node.collider && !node.trigger) return;
         if (const Element skin = element.find("skin")) {
-            findings_.not_taken("a skin; the mesh is used as it is stored", skin->pointer());
+            findings_.not_taken("a skin that moves; the mesh keeps the pose of the file",
+                                skin->pointer());
         }
-        list_weights(element);
-        if (node.mesh) list_weights(meshes_[*node.mesh]);
-    }
-
-    void list_weights(const JsonElement& owner) {
-        const Element weights = owner.find("weights");
-        if (!weights) return;
-        findings_.not_taken("morph weights; the mesh is used as it is stored", weights->pointer());
     }
 
     std::optional<GltfMotion> read_motion(const JsonElement& element) {

@@ -314,7 +314,9 @@ private:
         if (!pose) return false;
         AssemblyModel model;
         for (const std::uint32_t member : joined) {
-            model.push_back({places_[member].object, in_frame(*pose, world_from(member))});
+            const std::uint32_t object = places_[member].object;
+            const Affine& world_from_mesh = assembly_.file.nodes()[object].world_from_node;
+            model.push_back({object, in_frame(*pose, world_from_mesh)});
             if (member != joined[0]) places_[member].new_object = kNone;
         }
         keep_joined(mover, joined[0], *pose, std::move(model));

@@ -35,6 +35,7 @@ struct SceneModel {
     /// Of a mesh file that was baked now: nodes and groups that engines collide with and do not
     /// show. They are a part of the model.
     std::vector<std::string> colliders;
+    std::vector<std::string> remarks;  ///< of the import of a mesh file that was baked now
 };
 
 struct LoadOptions {
@@ -65,9 +66,10 @@ struct LoadedModels {
                                        LoadOptions options, cli::ProgressStyle style,
                                        const cli::Threads& threads);
 
-/// Returns a line for each mesh file that has colliders as a part of its model.
-[[nodiscard]] std::vector<std::string> kept_colliders(const SceneFile& scene,
-                                                      const std::vector<SceneModel>& models);
+/// Returns lines about the mesh files that were baked now: a line for each remark of an import, and
+/// one for each file that has colliders as a part of its model.
+[[nodiscard]] std::vector<std::string> import_lines(const SceneFile& scene,
+                                                    const std::vector<SceneModel>& models);
 
 /// Returns what the enclosing parts of baked files certify, for a first compile_scene(). These uses
 /// serve everything else. Reads the hulls of the files if a pair of layers permits an error of

@@ -68,6 +68,7 @@ void examine(Validation& result, const Input& input, const ValidationOptions& op
     if (!imported) return fail(report, imported.error(), known);
     if (is_interrupted()) return;
     result.soup = std::move(imported).value();
+    report.remarks = result.soup.remarks;
     if (options.leaves_out_colliders) {
         const std::vector<std::string> colliders = leave_out_colliders(result.soup);
         if (!colliders.empty()) report.remarks.push_back(left_out_text(colliders));

@@ -27,7 +27,7 @@ struct ValidationReport {
     mesh::DefectReport defects;
     std::vector<Judgement> judgements;  ///< one per finding
     std::uint64_t known = 0;            ///< findings that the baseline also contains
-    std::vector<std::string> remarks;   ///< on colliders left out, limits, comparisons by count
+    std::vector<std::string> remarks;   ///< on imports, colliders left out, limits, comparisons
     std::vector<std::string> node_of_triangle_run;  ///< node paths, one per instance
     std::vector<std::uint32_t> first_triangle;      ///< of each instance, ascending
     double seconds = 0;

@@ -6,8 +6,10 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <assimp/DefaultLogger.hpp>
 #include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -43,6 +45,27 @@ private:
     InputFiles& files_;
 };
 
+/// Keeps the first message of assimp that it skipped a mesh or node of a COLLADA file. It then
+/// returns the rest as if the file were whole.
+class SkippedParts : public Assimp::LogStream {
+public:
+    void write(const char* message) override {
+        const std::string_view text(message);
+        for (const std::string_view start : {"Unable to find geometry", "Unable to resolve ref"}) {
+            const std::size_t at = text.find(start);
+            if (!first_.empty() || at == text.npos) continue;
+            first_ = text.substr(at, std::min(text.find(". Skip"), text.find('\n')) - at);
+        }
+    }
+
+    [[nodiscard]] const std::string& first() const noexcept {
+        return first_;
+    }
+
+private:
+    std::string first_;
+};
+
 std::string_view text_of(const aiString& text) {
     return {text.data, std::min<std::size_t>(text.length, sizeof text.data)};
 }
@@ -61,6 +84,14 @@ Scene::Mesh to_mesh(const aiMesh& mesh) {
                               face.mIndices + face.mNumIndices);
     }
     return result;
+}
+
+/// Returns true if bones or morph targets would move vertices of a mesh.
+bool is_unposed(const aiMesh& mesh) {
+    const auto counts = [](const aiAnimMesh* target) { return target && target->mWeight != 0; };
+    return mesh.mNumBones > 0 ||
+           (mesh.mAnimMeshes &&
+            std::any_of(mesh.mAnimMeshes, mesh.mAnimMeshes + mesh.mNumAnimMeshes, counts));
 }
 
 Scene::Node to_node(const aiNode& node, std::uint32_t parent) {
@@ -132,8 +163,13 @@ Scene read_assimp(const std::string& path, InputFiles& files) {
     importer.SetIOHandler(new FolderFiles(files));  // the importer owns it
     // A head alone is a model; the rest of the body may be missing.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, false);
+    // A file of bones without a mesh has no triangles.
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
+    static SkippedParts& skipped = *new SkippedParts;
+    Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0)
+        ->attachStream(&skipped, Assimp::Logger::Warn | Assimp::Logger::Err);
     const aiScene* const found = importer.ReadFile(path, 0);
     if (!found && importer.GetException()) std::rethrow_exception(importer.GetException());
     const bool is_known = importer.IsExtensionSupported(std::filesystem::path(path).extension());
@@ -142,10 +178,14 @@ Scene read_assimp(const std::string& path, InputFiles& files) {
             "has an unsupported format. Export the mesh as OBJ, STL, PLY, OFF, glTF or 3MF");
     }
     if (!found) throw std::runtime_error(importer.GetErrorString());
+    if (!skipped.first().empty()) {
+        throw std::runtime_error("a part of it cannot be read: " + skipped.first());
+    }
 
     Scene scene;
     for (unsigned i = 0; i < found->mNumMeshes; ++i) {
         scene.meshes.push_back(to_mesh(*found->mMeshes[i]));
+        scene.unposed_meshes += is_unposed(*found->mMeshes[i]) ? 1 : 0;
     }
     scene.nodes = to_nodes(found->mRootNode);
     for (unsigned i = 0; i < found->mNumMaterials; ++i) {

@@ -3,15 +3,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <cstring>
+#include <cmath>
+#include <compare>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "gltf_accessors.h"
 #include "input_files.h"
 #include "json_value.h"
 
@@ -19,116 +22,6 @@ namespace cdprep::import {
 namespace {
 
 enum Mode : std::uint64_t { triangles = 4, strip = 5, fan = 6 };
-enum Component : std::uint64_t {
-    i8 = 5120,
-    u8 = 5121,
-    i16 = 5122,
-    u16 = 5123,
-    u32 = 5125,
-    f32 = 5126
-};
-
-std::string read_bytes(const std::filesystem::path& path, InputFiles& files) {
-    const std::uint64_t size = std::filesystem::file_size(path);
-    files.note_opened(path, size);
-    std::string bytes(size, '\0');
-    std::ifstream stream(path, std::ios::binary);
-    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!stream) fail(path.filename().string() + " cannot be read completely");
-    return bytes;
-}
-
-template <class T>
-T load(const char* at) {
-    T value;
-    std::memcpy(&value, at, sizeof value);
-    return value;
-}
-
-std::uint64_t size_of(std::uint64_t component) {
-    switch (component) {
-        case i8:
-        case u8:
-            return 1;
-        case i16:
-        case u16:
-            return 2;
-        case u32:
-        case f32:
-            return 4;
-        default:
-            fail("component type " + std::to_string(component) + " is not a type of glTF");
-    }
-}
-
-/// Returns the value of one component. Integers are divided by their limit if `normalized`.
-float load_component(std::uint64_t component, const char* at, bool normalized) {
-    const auto scaled = [&](auto value, float limit) {
-        const auto x = static_cast<float>(value);
-        return normalized ? std::max(x / limit, -1.0f) : x;
-    };
-    switch (component) {
-        case i8:
-            return scaled(load<std::int8_t>(at), 127);
-        case u8:
-            return scaled(load<std::uint8_t>(at), 255);
-        case i16:
-            return scaled(load<std::int16_t>(at), 32767);
-        case u16:
-            return scaled(load<std::uint16_t>(at), 65535);
-        case f32:
-            return load<float>(at);
-        default:
-            fail("a position has component type " + std::to_string(component) +
-                 ", which is not supported");
-    }
-}
-
-std::uint32_t load_index(std::uint64_t component, const char* at) {
-    switch (component) {
-        case u8:
-            return load<std::uint8_t>(at);
-        case u16:
-            return load<std::uint16_t>(at);
-        case u32:
-            return load<std::uint32_t>(at);
-        default:
-            fail("an index has component type " + std::to_string(component) +
-                 ", which is not supported");
-    }
-}
-
-/// assimp has such a function, but does not export it.
-std::string decode_base64(std::string_view text) {
-    constexpr std::string_view kDigits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string bytes;
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : text) {
-        const std::size_t digit = kDigits.find(c);
-        if (digit == std::string_view::npos) break;  // padding
-        bits = bits << 6 | static_cast<std::uint32_t>(digit);
-        count += 6;
-        if (count < 8) continue;
-        count -= 8;
-        bytes += static_cast<char>(bits >> count & 0xff);
-    }
-    return bytes;
-}
-
-std::string decode_percent(std::string_view uri) {
-    std::string name;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        unsigned code = 0;
-        const bool escaped =
-            uri[i] == '%' && i + 2 < uri.size() &&
-            std::sscanf(std::string(uri.substr(i + 1, 2)).c_str(), "%2x", &code) == 1;
-        name += escaped ? static_cast<char>(code) : uri[i];
-        if (escaped) i += 2;
-    }
-    return name;
-}
 
 Matrix multiply(const Matrix& a, const Matrix& b) {
     Matrix result{};
@@ -185,13 +78,35 @@ Matrix local_transform(JsonValue node) {
     return result;
 }
 
+/// Returns the matrix of an array of glTF, which has one column after the other.
+Matrix from_columns(const std::array<double, 16>& numbers) {
+    Matrix result{};
+    for (std::size_t i = 0; i < result.size(); ++i) result[4 * (i % 4) + i / 4] = numbers[i];
+    return result;
+}
+
+std::array<double, 3> transformed(const Matrix& m, const std::array<double, 3>& p) {
+    std::array<double, 3> result{};
+    for (std::size_t row = 0; row < 3; ++row) {
+        const double* const r = m.data() + 4 * row;
+        result[row] = ((r[0] * p[0] + r[1] * p[1]) + r[2] * p[2]) + r[3];
+    }
+    return result;
+}
+
+bool mirrors(const Matrix& m) {
+    return m[0] * (m[5] * m[10] - m[6] * m[9]) - m[1] * (m[4] * m[10] - m[6] * m[8]) +
+               m[2] * (m[4] * m[9] - m[5] * m[8]) <
+           0;
+}
+
 /// One document with its buffers. We use no library: tinygltf does not check accessors against
 /// their buffers, and cgltf reports neither the place nor the numbers of an error.
 class GltfReader {
 public:
     GltfReader(const std::filesystem::path& path, JsonValue root, std::string_view binary,
                InputFiles& files)
-        : path_(path), root_(root), binary_(binary), files_(files) {}
+        : root_(root), accessors_(path, root, binary, files) {}
 
     [[nodiscard]] bool is_version_2() const {
         return root_["asset"]["version"].text().starts_with("2.");
@@ -199,7 +114,7 @@ public:
 
     Scene read() {
         check_extensions();
-        read_buffers();
+        accessors_.read_buffers();
         for (std::size_t i = 0; i < root_["materials"].items().size(); ++i) {
             scene_.materials.push_back(name_of("materials", i, "material_"));
         }
@@ -244,73 +159,6 @@ private:
         return name.empty() ? otherwise + std::to_string(i) : name;
     }
 
-    void read_buffers() {
-        for (const JsonValue buffer : root_["buffers"].items()) {
-            const std::string& uri = buffer["uri"].text();
-            if (uri.empty()) {
-                owned_.emplace_back();
-                buffers_.push_back(buffers_.empty() ? binary_ : std::string_view());
-                continue;
-            }
-            if (uri.starts_with("data:")) {
-                const std::size_t comma = std::min(uri.find(','), uri.size() - 1);
-                owned_.push_back(decode_base64(std::string_view(uri).substr(comma + 1)));
-            } else {
-                owned_.push_back(read_buffer_file(decode_percent(uri)));
-            }
-            buffers_.push_back(owned_.back());
-        }
-        // The bytes of a string may have moved with it.
-        for (std::size_t i = 0; i < owned_.size(); ++i) {
-            if (!owned_[i].empty()) buffers_[i] = owned_[i];
-        }
-    }
-
-    [[nodiscard]] std::string read_buffer_file(const std::string& name) const {
-        const auto file = files_.find(path_.parent_path() / name);
-        if (!file) {
-            fail("buffer " + std::to_string(buffers_.size()) + ", " + name +
-                 ", cannot be opened or is not in the file's folder");
-        }
-        return read_bytes(*file, files_);
-    }
-
-    struct Accessor {
-        const char* at = nullptr;
-        std::uint64_t count = 0;
-        std::uint64_t stride = 0;
-        std::uint64_t component = 0;
-    };
-
-    /// Finds `count` elements of `width` components at `place`, an accessor or a part of a sparse
-    /// one. Proves that all of them lie in their buffer.
-    [[nodiscard]] Accessor find(const std::string& name, JsonValue place, std::uint64_t component,
-                                std::uint64_t count, std::uint64_t width) const {
-        Accessor result;
-        result.component = component;
-        result.count = count;
-        const std::uint64_t element = width * size_of(result.component);
-        if (!place["bufferView"].exists()) fail(name + " has no data");
-        const JsonValue view = root_["bufferViews"][place["bufferView"].count("bufferView", 0)];
-        const std::uint64_t buffer = view["buffer"].count("buffer", buffers_.size());
-        if (buffer >= buffers_.size()) fail(name + " is in a buffer that does not exist");
-        result.stride = view["byteStride"].count("byteStride", element);
-        if (result.stride < element) fail(name + " has elements that overlap");
-        const std::uint64_t offset =
-            view["byteOffset"].count("byteOffset", 0) + place["byteOffset"].count("byteOffset", 0);
-        const std::uint64_t size = buffers_[buffer].size();
-        const bool fits =
-            offset <= size && (result.count == 0 || size - offset >= element) &&
-            (result.count == 0 || result.count - 1 <= (size - offset - element) / result.stride);
-        if (!fits) {
-            fail(name + " declares " + std::to_string(result.count) + " elements from byte " +
-                 std::to_string(offset) + " of buffer " + std::to_string(buffer) + ", which has " +
-                 std::to_string(size) + " bytes");
-        }
-        result.at = buffers_[buffer].data() + offset;
-        return result;
-    }
-
     [[nodiscard]] Scene::Mesh read_primitive(JsonValue primitive) const {
         Scene::Mesh mesh;
         const std::uint64_t mode = primitive["mode"].count("mode", triangles);
@@ -319,87 +167,18 @@ private:
         if (primitive["material"].exists()) {
             mesh.material = static_cast<std::uint32_t>(primitive["material"].count("material", 0));
         }
-        mesh.vertices = read_points(position.count("POSITION", 0));
-        add_triangles(mode, read_indices(primitive, mesh.vertices.size()), mesh);
+        mesh.vertices = accessors_.read<3>(position.count("POSITION", 0));
+        add_triangles(mode, indices_of(primitive, mesh.vertices.size()), mesh);
         return mesh;
     }
 
-    /// Returns the elements of an accessor of positions. They are zeros if it is sparse and has no
-    /// buffer view.
-    [[nodiscard]] std::vector<std::array<double, 3>> read_points(std::uint64_t number) const {
-        const JsonValue accessor = root_["accessors"][number];
-        const std::string name = "accessor " + std::to_string(number);
-        if (!accessor.exists()) fail(name + " does not exist");
-        if (accessor["type"].text() != "VEC3") fail(name + " is not a VEC3");
-        const std::uint64_t component = accessor["componentType"].count("componentType", 0);
-        const std::uint64_t count = accessor["count"].count("count", 0);
-        const JsonValue sparse = accessor["sparse"];
-        std::vector<std::array<double, 3>> points;
-        if (accessor["bufferView"].exists() || !sparse.exists()) {
-            const Accessor all = find(name, accessor, component, count, 3);
-            points.reserve(count);
-            for (std::uint64_t i = 0; i < count; ++i) points.push_back(point(accessor, all, i));
-        } else {
-            points.resize(count);
-        }
-        if (sparse.exists()) replace_some(name, accessor, points);
-        return points;
-    }
-
-    void replace_some(const std::string& name, JsonValue accessor,
-                      std::vector<std::array<double, 3>>& points) const {
-        const JsonValue sparse = accessor["sparse"];
-        const std::uint64_t count = sparse["count"].count("count", 0);
-        const Accessor numbers = find(
-            name, sparse["indices"], sparse["indices"]["componentType"].count("type", 0), count, 1);
-        const Accessor values =
-            find(name, sparse["values"], accessor["componentType"].count("type", 0), count, 3);
-        for (std::uint64_t i = 0; i < count; ++i) {
-            const std::uint32_t at = load_index(numbers.component, numbers.at + i * numbers.stride);
-            if (at >= points.size()) {
-                fail(name + " replaces element " + std::to_string(at) + " of " +
-                     std::to_string(points.size()));
-            }
-            points[at] = point(accessor, values, i);
-        }
-    }
-
-    static std::array<double, 3> point(JsonValue accessor, const Accessor& values,
-                                       std::uint64_t i) {
-        const bool normalized = accessor["normalized"].is_true();
-        const char* const at = values.at + i * values.stride;
-        const std::uint64_t bytes = size_of(values.component);
-        std::array<double, 3> p{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            p[axis] = load_component(values.component, at + axis * bytes, normalized);
-        }
-        return p;
-    }
-
-    [[nodiscard]] std::vector<std::uint32_t> read_indices(JsonValue primitive,
-                                                          std::uint64_t vertices) const {
-        std::vector<std::uint32_t> indices;
-        if (!primitive["indices"].exists()) {
-            indices.resize(vertices);
-            for (std::size_t i = 0; i < indices.size(); ++i) {
-                indices[i] = static_cast<std::uint32_t>(i);
-            }
-            return indices;
-        }
-        const std::uint64_t number = primitive["indices"].count("indices", 0);
-        const JsonValue accessor = root_["accessors"][number];
-        const std::string name = "accessor " + std::to_string(number);
-        if (!accessor.exists()) fail(name + " does not exist");
-        if (accessor["type"].text() != "SCALAR") fail(name + " is not a SCALAR");
-        if (accessor["sparse"].exists())
-            fail(name + " of indices is sparse, which is not supported");
-        const Accessor list =
-            find(name, accessor, accessor["componentType"].count("componentType", 0),
-                 accessor["count"].count("count", 0), 1);
-        indices.reserve(list.count);
-        for (std::uint64_t i = 0; i < list.count; ++i) {
-            indices.push_back(load_index(list.component, list.at + i * list.stride));
-        }
+    /// Returns the indices of a primitive. Without any, its vertices are used in order.
+    [[nodiscard]] std::vector<std::uint32_t> indices_of(JsonValue primitive,
+                                                        std::uint64_t vertices) const {
+        const JsonValue accessor = primitive["indices"];
+        if (accessor.exists()) return accessors_.read_indices(accessor.count("indices", 0));
+        std::vector<std::uint32_t> indices(vertices);
+        std::iota(indices.begin(), indices.end(), 0U);
         return indices;
     }
 
@@ -439,7 +218,7 @@ private:
             }
             const auto number = static_cast<std::uint32_t>(scene_.nodes.size());
             scene_.nodes.push_back({name_of("nodes", top.node, "node_"), top.parent,
-                                    local_transform(node), meshes_of(node)});
+                                    local_transform(node), meshes_of(node), node["skin"].exists()});
             const std::vector<JsonValue> children = node["children"].items();
             for (auto child = children.rbegin(); child != children.rend(); ++child) {
                 pending.push_back({child->count("child", 0), number, top.depth + 1});
@@ -479,26 +258,204 @@ private:
         return result;
     }
 
-    [[nodiscard]] std::vector<std::uint32_t> meshes_of(JsonValue node) const {
-        std::vector<std::uint32_t> meshes;
-        if (!node["mesh"].exists()) return meshes;
-        const std::uint64_t mesh = node["mesh"].count("mesh", 0);
-        if (mesh + 1 >= first_primitive_.size()) {
-            fail("mesh " + std::to_string(mesh) + " does not exist");
+    // --- Poses -----------------------------------------------------------------------
+
+    /// The pose in which a node shows its mesh.
+    struct PoseKey {
+        std::uint64_t mesh = 0;
+        std::vector<double> weights;  ///< of the morph targets; empty: all are 0
+        std::optional<std::uint64_t> skin;
+
+        auto operator<=>(const PoseKey&) const = default;
+    };
+
+    /// Returns the primitives of a node's mesh, in the pose that the file gives them.
+    [[nodiscard]] std::vector<std::uint32_t> meshes_of(JsonValue node) {
+        if (!node["mesh"].exists()) return {};
+        PoseKey key;
+        key.mesh = node["mesh"].count("mesh", 0);
+        if (key.mesh + 1 >= first_primitive_.size()) {
+            fail("mesh " + std::to_string(key.mesh) + " does not exist");
         }
-        for (std::uint32_t i = first_primitive_[mesh]; i < first_primitive_[mesh + 1]; ++i) {
-            meshes.push_back(i);
-        }
-        return meshes;
+        key.weights = weights_of(node, root_["meshes"][key.mesh]);
+        if (node["skin"].exists()) key.skin = node["skin"].count("skin", 0);
+        const auto [known, is_new] = posed_.try_emplace(key);
+        if (is_new) known->second = pose(key);
+        return known->second;
     }
 
-    const std::filesystem::path& path_;
+    [[nodiscard]] static std::vector<double> weights_of(JsonValue node, JsonValue mesh) {
+        const JsonValue list = node["weights"].exists() ? node["weights"] : mesh["weights"];
+        std::vector<double> weights;
+        for (const JsonValue weight : list.items()) weights.push_back(weight.number(0));
+        while (!weights.empty() && weights.back() == 0) weights.pop_back();
+        return weights;
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> pose(const PoseKey& key) {
+        std::vector<std::uint32_t> numbers(first_primitive_[key.mesh + 1] -
+                                           first_primitive_[key.mesh]);
+        std::iota(numbers.begin(), numbers.end(), first_primitive_[key.mesh]);
+        if (key.weights.empty() && !key.skin) return numbers;
+        const std::vector<JsonValue> primitives = root_["meshes"][key.mesh]["primitives"].items();
+        const std::vector<Matrix> joints = key.skin ? joints_of(*key.skin) : std::vector<Matrix>();
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            Scene::Mesh mesh = scene_.meshes[numbers[i]];
+            if (mesh.corners.empty()) continue;
+            const std::string name =
+                "primitive " + std::to_string(i) + " of mesh " + std::to_string(key.mesh);
+            morph(name, primitives[i]["targets"], key.weights, mesh);
+            if (key.skin) bend(name, primitives[i]["attributes"], joints, mesh);
+            mesh.is_single = false;
+            numbers[i] = static_cast<std::uint32_t>(scene_.meshes.size());
+            scene_.meshes.push_back(std::move(mesh));
+        }
+        return numbers;
+    }
+
+    /// Adds the morph targets, each times its weight.
+    void morph(const std::string& name, JsonValue targets, const std::vector<double>& weights,
+               Scene::Mesh& mesh) const {
+        const std::size_t count = targets.items().size();
+        if (weights.size() > count) {
+            fail(name + " has " + std::to_string(count) + " morph targets, but number " +
+                 std::to_string(weights.size()) + " has a weight");
+        }
+        for (std::size_t target = 0; target < weights.size(); ++target) {
+            const JsonValue position = targets[target]["POSITION"];
+            if (weights[target] == 0 || !position.exists()) continue;
+            const auto offsets =
+                read_attribute<3>(name, "morph target", position, mesh.vertices.size());
+            for (std::size_t i = 0; i < offsets.size(); ++i) {
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    mesh.vertices[i][axis] += weights[target] * offsets[i][axis];
+                }
+            }
+        }
+    }
+
+    /// Reads an attribute of a primitive, which must have an element for each vertex.
+    template <std::size_t Width>
+    [[nodiscard]] std::vector<std::array<double, Width>> read_attribute(
+        const std::string& name, const std::string& attribute, JsonValue accessor,
+        std::size_t vertices) const {
+        if (!accessor.exists()) fail(name + " has a skin, but no " + attribute);
+        auto elements = accessors_.read<Width>(accessor.count(attribute, 0));
+        if (elements.size() != vertices) {
+            fail(name + " has " + std::to_string(vertices) + " vertices, but its " + attribute +
+                 " has " + std::to_string(elements.size()));
+        }
+        return elements;
+    }
+
+    // --- Skins -----------------------------------------------------------------------
+
+    /// Computes the transforms of all nodes. Of a node with several parents, the first counts.
+    void place_all_nodes() {
+        const std::size_t count = root_["nodes"].items().size();
+        model_from_node_.resize(count);
+        std::vector<Pending> pending = nodes_without_parent();
+        while (!pending.empty()) {
+            const Pending top = pending.back();
+            pending.pop_back();
+            if (top.node >= count || model_from_node_[top.node]) continue;
+            const JsonValue node = root_["nodes"][top.node];
+            const Matrix own = local_transform(node);
+            model_from_node_[top.node] =
+                top.parent == kNoParent ? own : multiply(*model_from_node_[top.parent], own);
+            for (const JsonValue child : node["children"].items()) {
+                pending.push_back(
+                    {child.count("child", 0), static_cast<std::uint32_t>(top.node), 0});
+            }
+        }
+    }
+
+    /// Returns for each joint of a skin where it moves the vertices that follow it alone.
+    [[nodiscard]] std::vector<Matrix> joints_of(std::uint64_t number) {
+        const JsonValue skin = root_["skins"][number];
+        const std::string name = "skin " + std::to_string(number);
+        if (!skin.exists()) fail(name + " does not exist");
+        if (model_from_node_.empty()) place_all_nodes();
+        const std::vector<JsonValue> joints = skin["joints"].items();
+        std::vector<std::array<double, 16>> binds;
+        if (const JsonValue inverse = skin["inverseBindMatrices"]; inverse.exists()) {
+            binds = accessors_.read<16>(inverse.count("inverseBindMatrices", 0));
+            if (binds.size() < joints.size()) {
+                fail(name + " has " + std::to_string(joints.size()) + " joints, but " +
+                     std::to_string(binds.size()) + " inverse bind matrices");
+            }
+        }
+        std::vector<Matrix> result;
+        for (std::size_t i = 0; i < joints.size(); ++i) {
+            const std::uint64_t node = joints[i].count("joint", 0);
+            if (node >= model_from_node_.size() || !model_from_node_[node]) {
+                fail(name + " has the joint " + std::to_string(node) +
+                     ", which is no node below a root");
+            }
+            result.push_back(*model_from_node_[node]);
+            if (!binds.empty()) result.back() = multiply(result.back(), from_columns(binds[i]));
+        }
+        return result;
+    }
+
+    /// Moves each vertex to the weighted mean of the places that its joints give it. We divide by
+    /// the sum of the weights, which is 1 only up to rounding. Faces are reversed if all joints
+    /// mirror.
+    void bend(const std::string& name, JsonValue attributes, const std::vector<Matrix>& joints,
+              Scene::Mesh& mesh) const {
+        std::vector<std::array<double, 3>> moved(mesh.vertices.size());
+        std::vector<double> sums(moved.size());
+        bool all_mirror = true;
+        for (std::size_t set = 0; set == 0 || has_joints(attributes, set); ++set) {
+            const std::string numbers = "JOINTS_" + std::to_string(set);
+            const std::string weights = "WEIGHTS_" + std::to_string(set);
+            const auto number = read_attribute<4>(name, numbers, attributes[numbers], moved.size());
+            const auto weight = read_attribute<4>(name, weights, attributes[weights], moved.size());
+            for (std::size_t i = 0; i < 4 * moved.size(); ++i) {
+                const std::size_t vertex = i / 4;
+                const double w = weight[vertex][i % 4];
+                if (w == 0) continue;
+                const Matrix& joint = find_joint(name, number[vertex][i % 4], joints);
+                const auto place = transformed(joint, mesh.vertices[vertex]);
+                for (std::size_t axis = 0; axis < 3; ++axis) moved[vertex][axis] += w * place[axis];
+                sums[vertex] += w;
+                all_mirror = all_mirror && mirrors(joint);
+            }
+        }
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            if (!(sums[i] > 0)) {
+                fail(name + " has joint weights at vertex " + std::to_string(i) +
+                     " whose sum is not above 0; expected 1");
+            }
+            for (double& x : moved[i]) x /= sums[i];
+        }
+        mesh.vertices = std::move(moved);
+        for (std::size_t i = 0; all_mirror && i < mesh.corners.size(); i += 3) {
+            std::swap(mesh.corners[i + 1], mesh.corners[i + 2]);
+        }
+    }
+
+    [[nodiscard]] static bool has_joints(JsonValue attributes, std::size_t set) {
+        return attributes["JOINTS_" + std::to_string(set)].exists() ||
+               attributes["WEIGHTS_" + std::to_string(set)].exists();
+    }
+
+    [[nodiscard]] static const Matrix& find_joint(const std::string& name, double number,
+                                                  const std::vector<Matrix>& joints) {
+        const bool is_whole = std::fabs(number) <= 65535 && number == std::floor(number);
+        if (is_whole && number >= 0 && number < static_cast<double>(joints.size())) {
+            return joints[static_cast<std::size_t>(number)];
+        }
+        fail(name + " uses joint " +
+             (is_whole ? std::to_string(static_cast<int>(number)) : std::to_string(number)) +
+             ", but its skin has " + std::to_string(joints.size()) + " joints");
+    }
+
     JsonValue root_;
-    std::string_view binary_;
-    InputFiles& files_;
-    std::vector<std::string> owned_;
-    std::vector<std::string_view> buffers_;
+    GltfAccessors accessors_;
     std::vector<std::uint32_t> first_primitive_;
+    std::map<PoseKey, std::vector<std::uint32_t>> posed_;
+    std::vector<std::optional<Matrix>> model_from_node_;  ///< by node, once a skin needs them
     Scene scene_;
 };
 

@@ -31,13 +31,17 @@ namespace cdprep::import {
 /// may then try. Throws std::runtime_error with the reason if the file contradicts itself. Throws
 /// it with the name of an unsupported extension that changes the geometry.
 ///
+/// Meshes have the pose of the file: morph targets with their weights, then skins with their
+/// joints where the nodes place them. Animations do not count.
+///
 /// We do not use assimp here: it silently drops triangles with an index out of range and rounds
 /// node transforms to floats. Memory is proportional to the actual bytes of the file and its
 /// buffers.
 [[nodiscard]] std::optional<Scene> read_gltf(const std::filesystem::path& path, InputFiles& files);
 
-/// Reads any format that assimp supports. Passes on the exceptions of assimp. Throws
-/// std::runtime_error with the reason if assimp refuses the file.
+/// Reads any format that assimp supports. Skins and morph targets are not applied, but
+/// Scene::unposed_meshes counts the meshes that have them. Passes on the exceptions of assimp.
+/// Throws std::runtime_error with the reason if assimp refuses the file.
 [[nodiscard]] Scene read_assimp(const std::string& path, InputFiles& files);
 
 }  // namespace cdprep::import

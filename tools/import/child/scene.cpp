@@ -64,6 +64,7 @@ SceneHeader describe(const Scene& scene, const InputFiles& files) {
     header.up_axis = static_cast<std::uint32_t>(scene.up_axis);
     header.metres_per_unit = scene.metres_per_unit;
     header.input_bytes = files.bytes();
+    header.unposed_meshes = scene.unposed_meshes;
     header.mesh_count = scene.meshes.size();
     header.node_count = scene.nodes.size();
     header.material_count = scene.materials.size();
@@ -92,9 +93,9 @@ bool write_scene(const Scene& scene, const InputFiles& files) {
                                  mesh.material, mesh.is_single ? 1U : 0U});
     }
     for (const Scene::Node& node : scene.nodes) {
-        writer.add_one(SceneNode{node.parent_from_node, node.parent,
-                                 static_cast<std::uint32_t>(node.meshes.size()),
-                                 static_cast<std::uint32_t>(node.name.size()), 0});
+        writer.add_one(SceneNode{
+            node.parent_from_node, node.parent, static_cast<std::uint32_t>(node.meshes.size()),
+            static_cast<std::uint32_t>(node.name.size()), node.is_posed ? 1U : 0U});
     }
     for (const Scene::Node& node : scene.nodes) writer.add(std::span(node.meshes));
     for (const std::string& name : scene.materials) {

@@ -30,10 +30,12 @@ struct Scene {
         std::uint32_t parent = kNoParent;  ///< precedes this node
         Matrix parent_from_node{};
         std::vector<std::uint32_t> meshes;
+        bool is_posed = false;  ///< a skin places its meshes; its transforms do not
     };
     std::vector<Mesh> meshes;
     std::vector<Node> nodes;  ///< depth first
     std::vector<std::string> materials;
+    std::uint64_t unposed_meshes = 0;  ///< with a skin or morph weights that are not applied
     double metres_per_unit = 0;
     format::UpAxis up_axis = format::UpAxis::unknown;
 };

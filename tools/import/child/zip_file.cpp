@@ -51,10 +51,19 @@ std::string ZipFile::read(const std::string& name) const {
     const std::unique_ptr<zip_file_t, CloseEntry> entry(
         ::zip_fopen_index(archive_.get(), place, 0));
     std::string bytes(entry ? status.size : 0, '\0');
-    if (!entry || ::zip_fread(entry.get(), bytes.data(), bytes.size()) !=
-                      static_cast<zip_int64_t>(bytes.size())) {
-        throw std::runtime_error("its part " + name +
-                                 " cannot be read: " + ::zip_strerror(archive_.get()));
+    // libzip compares the checksum when a read finds the end, so one more byte is wanted.
+    char beyond = 0;
+    if (!entry ||
+        ::zip_fread(entry.get(), bytes.data(), bytes.size()) !=
+            static_cast<zip_int64_t>(bytes.size()) ||
+        ::zip_fread(entry.get(), &beyond, 1) != 0) {
+        zip_error_t* const error =
+            entry ? ::zip_file_get_error(entry.get()) : ::zip_get_error(archive_.get());
+        throw std::runtime_error("its part " + name + " cannot be read: " +
+                                 (::zip_error_code_zip(error) != ZIP_ER_OK
+                                      ? ::zip_error_strerror(error)
+                                      : "its size is not the " + std::to_string(status.size) +
+                                            " bytes that it declares"));
     }
     return bytes;
 }

@@ -282,6 +282,12 @@ std::string collada(int triangles, const std::string& asset = "") {
            R"(</COLLADA>)";
 }
 
+/// The text of collada(1), with a further element in its node.
+std::string collada_with(const std::string& element) {
+    std::string text = collada(1);
+    return text.insert(text.find(R"(<instance_geometry url="#g"/>)"), element);
+}
+
 TEST_F(AssimpChild, ColladaTellsUnitAndUpAxisAndIsNotTurned) {
     const auto plain = import_file(write("a.dae", collada(1)));
     ASSERT_TRUE(plain.ok()) << plain.error().message;
@@ -294,16 +300,92 @@ TEST_F(AssimpChild, ColladaTellsUnitAndUpAxisAndIsNotTurned) {
     EXPECT_EQ(inches.value().up_axis, format::UpAxis::z);
     EXPECT_EQ(inches.value().positions, plain.value().positions);
     EXPECT_EQ(plain.value().positions[1], (Double3{1, 0, 0.25}));
+    for (const char* asset :
+         {"<unit\n meter = '0.0254' name='inch' /><up_axis >Z_UP</up_axis>",
+          "<unit name='a > b' meter\t= \" 0.0254 \"/><up_axis\n> Z_UP </up_axis>",
+          "<unit name = 'meter=\"3\"' meter=\"0.0254\"/><up_axis>\nZ_UP</up_axis>"}) {
+        const auto spaced = import_file(write("c.dae", collada(1, asset)));
+        ASSERT_TRUE(spaced.ok()) << spaced.error().message;
+        EXPECT_EQ(spaced->metres_per_unit, 0.0254) << asset;
+        EXPECT_EQ(spaced->up_axis, format::UpAxis::z) << asset;
+    }
 }
 
 TEST_F(AssimpChild, APartOfAnotherColladaFileIsNamed) {
-    std::string text = collada(1);
-    const std::string inside = R"(<instance_geometry url="#g"/>)";
-    text.insert(text.find(inside), R"(<instance_geometry url="arm.dae#g"/>)");
-    const auto result = import_file(write("a.dae", text));
+    for (const char* reference :
+         {R"(<instance_geometry url="arm.dae#g"/>)", "<instance_node\n url = 'arm.dae#g'/>",
+          R"(<instance_geometry name="a>b" url="arm.dae#g"/>)"}) {
+        const auto result = import_file(write("a.dae", collada_with(reference)));
+        ASSERT_FALSE(result.ok()) << reference;
+        EXPECT_EQ(result.error().code, ErrorCode::unreadable);
+        EXPECT_NE(result.error().message.find("arm.dae#g"), std::string::npos)
+            << result.error().message;
+    }
+}
+
+TEST_F(AssimpChild, APartOfAColladaFileThatIsMissingIsNamed) {
+    for (const char* reference :
+         {R"(<instance_geometry url="#gone"/>)", R"(<instance_node url="#gone"/>)"}) {
+        const auto result = import_file(write("a.dae", collada_with(reference)));
+        ASSERT_FALSE(result.ok()) << reference;
+        EXPECT_EQ(result.error().code, ErrorCode::unreadable);
+        EXPECT_NE(result.error().message.find("gone"), std::string::npos) << result.error().message;
+    }
+    // Light is no part of a mesh.
+    const auto lit = import_file(write("a.dae", collada_with(R"(<instance_light url="#gone"/>)")));
+    EXPECT_TRUE(lit.ok()) << lit.error().message;
+}
+
+/// The text of collada(1), with a skin of one joint that is 5 away.
+std::string skinned_collada() {
+    const auto source = [](const std::string& id, const std::string& values,
+                           const std::string& stride, const std::string& parameter) {
+        return "<source id=\"" + id + "\">" + values + R"(<technique_common><accessor source="#)" +
+               id + R"(a" count="1" stride=")" + stride + R"("><param )" + parameter +
+               "/></accessor></technique_common></source>";
+    };
+    const std::string controllers =
+        R"(<library_controllers><controller id="c"><skin source="#g">)" +
+        source("j", R"(<Name_array id="ja" count="1">bone</Name_array>)", "1",
+               R"(name="JOINT" type="name")") +
+        source("b",
+               R"(<float_array id="ba" count="16">1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</float_array>)",
+               "16", R"(name="TRANSFORM" type="float4x4")") +
+        source("w", R"(<float_array id="wa" count="1">1</float_array>)", "1",
+               R"(name="WEIGHT" type="float")") +
+        R"(<joints><input semantic="JOINT" source="#j"/>)"
+        R"(<input semantic="INV_BIND_MATRIX" source="#b"/></joints><vertex_weights count="3">)"
+        R"(<input semantic="JOINT" source="#j" offset="0"/>)"
+        R"(<input semantic="WEIGHT" source="#w" offset="1"/>)"
+        R"(<vcount>1 1 1</vcount><v>0 0 0 0 0 0</v></vertex_weights></skin></controller>)"
+        "</library_controllers>";
+    std::string text = collada_with(
+        R"(<instance_controller url="#c"><skeleton>#bone</skeleton></instance_controller>)"
+        R"(<node id="bone" sid="bone" name="bone" type="JOINT"><translate>5 0 0</translate></node>)");
+    const std::string plain = R"(<instance_geometry url="#g"/>)";
+    text.replace(text.find(plain), plain.size(), "");
+    return text.insert(text.find("<library_visual_scenes>"), controllers);
+}
+
+TEST_F(AssimpChild, ASkinIsNotAppliedButTold) {
+    const auto plain = import_file(write("a.dae", collada(1)));
+    const auto skinned = import_file(write("b.dae", skinned_collada()));
+    ASSERT_TRUE(plain.ok() && skinned.ok()) << skinned.error().message;
+    EXPECT_TRUE(plain->remarks.empty());
+    EXPECT_EQ(skinned->remarks,
+              (std::vector<std::string>{"1 mesh has a skin or morph weights, which are not "
+                                        "applied: vertices stay as stored."}));
+    EXPECT_EQ(skinned->positions, plain->positions);
+}
+
+// assimp would make a mesh of the bones.
+TEST_F(AssimpChild, BonesWithoutAMeshHaveNoTriangles) {
+    const auto result = import_file(
+        write("a.bvh",
+              "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\n"
+              "End Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n"));
     ASSERT_FALSE(result.ok());
-    EXPECT_EQ(result.error().code, ErrorCode::unreadable);
-    EXPECT_NE(result.error().message.find("arm.dae#g"), std::string::npos)
+    EXPECT_NE(result.error().message.find("no triangles"), std::string::npos)
         << result.error().message;
 }
 

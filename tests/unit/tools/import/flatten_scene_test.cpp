@@ -31,6 +31,7 @@ struct NodePart {
     std::uint32_t parent = kNoParent;
     Matrix matrix = kIdentity;
     std::vector<std::uint32_t> meshes;
+    bool is_posed = false;
 };
 
 /// What the child would write.
@@ -61,6 +62,7 @@ public:
             part.parent = node.parent;
             part.mesh_count = static_cast<std::uint32_t>(node.meshes.size());
             part.name_bytes = static_cast<std::uint32_t>(node.name.size());
+            part.is_posed = node.is_posed ? 1 : 0;
             add(part);
             header.node_mesh_count += node.meshes.size();
         }
@@ -142,6 +144,27 @@ TEST(FlattenScene, NodesTransformTheirMeshesAlongThePath) {
     EXPECT_EQ(s.instances[1].triangle_count, 1u);
     EXPECT_EQ(s.instances[1].model_from_node,
               (std::array<double, 12>{2, 0, 0, 10, 0, 1, 0, 20, 0, 0, 1, 30}));
+}
+
+TEST(FlattenScene, ASkinPlacesMeshesButNotTheNodesBelow) {
+    const Bytes bytes({kTriangle}, {{"skin", kNoParent, moved(10, 0, 0, -1), {0}, true},
+                                    {"hand", 0, moved(0, 20, 0), {0}}});
+    const auto result = flatten(bytes.whole());
+    ASSERT_TRUE(result.ok()) << result.error().message;
+    EXPECT_EQ(result->positions,
+              (std::vector<Double3>{
+                  {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {9, 20, 0}, {10, 21, 0}, {10, 20, 1}}));
+    EXPECT_EQ(result->triangles, (std::vector<Triangle>{{{0, 1, 2}}, {{3, 5, 4}}}));
+    EXPECT_EQ(result->instances[0].flags, 0u);
+}
+
+TEST(FlattenScene, MeshesThatAreNotPosedAreTold) {
+    Bytes bytes({kTriangle}, {{"root", kNoParent, kIdentity, {0}}});
+    EXPECT_TRUE(flatten(bytes.whole())->remarks.empty());
+    bytes.header.unposed_meshes = 2;
+    EXPECT_EQ(flatten(bytes.whole())->remarks,
+              (std::vector<std::string>{"2 meshes have a skin or morph weights, which are not "
+                                        "applied: vertices stay as stored."}));
 }
 
 // The same scene as parts: each node with its own place, geometry without it.

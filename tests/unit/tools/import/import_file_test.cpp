@@ -55,6 +55,14 @@ TEST_F(ImportFile, TheContentDecidesWhereTheEndingIsUnknown) {
     }
 }
 
+TEST_F(ImportFile, AByteOrderMarkHidesNoFormat) {
+    for (const std::string& content : {kObj, kOff, kStl, kPly}) {
+        for (const char* name : {"a.txt", "a"}) {
+            expect_one_triangle(import_file(write(name, "\xef\xbb\xbf" + content)), name);
+        }
+    }
+}
+
 TEST_F(ImportFile, AKnownEndingWinsOverContentThatIsNoFormatsOwn) {
     expect_one_triangle(import_file(write("a.OBJ", kObj)), "a.OBJ");
     for (const std::string& content : {kOff, kStl}) {

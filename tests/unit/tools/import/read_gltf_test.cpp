@@ -35,12 +35,14 @@ struct Document {
     std::string accessors = R"({"bufferView":0,"componentType":5126,"count":5,"type":"VEC3"})";
     std::string views = R"({"buffer":0})";
     std::string buffers = R"({"uri":"buffer.bin"})";
-    std::string more;  ///< members, each begun by a comma
+    std::string mesh;  ///< more members of the mesh, each begun by a comma
+    std::string more;  ///< more members of the file, likewise
 
     [[nodiscard]] std::string text() const {
         return R"({"asset":{"version":"2.0"},"nodes":[)" + nodes +
-               R"(],"meshes":[{"primitives":[)" + primitives + R"(]}],"accessors":[)" + accessors +
-               R"(],"bufferViews":[)" + views + R"(],"buffers":[)" + buffers + "]" + more + "}";
+               R"(],"meshes":[{"primitives":[)" + primitives + "]" + mesh + R"(}],"accessors":[)" +
+               accessors + R"(],"bufferViews":[)" + views + R"(],"buffers":[)" + buffers + "]" +
+               more + "}";
     }
 };
 
@@ -271,7 +273,7 @@ TEST_F(ReadGltf, WhatAnAccessorMayNotBeIsNamed) {
     expect_refused(with(R"({"bufferView":0,"componentType":5124,"count":3,"type":"VEC3"})"),
                    "component type 5124 is not a type of glTF");
     expect_refused(with(R"({"bufferView":0,"componentType":5125,"count":3,"type":"VEC3"})"),
-                   "a position has component type 5125");
+                   "a number has component type 5125");
     for (const char* count : {"-1", "2.5", "\"3\"", "9007199254740994"}) {
         expect_refused(with(R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
                             std::string(count) + "}"),
@@ -405,6 +407,212 @@ TEST_F(ReadGltf, ExtensionsOfAppearanceAreHarmless) {
         document.more = R"(,"extensionsRequired":[")" + std::string(name) + R"("])";
         EXPECT_TRUE(read(document).ok()) << name;
     }
+}
+
+// A view of 36 bytes holds 3 points of 12 bytes; its buffer holds 5.
+TEST_F(ReadGltf, AnAccessorStaysInItsBufferView) {
+    Document document;
+    const auto with = [&](const char* count, const char* view) {
+        document.accessors = R"({"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
+                             std::string(count) + "}";
+        document.views = R"({"buffer":0,)" + std::string(view) + "}";
+        return document;
+    };
+    EXPECT_TRUE(read(with("3", R"("byteLength":36)")).ok());
+    expect_refused(
+        with("4", R"("byteLength":36)"),
+        "accessor 0 declares 4 elements from byte 0 of buffer view 0, which has 36 bytes");
+    expect_refused(
+        with("3", R"("byteLength":36,"byteStride":16)"),
+        "accessor 0 declares 3 elements from byte 0 of buffer view 0, which has 36 bytes");
+    EXPECT_TRUE(read(with("3", R"("byteLength":36,"byteOffset":24)")).ok());
+    expect_refused(with("3", R"("byteLength":36,"byteOffset":25)"),
+                   "buffer view 0 declares 36 bytes from byte 25 of buffer 0, which has 60 bytes");
+    expect_refused(with("3", R"("byteLength":0,"byteOffset":61)"),
+                   "buffer view 0 declares 0 bytes from byte 61 of buffer 0, which has 60 bytes");
+}
+
+/// A target that moves point 1 by 10 in x, and one that moves point 4 by (1, 2, 4).
+struct MorphDocument : Document {
+    MorphDocument() {
+        accessors += R"(,{"bufferView":1,"componentType":5126,"count":5,"type":"VEC3"},)"
+                     R"({"componentType":5126,"count":5,"type":"VEC3","sparse":{"count":1,)"
+                     R"("indices":{"bufferView":2,"componentType":5121},)"
+                     R"("values":{"bufferView":3}}})";
+        views += R"(,{"buffer":0,"byteOffset":60,"byteLength":60},)"
+                 R"({"buffer":0,"byteOffset":132,"byteLength":1},)"
+                 R"({"buffer":0,"byteOffset":120,"byteLength":12})";
+        primitives = R"({"attributes":{"POSITION":0},)"
+                     R"("targets":[{"POSITION":1},{"NORMAL":1},{"POSITION":2}]})";
+    }
+
+    [[nodiscard]] static std::string buffer() {
+        std::vector<float> offsets(15);
+        offsets[3] = 10;
+        return bytes_of(kPoints) + bytes_of(offsets) + bytes_of<float>({1, 2, 4}) +
+               bytes_of<std::uint8_t>({4});
+    }
+};
+
+// Sums of a few bits, computed by hand.
+TEST_F(ReadGltf, MorphTargetsMoveVerticesByTheirWeights) {
+    MorphDocument document;
+    const auto points = [&](const std::string& node, const std::string& mesh) {
+        document.nodes = R"({"mesh":0)" + node + "}";
+        document.mesh = mesh;
+        const auto soup = read(document, MorphDocument::buffer());
+        EXPECT_TRUE(soup.ok()) << soup.error().message;
+        return soup.ok() ? soup->positions : std::vector<Double3>();
+    };
+    const std::vector<Double3> plain = points("", "");
+    EXPECT_EQ(plain[1], (Double3{1, 0, 0}));
+    std::vector<Double3> moved = plain;
+    moved[1] = {6, 0, 0};
+    moved[4] = {0.75, 4.5, -0.75};
+    EXPECT_EQ(points("", R"(,"weights":[0.5,7,-0.25])"), moved);
+    EXPECT_EQ(points(R"(,"weights":[0.5,7,-0.25])", R"(,"weights":[1,1,1])"), moved)
+        << "the weights of the node win";
+    EXPECT_EQ(points(R"(,"weights":[0,0,0])", R"(,"weights":[1,1,1])"), plain);
+    EXPECT_EQ(points("", R"(,"weights":[0,1])"), plain) << "a target without positions";
+}
+
+TEST_F(ReadGltf, EachNodeHasItsOwnWeights) {
+    MorphDocument document;
+    document.nodes = R"({"mesh":0},{"mesh":0,"weights":[1]},{"mesh":0,"weights":[1]})";
+    const auto soup = read(document, MorphDocument::buffer());
+    ASSERT_TRUE(soup.ok()) << soup.error().message;
+    ASSERT_EQ(soup->instances.size(), 3u);
+    EXPECT_EQ(soup->instances[1].mesh, soup->instances[2].mesh);
+    EXPECT_NE(soup->instances[0].mesh, soup->instances[1].mesh);
+    EXPECT_EQ(soup->positions[1].x, 1);
+    EXPECT_EQ(soup->positions[6].x, 11);
+    EXPECT_EQ(soup->positions[11].x, 11);
+    EXPECT_FALSE(soup->single_precision);
+    document.nodes = R"({"mesh":0,"weights":[0,0,0]})";
+    EXPECT_TRUE(read(document, MorphDocument::buffer())->single_precision);
+}
+
+TEST_F(ReadGltf, MorphTargetsThatDoNotFitAreNamed) {
+    MorphDocument document;
+    document.mesh = R"(,"weights":[0,0,0,1])";
+    expect_refused(document, "primitive 0 of mesh 0 has 3 morph targets, but number 4 has a weight",
+                   MorphDocument::buffer());
+    document.mesh = R"(,"weights":[1])";
+    document.accessors = R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
+                         R"({"bufferView":1,"componentType":5126,"count":5,"type":"VEC3"})";
+    expect_refused(document, "primitive 0 of mesh 0 has 4 vertices, but its morph target has 5",
+                   MorphDocument::buffer());
+}
+
+/// A skin of two joints: node 1 moves by 10 in x, and node 2 below it by 20 in y. Vertices of
+/// joint 1 first move by 5 in z. The node of the mesh has a scale that must not count.
+struct SkinDocument : Document {
+    SkinDocument() {
+        nodes = R"({"mesh":0,"skin":0,"scale":[100,100,100]},)"
+                R"({"translation":[10,0,0],"children":[2]},{"translation":[0,20,0]})";
+        accessors += R"(,{"bufferView":1,"componentType":5121,"count":5,"type":"VEC4"},)"
+                     R"({"bufferView":2,"componentType":5126,"count":5,"type":"VEC4"},)"
+                     R"({"bufferView":3,"componentType":5126,"count":2,"type":"MAT4"})";
+        views += R"(,{"buffer":0,"byteOffset":60,"byteLength":20},)"
+                 R"({"buffer":0,"byteOffset":80,"byteLength":80},)"
+                 R"({"buffer":0,"byteOffset":160,"byteLength":128})";
+        primitives = R"({"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}})";
+        more = R"(,"skins":[{"joints":[1,2],"inverseBindMatrices":3}])";
+    }
+
+    /// Points 0, 3 and 4 follow joint 0, point 1 joint 1, and point 2 both. The weights of point 3
+    /// have the sum 0.25. Unused places have joint 9.
+    [[nodiscard]] static std::string buffer() {
+        std::vector<float> matrices(32);
+        for (const std::size_t i : {0, 5, 10, 15}) matrices[i] = matrices[16 + i] = 1;
+        matrices[16 + 14] = 5;  // column by column
+        return bytes_of(kPoints) + bytes_of<std::uint8_t>({0, 9, 9, 9, 9, 1, 9, 9, 0, 1,
+                                                           9, 9, 0, 9, 9, 9, 9, 9, 9, 0}) +
+               bytes_of<float>(
+                   {1, 0, 0, 0, 0, 1, 0, 0, 0.5f, 0.5f, 0, 0, 0.25f, 0, 0, 0, 0, 0, 0, 1}) +
+               bytes_of(matrices);
+    }
+};
+
+TEST_F(ReadGltf, SkinsPlaceVerticesByTheirJoints) {
+    const auto soup = read(SkinDocument(), SkinDocument::buffer());
+    ASSERT_TRUE(soup.ok()) << soup.error().message;
+    EXPECT_EQ(
+        soup->positions,
+        (std::vector<Double3>{{10, 0, 0}, {11, 20, 5}, {10, 11, 2.5}, {13, 2, 0}, {11, 5, 0.25}}));
+    EXPECT_EQ(soup->triangles, (std::vector<Triangle>{{{0, 1, 2}}}));
+    ASSERT_EQ(soup->instances.size(), 1u);
+    EXPECT_EQ(soup->instances[0].model_from_node,
+              (std::array<double, 12>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}));
+    EXPECT_TRUE(soup->remarks.empty());
+}
+
+TEST_F(ReadGltf, NodesBelowASkinnedNodeMoveWithIt) {
+    SkinDocument document;
+    document.nodes.replace(document.nodes.find(R"("scale")"), 0, R"("children":[3],)");
+    document.nodes += R"(,{"mesh":0,"translation":[1,0,0]})";
+    const auto soup = read(document, SkinDocument::buffer());
+    ASSERT_TRUE(soup.ok()) << soup.error().message;
+    ASSERT_EQ(soup->positions.size(), 10u);
+    EXPECT_EQ(soup->positions[0], (Double3{10, 0, 0}));
+    EXPECT_EQ(soup->positions[6], (Double3{200, 0, 0}));
+}
+
+TEST_F(ReadGltf, ASkinWithoutMatricesHasJointsAtTheOrigin) {
+    SkinDocument document;
+    document.more = R"(,"skins":[{"joints":[1,2]}])";
+    const auto soup = read(document, SkinDocument::buffer());
+    ASSERT_TRUE(soup.ok()) << soup.error().message;
+    EXPECT_EQ(soup->positions[1], (Double3{11, 20, 0}));
+    EXPECT_EQ(soup->positions[2], (Double3{10, 11, 0}));
+}
+
+TEST_F(ReadGltf, ASkinMovesWhatMorphTargetsMadeInAnySetOfJoints) {
+    SkinDocument document;
+    document.primitives = R"({"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":4,)"
+                          R"("JOINTS_1":1,"WEIGHTS_1":2},"targets":[{"POSITION":0}]})";
+    document.accessors += R"(,{"bufferView":4,"componentType":5126,"count":5,"type":"VEC4"})";
+    document.views += R"(,{"buffer":0,"byteOffset":288,"byteLength":80})";
+    document.mesh = R"(,"weights":[1])";
+    const auto soup = read(document, SkinDocument::buffer() + std::string(80, '\0'));
+    ASSERT_TRUE(soup.ok()) << soup.error().message;
+    EXPECT_EQ(
+        soup->positions,
+        (std::vector<Double3>{{10, 0, 0}, {12, 20, 5}, {10, 12, 2.5}, {16, 4, 0}, {12, 10, 0.5}}));
+}
+
+// The points are mirrored, and so would be the sides of their triangles.
+TEST_F(ReadGltf, JointsThatMirrorReverseTriangles) {
+    SkinDocument document;
+    document.nodes.replace(document.nodes.find("[10,0,0]"), 8, R"([10,0,0],"scale":[-1,1,1])");
+    const auto soup = read(document, SkinDocument::buffer());
+    ASSERT_TRUE(soup.ok()) << soup.error().message;
+    EXPECT_EQ(soup->positions[1], (Double3{9, 20, 5}));
+    EXPECT_EQ(soup->triangles, (std::vector<Triangle>{{{0, 2, 1}}}));
+}
+
+TEST_F(ReadGltf, ASkinThatDoesNotFitIsNamed) {
+    const auto refused = [&](const std::string& old, const std::string& now, const char* words) {
+        SkinDocument document;
+        for (std::string* part : {&document.more, &document.primitives, &document.accessors}) {
+            if (const std::size_t at = part->find(old); at != std::string::npos) {
+                part->replace(at, old.size(), now);
+            }
+        }
+        expect_refused(document, words, SkinDocument::buffer());
+    };
+    refused(R"([{"joints")", R"([],"s":[{"joints")", "skin 0 does not exist");
+    refused("[1,2]", "[1,7]", "skin 0 has the joint 7, which is no node below a root");
+    refused("[1,2]", "[1]", "primitive 0 of mesh 0 uses joint 1, but its skin has 1 joints");
+    refused("[1,2]", "[1,2,1]", "skin 0 has 3 joints, but 2 inverse bind matrices");
+    refused(R"("JOINTS_0":1,)", "", "primitive 0 of mesh 0 has a skin, but no JOINTS_0");
+    refused(R"(,"WEIGHTS_0":2)", "", "primitive 0 of mesh 0 has a skin, but no WEIGHTS_0");
+    refused(R"(5121,"count":5)", R"(5121,"count":4)",
+            "primitive 0 of mesh 0 has 5 vertices, but its JOINTS_0 has 4");
+    std::string buffer = SkinDocument::buffer();
+    buffer.replace(80 + 16, 16, 16, '\0');
+    expect_refused(SkinDocument(), "has joint weights at vertex 1 whose sum is not above 0",
+                   buffer);
 }
 
 TEST_F(ReadGltf, TextMayBeInAnotherEncodingAndDeepToALimit) {

@@ -25,7 +25,9 @@ TEST(ReadOff, ReadsEverySpellingOfTheHeader) {
     for (const char* header :
          {"OFF\n4 2 0\n", "OFF 4 2 0\n", "OFF4 2 0\n", "\t  OFF4 2 0 # or nah\n",
           "# c\n\nOFF # c\n# c\n4 # v\n2 0\n", "4 2 0\n", "OFF\r\n4 2 0\r\n", "COFF\n4 2 0\n",
-          "STCNOFF\n4 2 0\n", "OFF\n4 2\n"}) {
+          "STCNOFF\n4 2 0\n", "OFF\n4 2\n", "\xef\xbb\xbfOFF\n4 2 0\n",
+          "\xef\xbb\xbf"
+          "4 2 0\n"}) {
         const TriangleSoup s = kOffReader.soup(header + kBody);
         EXPECT_EQ(s.positions, kSquare) << header;
         EXPECT_EQ(s.triangles, kThree) << header;

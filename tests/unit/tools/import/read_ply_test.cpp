@@ -50,6 +50,12 @@ TEST(ReadPly, ReadsText) {
     EXPECT_TRUE(s.single_precision);
 }
 
+TEST(ReadPly, TextMayBeginWithAByteOrderMark) {
+    const TriangleSoup s = kPlyReader.soup("\xef\xbb\xbf" + text_square());
+    EXPECT_EQ(s.positions, kSquare);
+    EXPECT_EQ(s.triangles.size(), 3u);
+}
+
 // Rows that do not match the header: a real exporter writes colours as lists.
 TEST(ReadPly, TextRowsMayHoldMoreThanTheHeaderSays) {
     const TriangleSoup s = kPlyReader.soup(

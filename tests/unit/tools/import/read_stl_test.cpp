@@ -127,6 +127,49 @@ TEST(ReadStl, SolidsAreGroups) {
     EXPECT_EQ(s.groups.runs[1].triangle_count, 1u);
 }
 
+/// A facet on one line, at a place in x.
+std::string facet_at(int x) {
+    const std::string place = std::to_string(x);
+    return "facet normal 0 0 1 outer loop vertex " + place + " 0 0 vertex " + place +
+           " 1 0 vertex " + place + " 0 1 endloop endfacet";
+}
+
+TEST(ReadStl, SolidsMayShareALine) {
+    const std::string a = "solid a " + facet_at(0) + " endsolid a";
+    const std::string b = "solid b " + facet_at(5) + " " + facet_at(6) + " endsolid b";
+    for (const std::string& text :
+         {a + "\n" + b + "\n", a + " " + b, "solid a\n" + facet_at(0) + "\nendsolid a " + b,
+          a + "\nsolid b\n" + facet_at(5) + "\n" + facet_at(6) + "\nendsolid b\n",
+          "solid a\r" + facet_at(0) + "\rendsolid a\r" + b + "\r"}) {
+        const TriangleSoup s = kStlReader.soup(text);
+        ASSERT_EQ(s.triangles.size(), 3u) << text;
+        EXPECT_EQ(s.positions[3].x, 5) << text;
+        EXPECT_EQ(s.groups.names, (std::vector<std::string>{"a", "b"})) << text;
+        ASSERT_EQ(s.groups.runs.size(), 2u) << text;
+        EXPECT_EQ(s.groups.runs[1].first_triangle, 1u) << text;
+    }
+}
+
+TEST(ReadStl, NamesMayHaveAnyWords) {
+    for (const std::string name : {"vertex 1 2", "facet", "my facet normal", "solid endsolid",
+                                   "facet endfacet", "endfacet facet vertex 1", "solid solid"}) {
+        const TriangleSoup s = kStlReader.soup("solid " + name + "\n" + kFacet + "endsolid " +
+                                               name + "\nsolid b\n" + kFacet + "endsolid b\n");
+        EXPECT_EQ(s.triangles.size(), 2u) << name;
+        EXPECT_EQ(s.groups.names, (std::vector<std::string>{name, "b"}));
+    }
+    const TriangleSoup line =
+        kStlReader.soup("solid my facet part " + facet_at(0) + " endsolid my facet part\n");
+    EXPECT_EQ(line.triangles.size(), 1u);
+    EXPECT_EQ(line.groups.names, (std::vector<std::string>{"my facet part"}));
+}
+
+TEST(ReadStl, TextMayBeginWithAByteOrderMark) {
+    const TriangleSoup s = kStlReader.soup("\xef\xbb\xbfsolid a\n" + kFacet + "endsolid a\n");
+    EXPECT_EQ(s.positions, kCorners);
+    EXPECT_EQ(s.groups.names, (std::vector<std::string>{"a"}));
+}
+
 TEST(ReadStl, TextKeepsDoubles) {
     const TriangleSoup s = kStlReader.soup(
         "solid\nfacet normal 0 0 1\nouter loop\nvertex 0.1234567890123 0 0\nvertex 1 0 0\n"

@@ -290,6 +290,42 @@ TEST(GltfScene, CollidersOfABodyBecomeOneObject) {
     EXPECT_TRUE(has_finding(reading, "assumed: the colliders of a body do not overlap"));
 }
 
+/// Puts a text in the place of another that occurs once.
+void replace(std::string& text, const std::string& old, const std::string& now) {
+    ASSERT_NE(text.find(old), std::string::npos) << old;
+    text.replace(text.find(old), old.size(), now);
+}
+
+// Every weight is (0, 0, 0, 1), read from the points. The joint moves the mesh by 7 in x, and the
+// node of the mesh, at (1, 2, 3) with the body, does not.
+TEST(GltfScene, ASkinPlacesAColliderOfABody) {
+    std::string text = gltf_text(
+        node(R"("name":"car","translation":[1,2,3],"children":[1],)", kMotion + kCollider) + "," +
+        node(R"("name":"rider","skin":0,)", kCollider) +
+        R"(,{"name":"bone","translation":[7,0,0]},)" + node("", kCollider));
+    replace(text, R"("POSITION":0)", R"("POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3)");
+    replace(text, R"("accessors":[)", R"("skins":[{"joints":[2]}],"accessors":[)");
+    replace(text, R"(],"bufferViews")",
+            R"(,{"componentType":5121,"count":3,"type":"VEC4","sparse":{"count":0,"indices":)"
+            R"({"bufferView":0,"componentType":5121},"values":{"bufferView":0}}},)"
+            R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC4"}],"bufferViews")");
+    const GltfReading reading = read_gltf_text(text);
+    for (const Error& error : reading.errors) ADD_FAILURE() << error.message;
+    ASSERT_TRUE(reading.assembly);
+    const AssemblyScene& assembly = *reading.assembly;
+    const AssemblyModel& model = assembly.models.at(assembly.scene.objects[0].model);
+    ASSERT_EQ(model.size(), 2u);
+    const import::MeshNode& rider = assembly.file.nodes()[model[1].node];
+    EXPECT_EQ(rider.path, "car/rider");
+    const std::vector<import::PlacedNode> nodes = {{&rider, model[1].model_from_mesh}};
+    const auto soup = assembly.file.triangles(nodes);
+    ASSERT_TRUE(soup) << soup.error().message;
+    EXPECT_EQ(soup->positions[0], (format::Double3{6, -2, -3})) << "seen from the car";
+    EXPECT_TRUE(has_finding(reading,
+                            "ignored: a skin that moves; the mesh keeps the pose of the file "
+                            "(/nodes/1/skin)."));
+}
+
 TEST(GltfScene, ABodyThatNothingPushesStays) {
     const GltfReading reading =
         read_nodes(node("", kMotion + collider_in(0)) + "," + node("", collider_in(1)),

@@ -151,7 +151,7 @@ TEST(LoadModels, TellsOfCollidersInAMesh) {
         const auto models = load(scene, options);
         ASSERT_TRUE(models) << models.error().message;
         EXPECT_EQ(models->front().model->triangle_count(), 4U);
-        const std::vector<std::string> lines = kept_colliders(scene, *models);
+        const std::vector<std::string> lines = import_lines(scene, *models);
         ASSERT_EQ(lines.size(), is_first ? 1U : 0U);
         if (!is_first) continue;
         EXPECT_EQ(lines.front(),
