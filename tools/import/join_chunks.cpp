@@ -31,6 +31,13 @@ struct Place {
     std::uint64_t first_face = 0;
 };
 
+/// A face that could not be cut into triangles within the limit of steps.
+struct UncutFace {
+    std::uint64_t face;
+    std::uint64_t first_triangle;
+    std::uint32_t corners;
+};
+
 bool fits_predicates(const Double3& p) noexcept {
     const auto small = [](double x) { return std::fabs(x) <= format::kMaxCoordinate; };
     return small(p.x) && small(p.y) && small(p.z);
@@ -40,8 +47,12 @@ bool fits_predicates(const Double3& p) noexcept {
 class ChunkJoiner {
 public:
     ChunkJoiner(mesh::TriangleSoup& soup, PolygonChunk& chunk, Place place,
-                std::int64_t first_index)
-        : soup_(soup), chunk_(chunk), place_(place), first_index_(first_index) {}
+                const JoinOptions& options)
+        : soup_(soup),
+          chunk_(chunk),
+          place_(place),
+          first_index_(options.first_index),
+          max_polygon_steps_(options.max_polygon_steps) {}
 
     /// Turns every corner into a vertex number of the soup, or kNoVertex.
     void resolve_corners() {
@@ -88,6 +99,7 @@ public:
         return true;
     }
 
+    /// Stops at the first face that cannot be cut.
     void write_triangles() {
         std::uint64_t triangle = place_.first_triangle;
         if (chunk_.sizes.empty()) {
@@ -100,7 +112,10 @@ public:
         std::size_t slot = 0;
         for (std::size_t face = 0; face < chunk_.sizes.size(); ++face) {
             const std::uint32_t size = chunk_.sizes[face];
-            cut_face(slot, size);
+            if (!cut_face(slot, size)) {
+                uncut = {place_.first_face + face, triangle, size};
+                return;
+            }
             for (const std::array<std::uint32_t, 3>& corners : cut_) {
                 write_triangle(triangle++, slot, face, corners);
             }
@@ -109,6 +124,7 @@ public:
     }
 
     std::vector<BadNumber> bad_triangles;
+    std::optional<UncutFace> uncut;
 
 private:
     struct BadCorner {
@@ -120,12 +136,13 @@ private:
         return static_cast<std::int64_t>(place_.first_vertex);
     }
 
-    /// Fills cut_ with the triangles of the face of `size` corners from `slot`.
-    void cut_face(std::size_t slot, std::uint32_t size) {
+    /// Fills cut_ with the triangles of the face of `size` corners from `slot`. Returns false if
+    /// the steps for that end first.
+    bool cut_face(std::size_t slot, std::uint32_t size) {
         cut_.clear();
         if (size <= 3) {
             if (size == 3) cut_.push_back({0, 1, 2});
-            return;
+            return true;
         }
         outline_.clear();
         bool usable = true;
@@ -135,10 +152,12 @@ private:
             if (usable) outline_.push_back(soup_.positions[vertex]);
         }
         if (usable) {
-            mesh::triangulate_polygon(outline_, cut_);
-            return;
+            // A fan of a face that crosses itself still has the face's outline.
+            return mesh::triangulate_polygon(outline_, cut_, max_polygon_steps_) !=
+                   mesh::PolygonCut::unfinished;
         }
         for (std::uint32_t i = 1; i + 1 < size; ++i) cut_.push_back({0, i, i + 1});
+        return true;
     }
 
     void write_triangle(std::uint64_t number, std::size_t slot, std::size_t face,
@@ -182,6 +201,7 @@ private:
     PolygonChunk& chunk_;
     Place place_;
     std::int64_t first_index_;
+    std::uint64_t max_polygon_steps_;
     std::vector<BadCorner> bad_corners_;  // sorted by slot
     std::vector<Double3> outline_;
     std::vector<std::array<std::uint32_t, 3>> cut_;
@@ -223,6 +243,21 @@ std::optional<Error> find_excess(const SourceFile& file, const Place& total,
         return file.over_budget("needs about " + std::to_string(bytes >> 20) +
                                 " MiB of memory; at most " + std::to_string(memory_bytes >> 20) +
                                 " MiB are allowed. Raise --import-memory to read it");
+    }
+    return std::nullopt;
+}
+
+/// Returns the error for the first face of the file that could not be cut, if any.
+std::optional<Error> find_uncut(const SourceFile& file,
+                                const std::vector<std::optional<UncutFace>>& uncut,
+                                std::uint64_t max_steps) {
+    for (const std::optional<UncutFace>& face : uncut) {
+        if (!face) continue;
+        return file.over_budget(
+            "face " + std::to_string(face->face) + ", whose first triangle is " +
+            std::to_string(face->first_triangle) + ", has " + std::to_string(face->corners) +
+            " corners, and cutting it into triangles takes more than the " +
+            std::to_string(max_steps) + " steps allowed. Split it into smaller faces to read it");
     }
     return std::nullopt;
 }
@@ -270,6 +305,10 @@ mesh::NamedRuns join_runs(std::vector<PolygonChunk>& chunks, const std::vector<P
 
 void list_bad_numbers(mesh::TriangleSoup& soup, const std::vector<BadNumber>& bad_triangles,
                       ParallelFor parallel_for) {
+    // Nothing but this list tells these triangles from others at vertex 0, so it must be complete.
+    // Its memory grows with bad triangles only.
+    soup.out_of_range.reserve(bad_triangles.size());
+    for (const BadNumber& bad : bad_triangles) soup.out_of_range.push_back(bad.triangle);
     constexpr std::size_t kBlock = 65536;
     std::vector<std::vector<std::uint32_t>> bad((soup.positions.size() + kBlock - 1) / kBlock);
     parallel_for(bad.size(), [&](std::size_t block) {
@@ -308,15 +347,18 @@ Result<mesh::TriangleSoup> join_chunks(const SourceFile& file, std::vector<Polyg
         resize_large(soup.face, total.first_triangle);
     }
     std::vector<std::vector<BadNumber>> bad_triangles(chunks.size());
+    std::vector<std::optional<UncutFace>> uncut(chunks.size());
     options.parallel_for(chunks.size(), [&](std::size_t i) {
-        ChunkJoiner joiner(soup, chunks[i], places[i], options.first_index);
+        ChunkJoiner joiner(soup, chunks[i], places[i], options);
         if (!joiner.write_plain_triangles()) {
             joiner.resolve_corners();
             joiner.write_triangles();
         }
         bad_triangles[i] = std::move(joiner.bad_triangles);
+        uncut[i] = joiner.uncut;
         chunks[i] = {};
     });
+    if (auto excess = find_uncut(file, uncut, options.max_polygon_steps)) return *std::move(excess);
     std::vector<BadNumber> all_bad;
     for (const std::vector<BadNumber>& part : bad_triangles) {
         all_bad.insert(all_bad.end(), part.begin(), part.end());

@@ -2,8 +2,11 @@
 #include "mesh/triangulate_polygon.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <set>
 
 #include "cdprep/exact/predicates.h"
 
@@ -14,9 +17,8 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-// The limit on edge tests per polygon. They take about a second; polygons of a few thousand
-// corners stay far below.
-constexpr std::uint64_t kMaxSteps = 200'000'000;
+// Fewer steps per corner cut nothing but spikes. The memory for larger polygons is not worth it.
+constexpr std::uint64_t kLeastSteps = 25;
 
 /// Returns twice the vector area of the outline, scaled to about one.
 Double3 area_vector(std::span<const Double3> outline) {
@@ -99,8 +101,16 @@ struct FlatBox {
     Double2 upper;
 };
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr FlatBox kNothing = {{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+
 FlatBox box_of(const Double2& a, const Double2& b) {
     return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+}
+
+FlatBox join(const FlatBox& a, const FlatBox& b) {
+    return {{std::min(a.lower.x, b.lower.x), std::min(a.lower.y, b.lower.y)},
+            {std::max(a.upper.x, b.upper.x), std::max(a.upper.y, b.upper.y)}};
 }
 
 bool overlap(const FlatBox& a, const FlatBox& b) {
@@ -127,6 +137,65 @@ bool enters(const Ear& ear, const Double2& p, const Double2& q) {
     return std::min({a, b, c}) < 0 && std::max({a, b, c}) > 0;
 }
 
+/// Returns the corner of the box that is farthest to the left of the line.
+Double2 leftmost(const FlatBox& box, const Double2& from, const Double2& to) {
+    return {from.y < to.y ? box.lower.x : box.upper.x, from.x < to.x ? box.upper.y : box.lower.y};
+}
+
+/// Returns whether an edge in the box may enter the ear, or cross its cut from c to a.
+bool may_matter(const Ear& ear, const FlatBox& ear_box, const FlatBox& box) {
+    const auto beyond = [&](const Double2& from, const Double2& to) {
+        return exact::orient2d(from, to, leftmost(box, from, to));
+    };
+    return overlap(ear_box, box) && beyond(ear.a, ear.b) > 0 && beyond(ear.b, ear.c) > 0 &&
+           beyond(ear.c, ear.a) >= 0;
+}
+
+/// The boxes of the polygon's edges, as a binary tree over the numbers of their first corners.
+/// Without it, an ear would be compared with all edges: quadratic time for every polygon.
+class EdgeTree {
+public:
+    explicit EdgeTree(std::span<const Double2> flat)
+        : leaves_(std::bit_ceil(flat.size())), boxes_(2 * leaves_, kNothing) {
+        for (std::size_t i = 0; i < flat.size(); ++i) {
+            boxes_[leaves_ + i] = box_of(flat[i], flat[(i + 1) % flat.size()]);
+        }
+        for (std::size_t node = leaves_; node-- > 1;) update(node);
+    }
+
+    void set(std::uint32_t edge, const FlatBox& box) {
+        boxes_[leaves_ + edge] = box;
+        for (std::size_t node = (leaves_ + edge) / 2; node > 0; node /= 2) update(node);
+    }
+
+    /// Returns whether `accept` holds for an edge. Skips all edges in boxes for which `may` is
+    /// false, and counts the boxes tested.
+    template <class May, class Accept>
+    bool any(std::uint64_t& tests, May&& may, Accept&& accept) const {
+        std::size_t node = 1;
+        do {
+            ++tests;
+            const bool may_hold = may(boxes_[node]);
+            if (may_hold && node < leaves_) {
+                node *= 2;
+                continue;
+            }
+            if (may_hold && accept(static_cast<std::uint32_t>(node - leaves_))) return true;
+            // The next node beside the way from the root: 1 is back at the root.
+            node = (node + 1) >> std::countr_zero(node + 1);
+        } while (node > 1);
+        return false;
+    }
+
+private:
+    void update(std::size_t node) {
+        boxes_[node] = join(boxes_[2 * node], boxes_[2 * node + 1]);
+    }
+
+    std::size_t leaves_;
+    std::vector<FlatBox> boxes_;  ///< node i has the children 2i and 2i + 1; the root is 1
+};
+
 /// Clips ears off a weakly simple polygon that runs counter-clockwise.
 ///
 /// An ear is a left turn whose triangle no other edge enters. Ears whose cut passes through a
@@ -135,38 +204,54 @@ bool enters(const Ear& ear, const Double2& p, const Double2& q) {
 /// beside a spike might lie outside.
 class EarClipper {
 public:
-    EarClipper(std::span<const Double2> flat, std::vector<Corners>& triangles)
-        : flat_(flat), triangles_(triangles), next_(flat.size()), previous_(flat.size()) {
+    EarClipper(std::span<const Double2> flat, std::vector<Corners>& triangles,
+               std::uint64_t max_steps)
+        : max_steps_(max_steps),
+          flat_(flat),
+          triangles_(triangles),
+          next_(flat.size()),
+          previous_(flat.size()),
+          edges_(flat) {
         const auto n = static_cast<std::uint32_t>(flat.size());
         for (std::uint32_t i = 0; i < n; ++i) {
             next_[i] = (i + 1) % n;
             previous_[i] = (i + n - 1) % n;
         }
         left_ = n;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            if (is_spike(i)) spikes_.insert(spikes_.end(), i);
+        }
     }
 
     PolygonCut run() {
         while (left_ > 3) {
-            if (clip_first([this](std::uint32_t i) { return is_spike(i); })) continue;
+            if (clip_spike()) continue;
             if (clip_first([this](std::uint32_t i) { return is_ear(i, Cut::clear); })) continue;
             if (clip_first([this](std::uint32_t i) { return is_ear(i, Cut::any); })) continue;
             force_rest();
-            return PolygonCut::forced;
+            return steps_ > max_steps_ ? PolygonCut::unfinished : PolygonCut::forced;
         }
         triangles_.push_back({previous_[at_], at_, next_[at_]});
-        const bool turns_right = turn(at_) < 0;
-        return turns_right || steps_ > kMaxSteps ? PolygonCut::forced : PolygonCut::ears;
+        return turn(at_) < 0 ? PolygonCut::forced : PolygonCut::ears;
     }
 
 private:
     enum class Cut : std::uint8_t { clear, any };
+
+    /// Clips the first spike, starting after the last clipped corner.
+    bool clip_spike() {
+        if (spikes_.empty()) return false;
+        const auto found = spikes_.lower_bound(at_);
+        clip(found == spikes_.end() ? *spikes_.begin() : *found);
+        return true;
+    }
 
     /// Clips the first suitable corner, starting after the last clipped one.
     template <class Test>
     bool clip_first(Test&& may_go) {
         std::uint32_t corner = at_;
         for (std::uint32_t tried = 0; tried < left_; ++tried, corner = next_[corner]) {
-            if (steps_ > kMaxSteps) return false;
+            if (steps_ > max_steps_) return false;
             if (!may_go(corner)) continue;
             clip(corner);
             return true;
@@ -182,6 +267,17 @@ private:
         previous_[after] = before;
         at_ = after;
         --left_;
+        edges_.set(corner, kNothing);
+        edges_.set(before, box_of(flat_[before], flat_[after]));
+        // A spike depends on its two neighbours only.
+        spikes_.erase(corner);
+        for (const std::uint32_t i : {before, after}) {
+            if (is_spike(i)) {
+                spikes_.insert(i);
+            } else {
+                spikes_.erase(i);
+            }
+        }
     }
 
     [[nodiscard]] int turn(std::uint32_t i) const {
@@ -203,18 +299,13 @@ private:
         const FlatBox first = box_of(ear.a, ear.b);
         const FlatBox box{{std::min(first.lower.x, ear.c.x), std::min(first.lower.y, ear.c.y)},
                           {std::max(first.upper.x, ear.c.x), std::max(first.upper.y, ear.c.y)}};
-        for (std::uint32_t p = next_[i]; p != previous_[i]; p = next_[p]) {
-            ++steps_;
-            const Double2& from = flat_[p];
-            const Double2& to = flat_[next_[p]];
-            if (!overlap(box, box_of(from, to))) continue;
-            if (enters(ear, from, to)) return false;
-            if (cut == Cut::clear && is_between(ear.a, from, ear.c) &&
-                exact::orient2d(ear.a, from, ear.c) == 0) {
-                return false;
-            }
-        }
-        return true;
+        const auto may = [&](const FlatBox& of_edges) { return may_matter(ear, box, of_edges); };
+        return !edges_.any(steps_, may, [&](std::uint32_t edge) {
+            const Double2& from = flat_[edge];
+            if (enters(ear, from, flat_[next_[edge]])) return true;
+            return cut == Cut::clear && is_between(ear.a, from, ear.c) &&
+                   exact::orient2d(ear.a, from, ear.c) == 0;
+        });
     }
 
     void force_rest() {
@@ -223,9 +314,12 @@ private:
         }
     }
 
+    std::uint64_t max_steps_;
     std::span<const Double2> flat_;
     std::vector<Corners>& triangles_;
     std::vector<std::uint32_t> next_, previous_;
+    EdgeTree edges_;
+    std::set<std::uint32_t> spikes_;
     std::uint32_t at_ = 0;
     std::uint32_t left_ = 0;
     std::uint64_t steps_ = 0;
@@ -233,14 +327,16 @@ private:
 
 }  // namespace
 
-PolygonCut triangulate_polygon(std::span<const Double3> outline, std::vector<Corners>& triangles) {
+PolygonCut triangulate_polygon(std::span<const Double3> outline, std::vector<Corners>& triangles,
+                               std::uint64_t max_steps) {
     if (outline.size() < 3) return PolygonCut::convex;
     const std::vector<Double2> flat = project(outline);
-    if (outline.size() == 3 || is_strictly_convex(flat)) {
+    const bool is_convex = outline.size() == 3 || is_strictly_convex(flat);
+    if (is_convex || outline.size() > max_steps / kLeastSteps) {
         for (std::uint32_t i = 1; i + 1 < outline.size(); ++i) triangles.push_back({0, i, i + 1});
-        return PolygonCut::convex;
+        return is_convex ? PolygonCut::convex : PolygonCut::unfinished;
     }
-    return EarClipper(flat, triangles).run();
+    return EarClipper(flat, triangles, max_steps).run();
 }
 
 }  // namespace cdprep::mesh

@@ -15,7 +15,13 @@ enum class PolygonCut : std::uint8_t {
     convex,  ///< a fan around corner 0
     ears,    ///< ears clipped one by one: the triangles cover the polygon once
     forced,  ///< no triangulation was found for a part; it is a fan
+    /// The steps ended first. The rest is a fan that may lie anywhere: do not use it.
+    unfinished,
 };
+
+/// The default limit on the steps of one polygon. They take some seconds. Most polygons of a
+/// million corners need fewer.
+inline constexpr std::uint64_t kMaxPolygonSteps = 200'000'000;
 
 /// Appends the outline.size() - 2 triangles of a polygon to `triangles`, as numbers of its
 /// corners, with the winding of the polygon.
@@ -27,9 +33,10 @@ enum class PolygonCut : std::uint8_t {
 /// depends only on the corners. Fewer than three corners give nothing.
 ///
 /// Coordinates must be finite and at most format::kMaxCoordinate. Takes linear time for convex
-/// outlines, quadratic to cubic time otherwise. After a fixed number of steps (about a second)
-/// the rest is `forced`.
+/// outlines, and n log n for most others. Outlines whose parts have overlapping boxes take up to
+/// cubic time. After about `max_steps` steps the polygon is `unfinished`.
 PolygonCut triangulate_polygon(std::span<const Double3> outline,
-                               std::vector<std::array<std::uint32_t, 3>>& triangles);
+                               std::vector<std::array<std::uint32_t, 3>>& triangles,
+                               std::uint64_t max_steps = kMaxPolygonSteps);
 
 }  // namespace cdprep::mesh

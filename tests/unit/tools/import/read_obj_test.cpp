@@ -36,10 +36,11 @@ TEST(ReadObj, ReadsVerticesAndFacesInFileOrder) {
 
 TEST(ReadObj, ReadsEverySpellingOfACorner) {
     for (const char* face :
-         {"f 1 2 3", "f 1/1 2/2 3/3", "f 1//1 2//2 3//3", "f 1/1/1 2/2/2 3/3/3", "f 1/ 2/ 3/",
-          "f 1// 2// 3//", "f -4 -3 -2", "f -4/-4/-1 -3/1 -2", "f +1 +2 +3", "f  1\t2   3  ",
-          "\t f 1 2 3", "f 1 2 3\r", "f 1 2 3 # a triangle", "f 1 2 3#c", "f 1 \\\n2 3",
-          "f 1 2\\\r\n 3", "f 1 2 3 \\\n", "f 01 002 3"}) {
+         {"f 1 2 3",     "f 1/1 2/2 3/3", "f 1//1 2//2 3//3",     "f 1/1/1 2/2/2 3/3/3",
+          "f 1/ 2/ 3/",  "f 1// 2// 3//", "f -4 -3 -2",           "f -4/-4/-1 -3/1 -2",
+          "f +1 +2 +3",  "f  1\t2   3  ", "f\\\n1 2 3",           "f\\\r\n 1 2 3",
+          "\t f 1 2 3",  "f 1 2 3\r",     "f 1 2 3 # a triangle", "f 1 2 3#c",
+          "f 1 \\\n2 3", "f 1 2\\\r\n 3", "f 1 2 3 \\\n",         "f 01 002 3"}) {
         EXPECT_EQ(kObjReader.soup(kFour + face + "\n").triangles, kOne) << face;
         EXPECT_EQ(kObjReader.soup(kFour + face).triangles, kOne)
             << face << " at the end of the file";
@@ -63,8 +64,20 @@ TEST(ReadObj, IgnoresColoursAndWeights) {
 
 TEST(ReadObj, JoinsContinuedVertexLines) {
     EXPECT_EQ(kObjReader.soup("v 1 \\\n2 \\\r\n3\n").positions, (std::vector<Double3>{{1, 2, 3}}));
+    EXPECT_EQ(kObjReader.soup("v\\\n1 2 3\nv\\\r\n4 5 6").positions,
+              (std::vector<Double3>{{1, 2, 3}, {4, 5, 6}}));
     EXPECT_EQ(kObjReader.soup("v \\\n1 2 3 \\\n0.5\nv 4 5 6").positions,
               (std::vector<Double3>{{1, 2, 3}, {4, 5, 6}}));
+}
+
+TEST(ReadObj, AByteOrderMarkHidesNothing) {
+    const TriangleSoup s = kObjReader.soup("\xef\xbb\xbf" + kFour + "f 1 2 3\n");
+    EXPECT_EQ(s.positions, kObjReader.soup(kFour).positions);
+    EXPECT_EQ(s.triangles, kOne);
+    EXPECT_TRUE(
+        looks_like_obj("\xef\xbb\xbf"
+                       "v 0 0 0\n"));
+    EXPECT_TRUE(kObjReader.soup("\xef\xbb\xbf").positions.empty());
 }
 
 TEST(ReadObj, RelativeIndicesCountFromTheLastVertexSoFar) {
@@ -131,7 +144,7 @@ TEST(ReadObj, NonFiniteCoordinatesAreDataWithTheirPlace) {
     EXPECT_FALSE(s.single_precision);
 }
 
-TEST(ReadObj, ListsAThousandBadNumbersAndCountsAll) {
+TEST(ReadObj, ListsAThousandBadNumbersAndAllTrianglesOutOfRange) {
     std::string text = kFour;
     for (int i = 0; i < 700; ++i) text += "v nan 0 0\n";
     for (int i = 0; i < 900; ++i) text += "f 1 2 9999\n";
@@ -141,6 +154,9 @@ TEST(ReadObj, ListsAThousandBadNumbersAndCountsAll) {
     EXPECT_EQ(s.bad_numbers[699].kind, BadNumber::Kind::not_finite);
     EXPECT_EQ(s.bad_numbers[700].kind, BadNumber::Kind::index_out_of_range);
     EXPECT_EQ(s.bad_numbers[999].triangle, 299u);
+    ASSERT_EQ(s.out_of_range.size(), 900u);
+    EXPECT_EQ(s.out_of_range.front(), 0u);
+    EXPECT_EQ(s.out_of_range.back(), 899u);
 }
 
 // 0.1 as a float is 0.100000001490116; as a double it is nearer.
@@ -189,6 +205,8 @@ TEST(ReadObj, NamesBecomeUtf8) {
 TEST(ReadObj, SaysWhichLineIsBroken) {
     EXPECT_EQ(kObjReader.refusal("v 0 0 0\nv 1 2\n"),
               "t.obj: line 2: a vertex has 2 coordinates; expected 3.");
+    EXPECT_EQ(kObjReader.refusal("v 0 0 0\nv\n"),
+              "t.obj: line 2: a vertex has 0 coordinates; expected 3.");
     EXPECT_EQ(kObjReader.refusal("v 0 0 0\r\n\r\nv 1 x 2\n"),
               "t.obj: line 3: 'x' is not a number.");
     EXPECT_EQ(kObjReader.refusal(kFour + "f 1 2 three\n"),

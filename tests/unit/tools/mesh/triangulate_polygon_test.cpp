@@ -200,15 +200,34 @@ TEST(TriangulatePolygon, ScaleDoesNotMatter) {
     }
 }
 
-// Past the budget of steps the rest is a fan: hostile polygons end in time.
-TEST(TriangulatePolygon, AHugeConcaveOutlineEndsInTime) {
-    std::vector<Double3> comb;
-    constexpr int kTeeth = 100'000;
-    for (int i = 0; i < kTeeth; ++i) comb.push_back({double(i), i % 2 ? 0.5 : 5.0 + i % 7, 0});
-    comb.push_back({kTeeth, -1, 0});
-    comb.push_back({-1, -1, 0});
-    std::reverse(comb.begin(), comb.end());
-    EXPECT_EQ(cut(comb).triangles.size(), comb.size() - 2);
+/// A comb of `corners` corners, and two more.
+Grid comb_of(long corners) {
+    Grid comb = {{-1, -2}, {corners, -2}};
+    for (long i = corners; i-- > 0;) comb.push_back({i, i % 2 ? 1 : 10 + 2 * (i % 7)});
+    return comb;
+}
+
+// Quadratic time would need more steps than are allowed.
+TEST(TriangulatePolygon, AConcaveOutlineOfAHundredThousandCornersIsCut) {
+    expect_ears(comb_of(100'000));
+    Grid doubled;
+    for (const auto& p : comb_of(50'000)) doubled.insert(doubled.end(), {p, p});
+    expect_ears(doubled);
+}
+
+// Past the limit of steps the rest is a fan: hostile polygons end in time.
+TEST(TriangulatePolygon, AnOutlineThatTakesTooManyStepsIsUnfinished) {
+    const std::vector<Double3> comb = in_plane_z(comb_of(1000));
+    for (const std::uint64_t max_steps : {0U, 1000U, 26'000U}) {
+        std::vector<Corners> triangles;
+        EXPECT_EQ(triangulate_polygon(comb, triangles, max_steps), PolygonCut::unfinished);
+        EXPECT_EQ(triangles.size(), comb.size() - 2) << max_steps;
+    }
+    std::vector<Corners> triangles;
+    EXPECT_EQ(triangulate_polygon(comb, triangles, 1'000'000), PolygonCut::ears);
+    triangles.clear();
+    const std::vector<Double3> square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    EXPECT_EQ(triangulate_polygon(square, triangles, 0), PolygonCut::convex);
 }
 
 bool segments_meet(const Grid& g, std::size_t i, std::size_t j) {
