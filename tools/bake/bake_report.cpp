@@ -66,7 +66,7 @@ std::string bake_text(const BakeReport& report, Timings timings) {
     if (report.parts) {
         text += "  " + std::to_string(report.parts->count) +
                 " convex parts enclose the mesh and stick out by at most " +
-                in_six_digits(report.parts->outer_error) +
+                at_most_in_six_digits(report.parts->outer_error) +
                 (report.parts->is_as_asked ? "\n" : ", so the request is not met\n");
     }
     if (timings == Timings::hide) return text;

@@ -24,8 +24,9 @@ std::string hull_line(const HullFigures& hull) {
     std::string line = "  " + printable(hull.name) + ": " + shape_name(hull.dimension) + ", " +
                        std::to_string(hull.points) + " points, " + std::to_string(hull.facets) +
                        " facets in " + std::to_string(hull.faces) + " faces";
-    line += hull.exact ? ", exact"
-                       : ", at most " + printed(hull.distance, "%.6g") + " outside the exact hull";
+    line += hull.exact
+                ? ", exact"
+                : ", at most " + at_most_in_six_digits(hull.distance) + " outside the exact hull";
     return line + "\n";
 }
 

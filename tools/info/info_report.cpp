@@ -130,8 +130,8 @@ std::string baked_hulls_text(const Model& model, std::size_t most_lines) {
                 std::to_string(hull.point_count) + " points, " + std::to_string(hull.facet_count) +
                 " facets in " + std::to_string(hull.group_count) + " faces" +
                 (is_exact(hull) ? ", exact\n"
-                                : ", at most " + in_six_digits(hull.distance) + " outside the " +
-                                      inner + "\n");
+                                : ", at most " + at_most_in_six_digits(hull.distance) +
+                                      " outside the " + inner + "\n");
     }
     if (hulls.size() > most_lines) {
         text += "  and " + std::to_string(hulls.size() - most_lines) + " more\n";

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <cstdlib>
 
 namespace cdprep::report {
 
@@ -25,6 +26,27 @@ std::string in_six_digits(double value) {
     std::array<char, 32> text{};
     const int size = std::snprintf(text.data(), text.size(), "%.6g", value);
     return {text.data(), static_cast<std::size_t>(size)};
+}
+
+std::string at_most_in_six_digits(double bound) {
+    std::string nearest = in_six_digits(bound);
+    if (!(std::strtod(nearest.data(), nullptr) < bound)) return nearest;
+    // The next number of six digits, from a text such as "1.23456e-07". Towards 0, a power of ten
+    // has a neighbour with one digit more.
+    std::string text = printed(bound, "%.5e");
+    const std::size_t e = text.find('e');
+    const int exponent = std::atoi(text.data() + e + 1) - 5;
+    text.erase(e).erase(text.find('.'), 1);
+    const int digits = std::atoi(text.data());
+    const std::string next = digits == -100000
+                                 ? "-999999e" + std::to_string(exponent - 1)
+                                 : std::to_string(digits + 1) + "e" + std::to_string(exponent);
+    return in_six_digits(std::strtod(next.data(), nullptr));
+}
+
+std::string at_least_in_six_digits(double bound) {
+    const std::string mirrored = at_most_in_six_digits(-bound);
+    return mirrored.front() == '-' ? mirrored.substr(1) : "-" + mirrored;
 }
 
 std::string printed(double value, const char* pattern) {

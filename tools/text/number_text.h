@@ -16,6 +16,12 @@ namespace cdprep::report {
 /// Returns the number with at most six digits.
 [[nodiscard]] std::string in_six_digits(double value);
 
+/// Returns an upper bound as in_six_digits(), rounded upwards: the text never reads back as less.
+[[nodiscard]] std::string at_most_in_six_digits(double bound);
+
+/// Returns a lower bound as in_six_digits(), rounded downwards: the text never reads back as more.
+[[nodiscard]] std::string at_least_in_six_digits(double bound);
+
 /// Returns the number as std::printf() writes it by a pattern such as "%.3g".
 [[nodiscard]] std::string printed(double value, const char* pattern);
 

@@ -89,7 +89,7 @@ std::string pieces_text(const SurfacePiecesReport& report) {
             std::to_string(contained(pieces)) + " lie inside the solid; the others may not\n";
     text += report.tolerance == 0
                 ? std::string("  exact: every triangle lies on its hull\n")
-                : "  triangles lie at most " + printed(outer_error(pieces), "%.6g") +
+                : "  triangles lie at most " + at_most_in_six_digits(outer_error(pieces)) +
                       " below their hulls (tolerance " + printed(report.tolerance, "%.6g") + ")\n";
     text += "  edges: " + edge_line(pieces) + "\n";
     if (!report.output.empty()) text += "  written to " + printable(report.output) + "\n";
@@ -99,7 +99,7 @@ std::string pieces_text(const SurfacePiecesReport& report) {
         text += "  " + std::to_string(i) + " " + std::to_string(pieces.of(i).size()) + " " +
                 std::to_string(pieces.of(i)[0]) + " " +
                 (pieces.pieces[i].contained ? "yes" : "no") + " " +
-                printed(pieces.pieces[i].outer_error, "%.6g") + "\n";
+                at_most_in_six_digits(pieces.pieces[i].outer_error) + "\n";
     }
     return text;
 }
