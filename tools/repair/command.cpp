@@ -228,9 +228,10 @@ void add_goal_options(const Command& command, Arguments& arguments) {
             .show_default()
             .group(group);
     command
-        .add_option("--steps", arguments.steps,
-                    "Comma-separated steps, instead of a preset. They run in the order below, "
-                    "until nothing changes")
+        .add_option(
+            "--steps", arguments.steps,
+            "Comma-separated steps, instead of a preset. They run in the order below, "
+            "until nothing changes. drop-bad-numbers also runs if a coordinate is not finite")
         .type_name("LIST")
         .check(list_of(step_names()))
         .excludes(preset)

@@ -140,6 +140,8 @@ public:
             refuse(loops_[patch], diagonal_of(mesh_, loops_[patch]),
                    "stays open, because a patch would make " + triangle_in_words(mesh_, meeting.a) +
                        " and " + triangle_in_words(mesh_, meeting.b) + " meet");
+            // Only the patch used the vertex in its middle.
+            if (around_middle_.contains(patch)) --report_.added_vertices;
         }
         std::vector<bool> kept(mesh_.triangles.size(), true);
         for (std::size_t t = 0; t < kept.size(); ++t) {
@@ -148,9 +150,7 @@ public:
             --report_.added_triangles;
         }
         keep_triangles(mesh_, kept);
-        const std::size_t before = mesh_.positions.size();
         drop_unused_vertices(mesh_, report_.unused);
-        report_.added_vertices -= before - mesh_.positions.size();
     }
 
 private:
@@ -219,6 +219,7 @@ private:
         const Loop& loop = loops_[number];
         const std::uint32_t middle = add_vertex(mesh_, middle_of_loop(mesh_, loop), report_.step);
         ++report_.added_vertices;
+        around_middle_.insert(number);
         for (std::size_t i = 0; i < loop.size(); ++i) {
             add({{loop[i], loop[(i + 1) % loop.size()], middle}}, number);
         }
@@ -249,6 +250,7 @@ private:
     std::vector<Loop> loops_;
     std::set<Edge> edges_;
     std::set<std::array<std::uint32_t, 3>> lone_;  ///< triangles of three boundary edges
+    std::set<std::uint32_t> around_middle_;        ///< loops filled around a new vertex
     std::vector<std::uint32_t> patch_of_;          ///< by triangle: the loop it fills, or kNone
 };
 

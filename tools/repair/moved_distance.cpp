@@ -22,6 +22,9 @@ namespace {
 constexpr double kRelative = 1e-4;
 constexpr double kOfModel = 1e-9;
 constexpr std::size_t kMostFragments = 200'000;  ///< for all triangles of one direction
+/// Each cut halves the sides, so kOfModel takes 30. Further cuts gain nothing, as where middles
+/// round to corners.
+constexpr int kMostDepth = 40;
 
 /// Triangles that are asked for the one nearest to a point.
 class Surface {
@@ -70,6 +73,7 @@ double apart(const Double3& a, const Double3& b) {
 struct Fragment {
     Corners corners;
     double upper;
+    int depth = 0;  ///< the number of cuts that made it
     bool operator<(const Fragment& other) const {
         return upper < other.upper;
     }
@@ -137,28 +141,48 @@ Fragment bounded(const Corners& corners, const Surface& surface, double& lower) 
     return {corners, upper};
 }
 
+double largest_coordinate(const std::vector<Corners>& triangles) {
+    double largest = 0;
+    for (const Corners& c : triangles) {
+        for (const Double3& p : c) {
+            largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+        }
+    }
+    return largest;
+}
+
 /// Splits the fragment with the largest bound until that bound is close to an attained distance.
 MovedDistance farthest(const std::vector<Corners>& triangles, const Surface& surface,
                        double diagonal) {
     MovedDistance distance;
     if (triangles.empty()) return distance;
+    // Each cut rounds its middles: half an ulp along each axis, which is farther off far from 0.
+    constexpr double kHalfUlps = 2e-16;  // sqrt(3) * 2^-53, and more
+    const double per_cut =
+        kHalfUlps * largest_coordinate(triangles) + std::numeric_limits<double>::denorm_min();
     std::priority_queue<Fragment> fragments;
     for (const Corners& t : triangles) {
         fragments.push(bounded(t, surface, distance.lower));
     }
+    int deepest = 0;
     std::size_t left = kMostFragments;
-    while (left > 0 && std::isfinite(fragments.top().upper) &&
+    while (left > 0 && fragments.top().depth < kMostDepth && std::isfinite(fragments.top().upper) &&
            fragments.top().upper > distance.lower * (1 + kRelative) + kOfModel * diagonal) {
-        const Corners corners = fragments.top().corners;
+        const Fragment whole = fragments.top();
         fragments.pop();
-        for (const Corners& part : cut_in_middles(corners)) {
-            fragments.push(bounded(part, surface, distance.lower));
+        const int depth = whole.depth + 1;
+        deepest = std::max(deepest, depth);
+        for (const Corners& part : cut_in_middles(whole.corners)) {
+            double lower = 0;
+            Fragment fragment = bounded(part, surface, lower);
+            fragment.depth = depth;
+            fragments.push(fragment);
+            distance.lower = std::max(distance.lower, lower - depth * per_cut);
         }
         left -= std::min<std::size_t>(left, 4);
     }
-    // Middles are rounded: the gaps between their fragments are smaller than this.
     distance.upper = fragments.top().upper;
-    if (left < kMostFragments) distance.upper += 1e-15 * diagonal;
+    if (deepest > 0) distance.upper += std::max(1e-15 * diagonal, deepest * per_cut);
     distance.lower = std::min(distance.lower, distance.upper);
     return distance;
 }
@@ -174,9 +198,7 @@ std::vector<bool> find_placed(const TriangleSoup& soup) {
             return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
         });
     }
-    for (const BadNumber& bad : soup.bad_numbers) {
-        if (bad.kind == BadNumber::Kind::index_out_of_range) placed[bad.triangle] = false;
-    }
+    for (const std::uint32_t t : soup.out_of_range) placed[t] = false;
     return placed;
 }
 

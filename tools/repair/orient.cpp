@@ -69,7 +69,7 @@ Stepped orient(RepairMesh mesh) {
     }
     std::sort(turned.begin(), turned.end());
     for (const std::uint32_t t : turned) {
-        std::swap(mesh.triangles[t].vertex[1], mesh.triangles[t].vertex[2]);
+        turn(mesh, t);
         report.reversed.push_back(mesh.triangle_origin[t].source);
     }
     return {std::move(mesh), std::move(report)};

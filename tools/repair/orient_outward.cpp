@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <set>
 
 #include "repair/ray_along_x.h"
 #include "repair/repair_steps.h"
@@ -30,22 +32,36 @@ ComponentBox box_of(const RepairMesh& mesh, const StoredComponent& component) {
 }
 
 bool contains(const ComponentBox& outer, const ComponentBox& inner) {
-    return outer.lower.x < inner.lower.x && outer.lower.y < inner.lower.y &&
-           outer.lower.z < inner.lower.z && outer.upper.x > inner.upper.x &&
-           outer.upper.y > inner.upper.y && outer.upper.z > inner.upper.z;
+    return outer.lower.x <= inner.lower.x && outer.lower.y <= inner.lower.y &&
+           outer.lower.z <= inner.lower.z && outer.upper.x >= inner.upper.x &&
+           outer.upper.y >= inner.upper.y && outer.upper.z >= inner.upper.z;
 }
 
-/// Returns whether p lies inside the component: an odd winding number. False on its surface.
-bool is_within(const RepairMesh& mesh, const StoredComponent& component, const Double3& p) {
+/// Returns whether p lies inside the component: an odd winding number. Nothing on its surface.
+std::optional<bool> is_within(const RepairMesh& mesh, const StoredComponent& component,
+                              const Double3& p) {
     int winding = 0;
     for (const std::uint32_t t : component.triangles) {
         const auto& v = mesh.triangles[t].vertex;
         const WindingTerm term = winding_term_along_x(
             p, {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]});
-        if (term.on_surface) return false;
+        if (term.on_surface) return std::nullopt;
         winding += term.crossings;
     }
     return winding % 2 != 0;
+}
+
+/// Returns whether the first vertex of `inner` off the surface of `outer` lies inside `outer`.
+/// False if there is none.
+bool is_within(const RepairMesh& mesh, const StoredComponent& outer, const StoredComponent& inner) {
+    std::set<std::uint32_t> tested;
+    for (const std::uint32_t t : inner.triangles) {
+        for (const std::uint32_t vertex : mesh.triangles[t].vertex) {
+            if (!tested.insert(vertex).second) continue;
+            if (const auto within = is_within(mesh, outer, mesh.positions[vertex])) return *within;
+        }
+    }
+    return false;
 }
 
 }  // namespace
@@ -62,16 +78,15 @@ Stepped orient_outward(RepairMesh mesh) {
         const StoredComponent& component = components[i];
         if (!component.balanced || !(component.volume < -component.volume_error)) continue;
         std::size_t around = 0;
-        const Double3& p = mesh.positions[mesh.triangles[component.triangles[0]].vertex[0]];
         for (std::size_t j = 0; j < components.size(); ++j) {
             if (j == i || !components[j].balanced || !contains(boxes[j], boxes[i])) continue;
-            if (is_within(mesh, components[j], p)) ++around;
+            if (is_within(mesh, components[j], component)) ++around;
         }
         if (around % 2 == 0) turned.push_back(i);  // an odd number: a cavity, already wound as one
     }
     for (const std::size_t i : turned) {
         for (const std::uint32_t t : components[i].triangles) {
-            std::swap(mesh.triangles[t].vertex[1], mesh.triangles[t].vertex[2]);
+            turn(mesh, t);
             report.reversed.push_back(mesh.triangle_origin[t].source);
         }
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cdprep/exact/winding.h"
 
@@ -18,7 +19,10 @@ namespace cdprep::mesh {
         std::max({t[0].x, t[1].x, t[2].x}) < p.x) {
         return {0, false};
     }
-    return exact::winding_term({p.x - 1 - 2 * std::abs(p.x), p.y, p.z}, p, t);
+    // If p.x is the lowest double, the ray runs in direction -x, where it meets nothing.
+    constexpr double kLowest = std::numeric_limits<double>::lowest();
+    const double before = std::max(p.x - 1 - 2 * std::abs(p.x), kLowest);
+    return exact::winding_term({before < p.x ? before : 0, p.y, p.z}, p, t);
 }
 
 }  // namespace cdprep::mesh

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "mesh/vectors.h"
 #include "repair/mesh_meetings.h"
 #include "repair/moved_distance.h"
 #include "repair/repair_steps.h"
@@ -35,32 +36,32 @@ RepairMesh as_repair_mesh(const TriangleSoup& soup) {
     return mesh;
 }
 
-/// Returns the soup as an import would: triangles with a corner out of range are listed and have
-/// all corners at vertex 0. Returns nothing if there are no such corners.
+/// Returns the soup as an import would: `out_of_range` lists triangles with a corner out of range,
+/// and their corners are at vertex 0. Returns nothing if there are no such corners.
 std::optional<TriangleSoup> marked(const TriangleSoup& soup) {
     const std::size_t limit = soup.positions.size();
     std::optional<TriangleSoup> result;
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         const auto& corners = soup.triangles[t].vertex;
-        const auto bad = std::find_if(corners.begin(), corners.end(),
-                                      [limit](std::uint32_t vertex) { return vertex >= limit; });
-        if (bad == corners.end()) continue;
+        if (std::none_of(corners.begin(), corners.end(),
+                         [limit](std::uint32_t vertex) { return vertex >= limit; })) {
+            continue;
+        }
         if (!result) result = soup;
         result->triangles[t] = {{0, 0, 0}};
-        result->bad_numbers.push_back(
-            {BadNumber::Kind::index_out_of_range, 0, t, *bad, static_cast<std::int64_t>(limit)});
-        ++result->bad_number_count;
+        result->out_of_range.push_back(t);
     }
+    if (result) std::sort(result->out_of_range.begin(), result->out_of_range.end());
     return result;
 }
 
-std::vector<std::uint32_t> out_of_range(const TriangleSoup& soup) {
-    std::vector<std::uint32_t> triangles;
-    for (const BadNumber& bad : soup.bad_numbers) {
-        if (bad.kind == BadNumber::Kind::index_out_of_range) triangles.push_back(bad.triangle);
+/// Returns the options, with drop_bad_numbers if a position is not finite: no other step accepts
+/// one.
+RepairOptions with_finite_steps(const TriangleSoup& soup, RepairOptions options) {
+    if (!std::all_of(soup.positions.begin(), soup.positions.end(), is_finite)) {
+        options.steps.set(static_cast<std::size_t>(RepairStep::drop_bad_numbers));
     }
-    std::sort(triangles.begin(), triangles.end());
-    return triangles;
+    return options;
 }
 
 StoredVerdict verdict_of(const RepairMesh& mesh) {
@@ -76,7 +77,7 @@ class Repair {
 public:
     /// `stop` ends resolve_self_intersections().
     Repair(const TriangleSoup& soup, const RepairOptions& options, const StopCheck& stop)
-        : options_(options), stop_(stop), bad_(out_of_range(soup)), mesh_(as_repair_mesh(soup)) {
+        : options_(options), stop_(stop), bad_(soup.out_of_range), mesh_(as_repair_mesh(soup)) {
         // The first verdict is on the mesh as find_defects() sees it.
         joined_ = weld_vertices(drop_bad_numbers(mesh_, bad_).mesh, 0).mesh;
         before_ = verdict_of(joined_);
@@ -228,7 +229,7 @@ private:
 
     const RepairOptions& options_;
     const StopCheck& stop_;
-    std::vector<std::uint32_t> bad_;
+    const std::vector<std::uint32_t>& bad_;
     RepairMesh mesh_;
     std::uint64_t revision_ = 0;
     /// By step; the last is for weld() within a distance.
@@ -254,7 +255,20 @@ Repaired without_vertices(const TriangleSoup& soup) {
     return empty;
 }
 
-RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
+/// Returns for each source vertex whether a step joined it to another.
+std::vector<bool> find_merged(const TriangleSoup& soup, const std::vector<StepReport>& steps) {
+    std::vector<bool> merged(soup.positions.size(), false);
+    for (const StepReport& step : steps) {
+        if (!step.undone.empty()) continue;
+        for (const MergedVertex& vertex : step.merged) {
+            if (vertex.source != kNone) merged[vertex.source] = true;
+        }
+    }
+    return merged;
+}
+
+RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh,
+                   const std::vector<StepReport>& steps) {
     RepairCounts counts;
     counts.source_triangles = soup.triangles.size();
     counts.source_vertices = soup.positions.size();
@@ -269,11 +283,7 @@ RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
         ++fragments[source];
         if (mesh.triangle_origin[t].step) continue;
         whole[source] = true;
-        // Corners are compared by position: numbers change with every join and split.
-        const auto& was = soup.triangles[source].vertex;
-        const auto& is = mesh.triangles[t].vertex;
-        reversed[source] = !(soup.positions[was[1]] == mesh.positions[is[1]] &&
-                             soup.positions[was[2]] == mesh.positions[is[2]]);
+        reversed[source] = mesh.triangle_origin[t].turned;
     }
     for (std::size_t source = 0; source < fragments.size(); ++source) {
         if (fragments[source] == 0) {
@@ -286,10 +296,8 @@ RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
             ++counts.kept;
         }
     }
-    std::vector<bool> used(soup.positions.size(), false), stands(soup.positions.size(), false);
-    for (const Triangle& triangle : soup.triangles) {
-        for (const std::uint32_t vertex : triangle.vertex) used[vertex] = true;
-    }
+    const std::vector<bool> merged = find_merged(soup, steps);
+    std::vector<bool> stands(soup.positions.size(), false);
     for (const Origin& origin : mesh.vertex_origin) {
         if (origin.source == kNone) {
             ++counts.made_vertices;
@@ -299,9 +307,9 @@ RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
             stands[origin.source] = true;
         }
     }
-    for (std::size_t i = 0; i < used.size(); ++i) {
+    for (std::size_t i = 0; i < stands.size(); ++i) {
         if (stands[i]) continue;
-        ++(used[i] ? counts.merged_vertices : counts.unused_vertices);
+        ++(merged[i] ? counts.merged_vertices : counts.unused_vertices);
     }
     return counts;
 }
@@ -327,7 +335,7 @@ Repaired repair_once(const TriangleSoup& soup, const RepairOptions& options,
     }
     if (is_stopped(options.interrupted)) return {work.mesh(), std::move(report)};
     report.after = work.after();
-    report.counts = count(soup, work.mesh());
+    report.counts = count(soup, work.mesh(), report.steps);
     const MovedDistances moved = find_moved_distances(soup, work.mesh());
     report.input_to_output = moved.input_to_output;
     report.output_to_input = moved.output_to_input;
@@ -350,10 +358,11 @@ std::optional<RepairSteps> find_repair_preset(std::string_view name) noexcept {
     return std::nullopt;
 }
 
-Repaired repair(const TriangleSoup& bare, const RepairOptions& options) {
+Repaired repair(const TriangleSoup& bare, const RepairOptions& asked) {
     if (bare.positions.empty() && !bare.triangles.empty()) return without_vertices(bare);
     const std::optional<TriangleSoup> other = marked(bare);
     const TriangleSoup& soup = other ? *other : bare;
+    const RepairOptions options = with_finite_steps(soup, asked);
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     const StopCheck stop = [&] {
@@ -367,7 +376,7 @@ Repaired repair(const TriangleSoup& bare, const RepairOptions& options) {
     // cross.
     const SearchOptions search = search_of(options, options.interrupted);
     if (!has_meetings(mended.mesh, search)) return mended;
-    const RepairMesh finite = drop_bad_numbers(as_repair_mesh(soup), out_of_range(soup)).mesh;
+    const RepairMesh finite = drop_bad_numbers(as_repair_mesh(soup), soup.out_of_range).mesh;
     if (has_meetings(finite, search)) return mended;
     RepairOptions without = options;
     without.steps.reset(kResolve);

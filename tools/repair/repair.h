@@ -87,7 +87,7 @@ struct Repaired {
     RepairReport report;
 };
 
-/// Repairs a mesh by the steps of options.steps, in the order of RepairStep.
+/// Repairs a mesh by the steps of asked.steps, in the order of RepairStep.
 ///
 /// The report lists everything that is moved, dropped or made. A step that would make the
 /// verdict worse (is_worse()) is undone, and the report states this. The result is a fixed
@@ -96,7 +96,8 @@ struct Repaired {
 ///
 /// A triangle may have a corner out of range that the soup does not list. It is treated like one
 /// that an import marked. Without drop_bad_numbers it remains, with all corners at vertex 0. If
-/// there are no vertices, all triangles are dropped, whatever the steps.
-[[nodiscard]] Repaired repair(const TriangleSoup& soup, const RepairOptions& options);
+/// there are no vertices, all triangles are dropped, whatever the steps. If a position is not
+/// finite, drop_bad_numbers runs, whatever the steps.
+[[nodiscard]] Repaired repair(const TriangleSoup& soup, const RepairOptions& asked);
 
 }  // namespace cdprep::mesh

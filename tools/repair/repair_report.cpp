@@ -81,7 +81,7 @@ std::string step_line(const mesh::StepReport& step) {
     add(step.added_vertices, "vertices added");
     add(step.refused.size(), "refused");
     if (line.back() == ',') line.back() = '.';
-    if (step.moved > 0) line += " Moved by at most " + printed(step.moved, "%.6g") + ".";
+    if (step.moved > 0) line += " Moved by at most " + at_most_in_six_digits(step.moved) + ".";
     if (!step.undone.empty()) line += " Undone: " + step.undone + ".";
     return line + "\n";
 }
@@ -213,8 +213,9 @@ std::string repair_text(const RepairFileReport& report, std::size_t most_refusal
             " reversed, " + std::to_string(counts.cut) + " cut, " + std::to_string(counts.dropped) +
             " dropped; " + std::to_string(counts.made) + " new\n";
     text += "  distance from input to output at most " +
-            printed(repair.input_to_output.upper, "%.6g") + ", from output to input at most " +
-            printed(repair.output_to_input.upper, "%.6g") +
+            at_most_in_six_digits(repair.input_to_output.upper) +
+            ", from output to input at most " +
+            at_most_in_six_digits(repair.output_to_input.upper) +
             (repair.settled ? "\n" : "; repairing again would change more\n");
     for (const mesh::StepReport& step : repair.steps) {
         text += step_line(step);

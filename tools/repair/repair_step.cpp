@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace cdprep::mesh {
 namespace {
@@ -31,6 +32,12 @@ std::optional<RepairStep> find_repair_step(std::string_view name) noexcept {
     const auto* at = std::find(kNames.begin(), kNames.end(), name);
     if (at == kNames.end()) return std::nullopt;
     return static_cast<RepairStep>(at - kNames.begin());
+}
+
+void turn(RepairMesh& mesh, std::uint32_t triangle) {
+    std::swap(mesh.triangles[triangle].vertex[1], mesh.triangles[triangle].vertex[2]);
+    bool& turned = mesh.triangle_origin[triangle].turned;
+    turned = !turned;
 }
 
 void keep_triangles(RepairMesh& mesh, const std::vector<bool>& kept) {

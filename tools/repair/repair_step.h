@@ -39,6 +39,7 @@ inline constexpr std::size_t kRepairStepCount = 13;
 struct Origin {
     std::uint32_t source = kNone;    ///< its number in the input, or kNone: new
     std::optional<RepairStep> step;  ///< the last step that made or cut it; none: unchanged
+    bool turned = false;             ///< a triangle: its winding is not that of the source
     bool operator==(const Origin&) const = default;
 };
 
@@ -111,6 +112,9 @@ struct Stepped {
     RepairMesh mesh;
     StepReport report;
 };
+
+/// Reverses the winding of a triangle.
+void turn(RepairMesh& mesh, std::uint32_t triangle);
 
 /// Removes the triangles for which `kept` is false.
 void keep_triangles(RepairMesh& mesh, const std::vector<bool>& kept);

@@ -69,8 +69,8 @@ struct HoleLimits {
 [[nodiscard]] Stepped fill_holes(RepairMesh mesh, const HoleLimits& limits,
                                  const SearchOptions& search);
 
-/// Reverses balanced components of negative volume, except cavities. The box and the first vertex
-/// of a cavity lie within an odd number of other balanced components.
+/// Reverses balanced components of negative volume, except cavities. A cavity lies within an odd
+/// number of other balanced components, by its box and its first vertex off the other's surface.
 [[nodiscard]] Stepped orient_outward(RepairMesh mesh);
 
 /// Keeps the boundary of the solid. Cuts triangles where they cross, touch or overlap. Keeps
@@ -81,6 +81,7 @@ struct HoleLimits {
 /// knows one:
 /// - The mesh is not balanced.
 /// - The cuts still cross after rounding.
+/// - A part touches others at every point tested, so its winding number is unknown.
 /// - The mesh has sheets that bound nothing; these would be lost.
 /// - There are more pairs than the limits allow.
 /// - `stop` ended the work; it is not tested during the search for pairs.

@@ -76,6 +76,7 @@ RepairedSoup as_soup(const TriangleSoup& source, RepairMesh repaired) {
     TriangleSoup& soup = result.soup;
     soup.bad_numbers.clear();
     soup.bad_number_count = 0;
+    soup.out_of_range.clear();
     soup.single_precision = repaired.single_precision;
     soup.positions = std::move(repaired.positions);
     soup.triangles.clear();

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <deque>
+#include <limits>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "cdprep/exact/predicates.h"
 #include "mesh/around_edge.h"
@@ -14,7 +18,7 @@
 namespace cdprep::mesh {
 namespace {
 
-constexpr std::size_t kMostTestPoints = 256;  ///< per component, to find one off the others
+constexpr std::size_t kMostTestPoints = 256;  ///< per part, to find one off the others
 
 /// One triangle for all with the same corners. The count is the number of those with its winding
 /// minus the number of the others.
@@ -56,6 +60,19 @@ std::vector<Facet> join_facets(const std::vector<Triangle>& triangles) {
     return facets;
 }
 
+/// Returns the middle of two numbers; nothing if it is no double.
+std::optional<double> exact_middle(double a, double b) {
+    const double sum = a + b, part = sum - a;
+    const double error = (a - (sum - part)) + (b - part);
+    if (error != 0 || 2 * (sum / 2) != sum) return std::nullopt;  // also if it overflows
+    return sum / 2;
+}
+std::optional<Double3> exact_middle(const Double3& a, const Double3& b) {
+    const auto x = exact_middle(a.x, b.x), y = exact_middle(a.y, b.y), z = exact_middle(a.z, b.z);
+    if (!x || !y || !z) return std::nullopt;
+    return Double3{*x, *y, *z};
+}
+
 /// The winding numbers on both sides of every facet of a mesh without crossings.
 ///
 /// Around each edge, neighbouring facets bound a common wedge. Their sides there belong to one
@@ -75,15 +92,16 @@ public:
         join_sides();
     }
 
-    /// Returns false if the counts around some edge do not cancel, or if stopped.
-    bool find(const StopCheck& stop) {
+    /// Returns why the numbers are unknown; empty if they are found, or if stopped.
+    std::string find(const StopCheck& stop) {
         std::vector<std::vector<std::uint32_t>> members(facets_.size());
         for (std::uint32_t f = 0; f < facets_.size(); ++f) members[parts_.lowest(f)].push_back(f);
         collect_links();
         for (const auto& part : members) {
-            if (!part.empty() && !number_part(part, stop)) return false;
+            if (part.empty()) continue;
+            if (std::string why = number_part(part, stop); !why.empty()) return why;
         }
-        return true;
+        return {};
     }
 
     /// Return the number in front of a facet, where its normal points, and behind it.
@@ -125,12 +143,15 @@ private:
         }
     }
 
-    bool number_part(const std::vector<std::uint32_t>& part, const StopCheck& stop) {
-        const std::uint32_t outer = cells_.lowest(outer_side(part));
+    std::string number_part(const std::vector<std::uint32_t>& part, const StopCheck& stop) {
+        const std::optional<std::uint32_t> side_outside = outer_side(part);
+        if (!side_outside) return "the outside of a part is unknown";
+        const std::uint32_t outer = cells_.lowest(*side_outside);
         std::vector<std::optional<int>>& known = known_;
         known.resize(2 * facets_.size());
         known[outer] = number_of_others(part, stop);
-        if (is_stopped(stop)) return false;
+        if (is_stopped(stop)) return {};
+        if (!known[outer]) return "a part touches others at every point that was tested";
         std::deque<std::uint32_t> queue = {outer};
         while (!queue.empty()) {
             const std::uint32_t cell = queue.front();
@@ -144,16 +165,17 @@ private:
                     known[across] = *known[cell] + change;
                     queue.push_back(across);
                 } else if (*known[across] != *known[cell] + change) {
-                    return false;
+                    return "the winding numbers around a cut edge are inconsistent";
                 }
             }
         }
-        return true;
+        return {};
     }
 
     /// Returns a side that faces the outside of the part. At the part's lowest vertex, takes the
     /// edge that bounds the outline as projected along z. Beyond this edge there is nothing.
-    std::uint32_t outer_side(const std::vector<std::uint32_t>& part) const {
+    /// Returns nothing if no finite point lies beyond it.
+    std::optional<std::uint32_t> outer_side(const std::vector<std::uint32_t>& part) const {
         const auto less = [&](std::uint32_t a, std::uint32_t b) {
             const Double3 &p = positions_[a], &q = positions_[b];
             return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
@@ -182,11 +204,20 @@ private:
                 }
             }
         }
+        if (to == kNone) return std::nullopt;
         const Double2 at = seen(lowest), there = seen(to);
-        const Double3& p = positions_[lowest];
-        // To the right of the outline's edge; the whole part lies to its left.
-        const Double3 beyond{p.x + (there.y - at.y), p.y - (there.x - at.x), p.z};
+        const Double3 beyond = right_of(positions_[lowest], there.x > at.x);
+        // The whole part lies to the left of the outline's edge, or on its line.
+        if (exact::orient2d(at, there, {beyond.x, beyond.y}) >= 0) return std::nullopt;
         return first_side_from(outline, beyond, part);
+    }
+
+    /// Returns a point to the right of an edge from p, as seen along z. The edge goes to larger x,
+    /// or straight to larger y.
+    static Double3 right_of(const Double3& p, bool to_larger_x) {
+        constexpr double kMost = std::numeric_limits<double>::max();
+        if (to_larger_x) return {p.x, std::max(p.y - 1 - std::fabs(p.y), -kMost), p.z};
+        return {std::min(p.x + 1 + std::fabs(p.x), kMost), p.y, p.z};
     }
 
     std::uint32_t first_side_from(HalfEdge outline, const Double3& beyond,
@@ -203,17 +234,30 @@ private:
         return side_before(around, around.sorted(uses).front());
     }
 
-    /// Returns the winding number of all other parts at this one.
-    int number_of_others(const std::vector<std::uint32_t>& part, const StopCheck& stop) {
+    /// Returns the winding number of all other parts at this one; nothing if all points tested
+    /// lie on the others. Parts share no edge, so a part may touch others at all its vertices.
+    std::optional<int> number_of_others(const std::vector<std::uint32_t>& part,
+                                        const StopCheck& stop) {
         const std::uint32_t own = parts_.lowest(part[0]);
-        std::size_t left = kMostTestPoints;
+        std::set<std::uint32_t> tested;
         for (const std::uint32_t f : part) {
             for (const std::uint32_t vertex : triangles_[f].vertex) {
-                if (left-- == 0 || is_stopped(stop)) return 0;
-                if (const auto number = number_at(positions_[vertex], own)) return *number;
+                if (tested.size() == kMostTestPoints || is_stopped(stop)) break;
+                if (!tested.insert(vertex).second) continue;
+                if (const auto number = number_at(positions_[vertex], own)) return number;
             }
         }
-        return 0;
+        std::size_t left = kMostTestPoints;
+        for (const std::uint32_t f : part) {
+            for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
+                const auto middle = exact_middle(positions_[start_of(triangles_, h)],
+                                                 positions_[end_of(triangles_, h)]);
+                if (!middle) continue;
+                if (left-- == 0 || is_stopped(stop)) return std::nullopt;
+                if (const auto number = number_at(*middle, own)) return number;
+            }
+        }
+        return std::nullopt;
     }
 
     std::optional<int> number_at(const Double3& p, std::uint32_t own) {
@@ -283,13 +327,15 @@ RepairMesh keep_boundary(const RepairMesh& mesh, const std::vector<Facet>& facet
         if (!kept[t]) continue;
         // Keeps the order of the corners if the winding is the same; the first corner always
         // stays.
-        Triangle triangle = mesh.triangles[t];
+        const Triangle& triangle = mesh.triangles[t];
         const auto& v = kept[t]->vertex;
         const auto at = std::find(v.begin(), v.end(), triangle.vertex[0]) - v.begin();
         const std::uint32_t next = v[(static_cast<std::size_t>(at) + 1) % 3];
-        if (next != triangle.vertex[1]) std::swap(triangle.vertex[1], triangle.vertex[2]);
         boundary.triangles.push_back(triangle);
         boundary.triangle_origin.push_back(mesh.triangle_origin[t]);
+        if (next != triangle.vertex[1]) {
+            turn(boundary, static_cast<std::uint32_t>(boundary.triangles.size() - 1));
+        }
     }
     return boundary;
 }
@@ -342,14 +388,13 @@ Stepped resolve_self_intersections(RepairMesh mesh, const SearchOptions& search,
     }
     const std::vector<Facet> facets = join_facets(cut.mesh.triangles);
     Windings windings(cut.mesh.positions, facets);
-    const bool add_up = windings.find(stop);
+    const std::string unknown = windings.find(stop);
     if (is_stopped(stop)) {
         return refused_pair(mesh, mesh, first.a, first.b,
                             " meet, and finding the inside took longer than the time limit.");
     }
-    if (!add_up) {
-        return refused_pair(mesh, mesh, first.a, first.b,
-                            " meet, and the winding numbers around a cut edge are inconsistent.");
+    if (!unknown.empty()) {
+        return refused_pair(mesh, mesh, first.a, first.b, " meet, and " + unknown + ".");
     }
     for (std::uint32_t f = 0; f < facets.size(); ++f) {
         if (windings.front(f) == 0 && windings.behind(f) == 0) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <string>
 
+#include "mesh/close_groups.h"
 #include "repair/repair_steps.h"
 
 namespace cdprep::mesh {
@@ -21,6 +24,46 @@ std::vector<std::uint32_t> find_boundary_vertices(const RepairMesh& mesh) {
     return vertices;
 }
 
+/// Returns for each point of a welded mesh of points the lowest one that it joins.
+std::vector<std::uint32_t> lowest_of_groups(const RepairMesh& welded) {
+    std::vector<std::uint32_t> first(welded.positions.size(), kNone);
+    std::vector<std::uint32_t> lowest;
+    for (std::uint32_t i = 0; i < welded.triangles.size(); ++i) {
+        std::uint32_t& at = first[welded.triangles[i].vertex[0]];
+        if (at == kNone) at = i;
+        lowest.push_back(at);
+    }
+    return lowest;
+}
+
+/// Refuses the groups in which a chain of close vertices moves one farther than the width: a finely
+/// divided border would collapse. Their points become groups of one.
+void refuse_wide_groups(const RepairMesh& mesh, const std::vector<std::uint32_t>& boundary,
+                        double width, std::vector<std::uint32_t>& lowest, StepReport& report) {
+    std::vector<double> moved(lowest.size(), 0);
+    for (std::size_t i = 0; i < lowest.size(); ++i) {
+        const double distance =
+            distance_between(mesh.positions[boundary[i]], mesh.positions[boundary[lowest[i]]]);
+        moved[lowest[i]] = std::max(moved[lowest[i]], distance);
+    }
+    std::map<std::uint32_t, Refusal> wide;
+    for (std::uint32_t i = 0; i < lowest.size(); ++i) {
+        if (moved[lowest[i]] <= width) continue;
+        wide[lowest[i]].vertices.push_back(mesh.vertex_origin[boundary[i]].source);
+        lowest[i] = i;
+    }
+    for (auto& [first, refusal] : wide) {
+        const std::uint32_t source = refusal.vertices[0];
+        refusal.sentence =
+            "the chain of " + std::to_string(refusal.vertices.size()) + " vertices at vertex " +
+            (source == kNone ? "(new)" : std::to_string(source)) + " would move by " +
+            std::to_string(moved[first]) + "; the seam width allows " + std::to_string(width) + ".";
+        refusal.position = mesh.positions[boundary[first]];
+        refusal.measure = moved[first];
+        report.refused.push_back(std::move(refusal));
+    }
+}
+
 }  // namespace
 
 Stepped stitch_seams(RepairMesh mesh, double width) {
@@ -36,18 +79,23 @@ Stepped stitch_seams(RepairMesh mesh, double width) {
         points.triangle_origin.push_back({number, std::nullopt});
     }
     Stepped welded = weld_vertices(std::move(points), width);
-    report.merged = std::move(welded.report.merged);
-    report.moved = welded.report.moved;
-    if (report.merged.empty()) return {std::move(mesh), std::move(report)};
+    const std::vector<std::uint32_t> joined = lowest_of_groups(welded.mesh);
+    std::vector<std::uint32_t> lowest = joined;
+    refuse_wide_groups(mesh, boundary, width, lowest, report);
 
-    std::vector<std::uint32_t> stands(welded.mesh.positions.size(), kNone);
     std::vector<std::uint32_t> renamed(mesh.positions.size());
     std::iota(renamed.begin(), renamed.end(), 0U);
-    for (std::size_t i = 0; i < boundary.size(); ++i) {
-        std::uint32_t& stand = stands[welded.mesh.triangles[i].vertex[0]];
-        if (stand == kNone) stand = boundary[i];
-        renamed[boundary[i]] = stand;
+    auto merged = welded.report.merged.begin();  // one for each point that is not the lowest
+    for (std::uint32_t i = 0; i < boundary.size(); ++i) {
+        renamed[boundary[i]] = boundary[lowest[i]];
+        if (joined[i] == i) continue;
+        if (lowest[i] != i) {
+            report.merged.push_back(*merged);
+            report.moved = std::max(report.moved, merged->distance);
+        }
+        ++merged;
     }
+    if (report.merged.empty()) return {std::move(mesh), std::move(report)};
     for (Triangle& triangle : mesh.triangles) {
         for (std::uint32_t& vertex : triangle.vertex) vertex = renamed[vertex];
     }

@@ -8,9 +8,12 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string>
 
+#include "import/readers.h"
 #include "repair/cut_crossings.h"
 #include "repair/mesh_meetings.h"
+#include "repair/repaired_soup.h"
 #include "unit/tools/repair_preset.h"
 #include "unit/tools/soup_of.h"
 
@@ -106,8 +109,7 @@ TEST(Repair, BadNumbersAndRepeatedCornersAreListedAndDropped) {
     soup.triangles.push_back({{0, 1, 8}});
     soup.triangles.push_back({{0, 1, 1}});
     soup.triangles.push_back({{0, 0, 0}});
-    soup.bad_numbers.push_back({BadNumber::Kind::index_out_of_range, 0, 14, 99, 9});
-    soup.bad_number_count = 1;
+    soup.out_of_range = {14};
     const Repaired mended = repaired(soup, "safe");
     EXPECT_EQ(mended.report.counts.dropped, 3U);
     EXPECT_EQ(mended.report.counts.unused_vertices + mended.report.counts.merged_vertices, 1U);
@@ -123,16 +125,14 @@ TEST(Repair, BadNumbersAndRepeatedCornersAreListedAndDropped) {
 
 /// The same bad corners, as an import marks them.
 TriangleSoup as_imported(TriangleSoup soup) {
-    const auto limit = static_cast<std::int64_t>(soup.positions.size());
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         for (const std::uint32_t vertex : soup.triangles[t].vertex) {
-            if (vertex < limit) continue;
-            soup.bad_numbers.push_back({BadNumber::Kind::index_out_of_range, 0, t, vertex, limit});
+            if (vertex < soup.positions.size()) continue;
+            soup.out_of_range.push_back(t);
             soup.triangles[t] = {{0, 0, 0}};
             break;
         }
     }
-    soup.bad_number_count = soup.bad_numbers.size();
     return soup;
 }
 
@@ -178,6 +178,33 @@ TEST(Repair, ACornerOutOfRangeHasNoPlace) {
     }
 }
 
+// An import lists the first thousand of them for messages. No triangle uses vertex 0.
+TEST(Repair, MoreThanAThousandCornersOutOfRangeAreAllDropped) {
+    std::string text = "v 100 0 0\n";
+    for (const Double3& p : unit_cube().positions) {
+        text += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) +
+                "\n";
+    }
+    for (int i = 0; i < 1003; ++i) text += "f 2 3 99\n";
+    for (const auto& t : unit_cube().triangles) {
+        text += "f " + std::to_string(t.vertex[0] + 2) + " " + std::to_string(t.vertex[1] + 2) +
+                " " + std::to_string(t.vertex[2] + 2) + "\n";
+    }
+    const auto soup = import::read_obj(import::SourceFile("bad.obj", text), {});
+    ASSERT_TRUE(soup.ok()) << soup.error().message;
+    RepairOptions only_drop;
+    only_drop.steps.set(static_cast<std::size_t>(RepairStep::drop_bad_numbers));
+    for (const RepairOptions& options : {only_drop, test::preset_options("safe")}) {
+        const Repaired mended = repair(*soup, options);
+        EXPECT_EQ(mended.report.counts.dropped, 1003U);
+        EXPECT_EQ(mended.report.counts.kept, 12U);
+        EXPECT_EQ(mended.mesh.triangles.size(), 12U);
+        EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+        EXPECT_EQ(mended.report.output_to_input.upper, 0.0);
+        EXPECT_TRUE(as_soup(*soup, mended.mesh).soup.out_of_range.empty());
+    }
+}
+
 // Nobody asked to drop it: it keeps its place, with nowhere to be.
 TEST(Repair, ACornerOutOfRangeStaysWhereNothingDropsIt) {
     TriangleSoup bare = soup_of(unit_cube());
@@ -189,6 +216,51 @@ TEST(Repair, ACornerOutOfRangeStaysWhereNothingDropsIt) {
     ASSERT_EQ(mended.mesh.triangles.size(), 13U);
     EXPECT_EQ(mended.mesh.triangles, marked.mesh.triangles);
     EXPECT_EQ(mended.mesh.triangles.back(), (test::Triangle{{0, 0, 0}}));
+}
+
+// No other step accepts them, so they are dropped first, and that is told.
+TEST(Repair, NumbersThatAreNotFiniteAreDroppedWhateverTheSteps) {
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        TriangleSoup soup = soup_of(unit_cube());
+        soup.positions.push_back({0, bad, 0});
+        soup.triangles.push_back({{0, 1, 8}});
+        for (std::size_t step = 0; step < kRepairStepCount; ++step) {
+            RepairOptions options;
+            options.steps.set(step);
+            const Repaired mended = repair(soup, options);
+            EXPECT_EQ(mended.mesh.triangles, unit_cube().triangles);
+            EXPECT_EQ(mended.mesh.positions, unit_cube().positions);
+            const StepReport* dropping = step_of(mended.report, RepairStep::drop_bad_numbers);
+            ASSERT_NE(dropping, nullptr) << name_of(static_cast<RepairStep>(step));
+            ASSERT_EQ(dropping->dropped.size(), 1U);
+            EXPECT_EQ(dropping->dropped[0].reason, DropReason::not_finite);
+            EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+        }
+    }
+}
+
+// The second triangle's corners are near those of the first, and none is turned.
+TEST(Repair, AWeldWithinADistanceReversesNothing) {
+    TriangleSoup soup;
+    soup.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.001, 1, 0}, {1.001, 0, 0}};
+    soup.triangles = {{{0, 1, 2}}, {{3, 4, 5}}};
+    RepairOptions options = test::preset_options("safe");
+    options.weld_distance = 0.01;
+    const Repaired mended = repair(soup, options);
+    EXPECT_EQ(mended.report.counts.kept, 2U);
+    EXPECT_EQ(mended.report.counts.reversed, 0U);
+    EXPECT_EQ(mended.report.counts.merged_vertices, 2U);
+}
+
+// A cube within another disappears, and its vertices with it: they are joined to none.
+TEST(Repair, VerticesOfDroppedTrianglesAreUnusedAndNotMerged) {
+    const TestMesh nested = joined(unit_cube(), moved_by(unit_cube(), 0.5, {0.5, 0.25, 0.25}));
+    const Repaired mended = repaired(soup_of(nested), "solid");
+    EXPECT_EQ(mended.report.after.verdict.volume, 1.0);
+    EXPECT_EQ(mended.report.counts.merged_vertices, 0U);
+    EXPECT_EQ(mended.report.counts.unused_vertices, 4U);
+    EXPECT_EQ(mended.report.counts.reversed, 0U);
 }
 
 TEST(Repair, TrianglesWithoutAnyVertexAreDropped) {
