@@ -10,6 +10,7 @@
 #include "build/order_triangles.h"
 #include "cdprep/advanced/refit_bvh.h"
 #include "cdprep/format/float_environment.h"
+#include "cdprep/precondition.h"
 #include "core/guarded_for.h"
 
 namespace cdprep::build {
@@ -79,6 +80,9 @@ Bvh build_bvh(std::span<const Double3> positions, std::span<const Triangle> tria
 double refit_bvh(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
                  const BvhOptions& options) {
     format::FloatEnvironment environment;
+    if (bvh.order.size() != triangles.size()) {
+        stop_with("The BVH was not built over these triangles: their numbers differ.");
+    }
     if (triangles.empty()) return 0;
     const GuardedFor guarded(environment, options.parallel_for);
     set_frame(bvh, positions, triangles, guarded);

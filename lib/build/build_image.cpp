@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cstdint>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -65,7 +66,9 @@ Result<PlacedTable> placed_table(std::span<const Section> sections, const ImageO
     if (!made) return made.error();
     PlacedTable placed{std::move(made).value(), 0};
     placed.size = place(placed.table, alignment);
-    return placed;
+    if (placed.size <= PTRDIFF_MAX) return placed;
+    return bad_argument("The image would have " + std::to_string(placed.size) +
+                        " bytes, more than memory holds.");
 }
 
 std::optional<Error> find_fault(std::span<const std::byte> memory, std::uint64_t size) {

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/cells/octree_search.h"
 
-#include <cassert>
-
 #include "cdprep/format/float_environment.h"
 #include "cells/octree_codes.h"
+#include "core/require.h"
 
 namespace cdprep {
 
 OctreeIndex octree_index(const Model& model) noexcept {
-    assert(model.octree().grid != nullptr);
+    if (model.octree().grid == nullptr) refuse(model, Ask::octree);
     const auto nodes = model.octree().nodes;
     return {.top_level = model.octree().grid->top_level,
             .slot_bits = model.octree().grid->slot_bits,

@@ -175,6 +175,10 @@ Result<Model> Model::from_bytes(std::span<const std::byte> bytes, const OpenOpti
     const SectionSet unless_said = options.asks == Ask::nothing ? SectionSet::all() : SectionSet{};
     SectionSet wanted = options.sections.value_or(unless_said);
     wanted.insert(sections_for(options.asks));
+    // Without it, queries would not skip degenerate triangles. It is small, and absent if empty.
+    if (wanted.contains(SectionId::bvh_nodes) || wanted.contains(SectionId::triangles)) {
+        wanted.insert(SectionId::degenerate_bits);
+    }
     if (const auto damage = format::find_damage(bytes, wanted)) return damaged(name, *damage);
     auto state = std::make_unique<State>();
     state->file = bytes;

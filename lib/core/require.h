@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+
 #include "cdprep/format/api.h"
 #include "cdprep/model.h"
+#include "cdprep/precondition.h"
 
 namespace cdprep {
-
-/// Calls the handler of broken preconditions, then aborts.
-[[noreturn]] void stop_with(const char* sentence) noexcept;
 
 /// Stops the program with the sentence of Model::refusal(). Requires that there is one.
 [[noreturn]] CDPREP_API void refuse(const Model& model, Ask asks) noexcept;
@@ -24,6 +24,12 @@ inline void require(const Model& a, const Model& b, Ask asks) noexcept {
     if (!contains(a.asks() & b.asks(), asks)) [[unlikely]] {
         refuse(a.serves(asks) ? b : a, asks);
     }
+}
+
+/// Stops the program, in every build, if a batch has no workspace.
+inline void require_workspaces(std::size_t count) noexcept {
+    if (count == 0) [[unlikely]]
+        stop_with("A batch needs at least one workspace.");
 }
 
 }  // namespace cdprep

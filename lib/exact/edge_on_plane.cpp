@@ -2,9 +2,8 @@
 #include "exact/edge_on_plane.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "exact/double_double.h"
+#include "exact/leading_bits.h"
 #include "exact/wide_integer.h"
 
 // Let s0 and s1 be the signed volumes of the ends p0 and p1; their signs are opposite. The point is
@@ -33,26 +32,6 @@ WideInteger<kLimbs> size_of(const WideInteger<kLimbs>& a) noexcept {
     return a.sign() < 0 ? -a : a;
 }
 
-/// fraction * 2^exponent.
-struct Leading {
-    DoubleDouble fraction;
-    int exponent;
-};
-
-template <std::size_t kLimbs>
-Leading leading(const WideInteger<kLimbs>& a) noexcept {
-    constexpr std::size_t kMost = 5;
-    constexpr int kBits = 32;
-    const WideView view = a.view();
-    const std::size_t skipped = view.size - std::min(kMost, view.size);
-    DoubleDouble sum = 0.0;
-    for (std::size_t i = view.size; i-- > skipped;) {
-        const double limb = std::ldexp(view.limb[i], kBits * static_cast<int>(i - skipped));
-        sum = sum + DoubleDouble(view.negative ? -limb : limb);
-    }
-    return {sum, kBits * static_cast<int>(skipped)};
-}
-
 int lowest_of(const Double3& p) noexcept {
     return std::min({lowest_bit(p.x), lowest_bit(p.y), lowest_bit(p.z)});
 }
@@ -72,11 +51,9 @@ Double3 edge_on_plane(const Double3& from, const Double3& to, const Corners& pla
     const Place u = in_units(plane[1], lowest) - origin, v = in_units(plane[2], lowest) - origin;
     const Volume weight0 = size_of(volume(p1 - origin, u, v));
     const Volume weight1 = size_of(volume(p0 - origin, u, v));
-    const Leading all = leading(weight0 + weight1);
+    const LeadingBits all = leading_bits(weight0 + weight1);
     const auto coordinate = [&](std::size_t axis) {
-        const Leading sum = leading(weight0 * p0[axis] + weight1 * p1[axis]);
-        const DoubleDouble quotient = sum.fraction / all.fraction;
-        return std::ldexp(static_cast<double>(quotient), sum.exponent - all.exponent + lowest);
+        return quotient(leading_bits(weight0 * p0[axis] + weight1 * p1[axis]), all, lowest);
     };
     return {coordinate(0), coordinate(1), coordinate(2)};
 }

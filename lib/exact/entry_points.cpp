@@ -8,6 +8,7 @@
 #include "cdprep/exact/triangles.h"
 #include "cdprep/exact/winding.h"
 #include "cdprep/format/float_environment.h"
+#include "cdprep/precondition.h"
 #include "exact/exact_within.h"
 #include "exact/point_triangle_distance.h"
 #include "exact/predicates.h"
@@ -89,6 +90,9 @@ PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t
 }
 
 bool is_within(std::span<const Double3> corners, const Corners& t, double distance) noexcept {
+    if (corners.empty() || corners.size() > 3) {
+        stop_with("A point, segment or triangle for exact::is_within() has 1 to 3 corners.");
+    }
     const FloatEnvironment environment;
     return is_within_exactly(corners, t, distance);
 }

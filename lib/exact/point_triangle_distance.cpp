@@ -89,6 +89,15 @@ double support_bound(const std::array<Vector, 3>& corner, const Nearest& nearest
     return least / nearest.distance - kSupportError * farthest;
 }
 
+/// Returns the distance where a difference overflows. Halves are exact, or off by far less than the
+/// bounds.
+PointTriangleDistance twice_half_distance(const Double3& q, const Corners& t) noexcept {
+    const PointTriangleDistance half =
+        point_triangle_distance(0.5 * q, {0.5 * t[0], 0.5 * t[1], 0.5 * t[2]});
+    return {2 * half.nearest, 2 * half.computed,
+            std::min(2 * half.lower, std::numeric_limits<double>::max()), 2 * half.upper};
+}
+
 }  // namespace
 
 PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t) noexcept {
@@ -100,6 +109,8 @@ PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t
             {size, std::fabs(corner[i].x), std::fabs(corner[i].y), std::fabs(corner[i].z)});
     }
     if (size == 0) return {q, 0, 0, 0};
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (size == kInfinity) return twice_half_distance(q, t);
     const int exponent = -std::ilogb(size);
     const Scale forth(exponent), back(-exponent);
     for (Vector& v : corner) v = {forth(v.x), forth(v.y), forth(v.z)};
@@ -126,7 +137,6 @@ PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t
     const double lower = std::max(by_error, support_bound(corner, best, farthest));
     // The last factor covers the roundings of these sums. Scaling back may round a subnormal; one
     // step outwards covers that.
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double outer = std::nextafter(back(upper * (1 + 4 * kUnit)), kInfinity);
     const double inner = std::nextafter(back(lower * (1 - 4 * kUnit)), -kInfinity);
     return {{q.x + back(best.point.x), q.y + back(best.point.y), q.z + back(best.point.z)},

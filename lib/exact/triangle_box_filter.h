@@ -24,7 +24,9 @@
 // magnitudes of its two products. A product n v is off by 6u N M, and the sum of three by 2u more.
 // The box's is off by as much. Their difference adds 2u. 32u times the sum of N M covers it.
 //
-// Where B is above 1e-290, the loss by products that underflow is negligible against u B.
+// Where B is above 1e-290, the loss by products that underflow is negligible against u B. The two
+// products of a component of n may lose 2^-1074 together, and a large M of that axis magnifies it.
+// A triangle's or box's height loses 2^-1074 times the sum of M, and 2^-1070 covers both.
 // Comparisons with overflowed numbers are false, which leaves the case to the exact test. An edge
 // along an axis gives no direction with it. That is exact: differences of unequal numbers are
 // never 0.
@@ -70,6 +72,7 @@ private:
 
     static constexpr double kAlong = 0x1p-49;   ///< 16u
     static constexpr double kAcross = 0x1p-48;  ///< 32u
+    static constexpr double kLost = 0x1p-1070;  ///< by products that underflow
     static constexpr double kLeast = 1e-290;
 
     struct Reach {
@@ -122,7 +125,8 @@ private:
             size += (std::fabs(left) + std::fabs(right)) * most_[axis];
         }
         if (!(size > kLeast)) return TouchesBox::unknown;
-        return compare({height, height}, box, kAcross * size);
+        const double lost = kLost * (most_[0] + most_[1] + most_[2]);
+        return compare({height, height}, box, kAcross * size + lost);
     }
 
     std::array<Vector, 3> corner_;  ///< relative to the box's lower corner

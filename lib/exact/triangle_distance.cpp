@@ -8,7 +8,10 @@
 #include <limits>
 
 #include "exact/double_double.h"
+#include "exact/exact_common_point.h"
+#include "exact/point_triangle_distance.h"
 #include "exact/powers_of_two.h"
+#include "exact/vectors.h"
 
 // Two triangles that do not touch are nearest in one of two ways (Larsen, Gottschalk, Lin and
 // Manocha 1999). One is at an edge of each: nine pairs with corners included. The other is at a
@@ -237,9 +240,8 @@ bool crossing(const Vector<double>& p, const Vector<double>& q, const Triangle<d
     return true;
 }
 
-}  // namespace
-
-Double3 common_point(const Corners& a, const Corners& b) noexcept {
+/// Returns a common point, computed in double.
+Double3 rounded_common_point(const Corners& a, const Corners& b) {
     const int exponent = exponent_of(a, b);
     const Scale scale(exponent);
     const Scale unscale(-exponent);
@@ -255,6 +257,23 @@ Double3 common_point(const Corners& a, const Corners& b) noexcept {
         }
     }
     return {a[0].x + unscale(point.x), a[0].y + unscale(point.y), a[0].z + unscale(point.z)};
+}
+
+}  // namespace
+
+Double3 common_point(const Corners& a, const Corners& b) noexcept {
+    const Double3 point = rounded_common_point(a, b);
+    // Usually the point is off by less than 2^-50 of the largest coordinate. It may be far off
+    // triangles that are thin or nearly coplanar. The measurement adds less than 2^-47.
+    double size = 0;
+    for (const Corners* t : {&a, &b}) {
+        for (const Double3& p : *t) size = std::max(size, largest_of(p));
+    }
+    const auto is_on = [&](const Corners& t) {
+        return point_triangle_distance(point, t).computed <= 0x1p-47 * size;
+    };
+    if (is_on(a) && is_on(b)) return point;
+    return exact_common_point(a, b).value_or(point);
 }
 
 TriangleDistance triangle_distance(const Corners& a, const Corners& b, bool tight) noexcept {

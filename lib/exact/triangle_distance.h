@@ -25,7 +25,9 @@ struct TriangleDistance {
     return found.upper - found.lower <= kTightness * found.lower;
 }
 
-/// Returns a common point of both triangles, up to rounding. Requires that they touch.
+/// Returns a common point of both triangles, up to rounding: each is within 2^-46 of the largest
+/// coordinate. Requires that they touch. Takes some 300 ns, and microseconds where double would be
+/// farther off.
 [[nodiscard]] Double3 common_point(const Corners& a, const Corners& b) noexcept;
 
 }  // namespace cdprep

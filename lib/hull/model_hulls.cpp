@@ -2,7 +2,6 @@
 #include "cdprep/hulls.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "cdprep/format/float_environment.h"
@@ -50,7 +49,7 @@ EnclosingParts enclosing_parts(const Model& model) noexcept {
 
 ConvexPoints convex_points(const Model& model, std::uint32_t hull) noexcept {
     require(model, Ask::hulls);
-    assert(hull < model.hulls().hulls.size());
+    if (hull >= model.hulls().hulls.size()) stop_with("The model has no hull with this number.");
     const Hull& found = model.hulls().hulls[hull];
     ConvexPoints points;
     points.count = found.point_count;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/require.h"
 #include "core/share_out.h"
 
 namespace cdprep {
@@ -12,6 +13,7 @@ namespace {
 template <class Answer, class Ask>
 void ask_all(std::span<const Pair> pairs, std::span<Workspace> workspaces, ParallelFor parallel_for,
              std::span<Answer> answers, Ask ask) noexcept {
+    require_workspaces(workspaces.size());
     share_jobs(
         std::min(pairs.size(), answers.size()), workspaces.size(), parallel_for,
         [&](std::size_t i, std::size_t worker) { ask(pairs[i], answers[i], workspaces[worker]); });

@@ -40,13 +40,15 @@ HalfLine half_line(const Ray& ray, int stretch) noexcept {
     };
     const Double3 step = scaled(ray.direction, stretch);
     const bool is_exact = scaled(step, -stretch) == ray.direction;
-    return {ray.origin, is_exact ? step : ray.direction, step};
+    if (is_exact) return {ray.origin, step, step, 0};
+    return {ray.origin, ray.direction, step, stretch};
 }
 
 /// Returns a lower bound of the parameter where a half-line enters a box, or infinity. All numbers
 /// are in the frame. The boxes are widened by 2^-45 of the largest coordinate involved, which
 /// covers every rounding. A component of the step that moves less than that across the whole model
-/// counts as 0.
+/// counts as 0. The bound is 2^-40 of itself lower, as the place of a hit may be. It is 0 if a
+/// number is too large for the frame.
 class BoxEntry {
 public:
     BoxEntry(const format::FileHeader& header, const HalfLine& ray) noexcept {
@@ -56,14 +58,19 @@ public:
                                          header.frame_origin.z};
         constexpr double kNoStep = 0x1p-200;
         double reach = 1;
+        bool in_range = true;
         for (std::size_t i = 0; i < 3; ++i) {
             origin_[i] = std::ldexp(o[i] - f[i], header.frame_exponent);
             const double step = std::ldexp(d[i], header.frame_exponent);
             per_step_[i] = std::fabs(step) > kNoStep ? 1 / step : 0;
+            in_range &= std::isfinite(step);
             reach = std::max(
                 {reach, std::fabs(origin_[i]), std::ldexp(std::fabs(f[i]), header.frame_exponent)});
         }
         slack_ = 0x1p-45 * reach;
+        if (in_range && std::isfinite(slack_)) return;
+        origin_ = per_step_ = {};
+        slack_ = std::numeric_limits<double>::max();
     }
 
     double operator()(const format::BvhNode& node, std::uint32_t box) const noexcept {

@@ -2,9 +2,9 @@
 #include "cdprep/advanced/self_walk.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "cdprep/format/float_environment.h"
+#include "cdprep/precondition.h"
 #include "core/guarded_for.h"
 #include "walk/box_placement.h"
 #include "walk/leaf_batch.h"
@@ -85,6 +85,9 @@ void SelfWalk::Tree::read_leaves(std::span<const format::Triangle> triangles,
 
 SelfWalk::SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
                    ParallelFor parallel_for) {
+    if (bvh.order.size() != triangles.size()) {
+        stop_with("The BVH was not built over these triangles: their numbers differ.");
+    }
     format::FloatEnvironment environment;
     const GuardedFor guarded(environment, parallel_for);
     tree_ = std::make_unique<const Tree>(bvh, triangles, guarded);
@@ -107,7 +110,7 @@ std::size_t SelfWalk::part_count() const noexcept {
 }
 
 SelfWalk::Rest SelfWalk::part(std::size_t number) const {
-    assert(number < part_count());
+    if (number >= part_count()) stop_with("The walk has no part with this number.");
     const std::size_t first = starts_.size() * number / part_count();
     const std::size_t last = starts_.size() * (number + 1) / part_count();
     Rest rest;

@@ -183,7 +183,7 @@ std::size_t split_overlaps(const Pair& pair, std::span<Workspace> workspaces,
     format::FloatEnvironment environment;
     const Model &a = pair.a, &b = pair.b;
     require(a, b, Ask::overlap);
-    assert(!workspaces.empty());
+    require_workspaces(workspaces.size());
     const GuardedFor guarded(environment, parallel_for);
     const PlacedBoxes placed = place_boxes(a, b, pair.placement);
     Places places(workspaces[0].storage());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cdprep/format/float_environment.h"
 #include "core/numbers.h"
@@ -34,6 +35,8 @@ public:
             per_along_[i] = std::fabs(along_[i]) > kNoStep ? 1 / along_[i] : 0;
         }
         per_square_ = squared > 0 ? 1 / squared : 0;
+        // With NaN the distance of a box is NaN too, which proves nothing.
+        if (!(is_squarable(from_) && is_squarable(to))) per_square_ = kNaN;
         is_none_ = !(radius_ >= 0);
     }
 
@@ -83,6 +86,14 @@ public:
     }
 
 private:
+    /// Returns whether sums of squares and products of such coordinates, and of those of the model,
+    /// are finite.
+    static bool is_squarable(const FrameVector& p) noexcept {
+        constexpr double kMost = 0x1p500;
+        return std::fabs(p[0]) < kMost && std::fabs(p[1]) < kMost && std::fabs(p[2]) < kMost;
+    }
+
+    static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     static constexpr double kRounding = 0x1p-45;
     static constexpr double kNoStep = 0x1p-200;  ///< far below the slack
 

@@ -39,14 +39,15 @@ struct EnclosingParts {
 
 /// Returns the corners of a hull, as input for queries. They refer to the file's memory and are
 /// valid as long as the model lives. Needs Ask::hulls. `hull` must be below
-/// model.hulls().hulls.size(). The hull of an empty set has the count 0.
+/// model.hulls().hulls.size(): otherwise the program stops with a message. The hull of an empty set
+/// has the count 0.
 [[nodiscard]] CDPREP_API ConvexPoints convex_points(const Model& model,
                                                     std::uint32_t hull) noexcept;
 
 /// Returns the corners of a convex piece's hull, as input for queries. They refer to the file's
 /// memory and are valid as long as the model lives. They are the vertices that pieces().vertices
-/// lists for the piece, in that order. `piece` must be below model.pieces().pieces.size(). Needs
-/// Ask::pieces. Takes O(1) time.
+/// lists for the piece, in that order. `piece` must be below model.pieces().pieces.size():
+/// otherwise the program stops with a message. Needs Ask::pieces. Takes O(1) time.
 [[nodiscard]] CDPREP_API ConvexPoints piece_points(const Model& model,
                                                    std::uint32_t piece) noexcept;
 

@@ -43,7 +43,8 @@ struct OpenOptions {
     /// allow.
     Ask asks = Ask::nothing;
     /// The sections to open, if the file has them, in addition to those of `asks`. Unset: those of
-    /// `asks` only, or every section if `asks` is Ask::nothing.
+    /// `asks` only, or every section if `asks` is Ask::nothing. bvh_nodes and triangles bring
+    /// degenerate_bits with them: Degenerate::skip reads it.
     std::optional<SectionSet> sections = std::nullopt;
     /// The name of bytes in memory, for messages. For a file, messages use its path.
     std::string_view name = "memory";
@@ -145,7 +146,8 @@ public:
     /// functions of find_falsehood.h read them.
     [[nodiscard]] CDPREP_API std::span<const std::byte> bytes() const noexcept;
 
-    /// Returns the sections that were requested and are present.
+    /// Returns the sections that were requested and are present, and degenerate_bits with some:
+    /// see OpenOptions.
     [[nodiscard]] CDPREP_API SectionSet sections() const noexcept;
 
     /// Reads one byte of each page of the open sections in `wanted`. Returns the size of these

@@ -13,7 +13,8 @@
 namespace cdprep {
 
 /// Returns the same as overlaps(), computed on at most one thread per workspace. There must be at
-/// least one workspace. The pairs, their order and their number do not depend on the threads.
+/// least one workspace: otherwise the program stops with a message. The pairs, their order and
+/// their number do not depend on the threads.
 ///
 /// Use it for one query that takes a millisecond or more, such as two large models that overlap
 /// deeply. Calls `parallel_for` at most twice, each time with at most one task per workspace. A
@@ -30,11 +31,12 @@ namespace cdprep {
 /// may hold many poses of the same two models. No two pairs of a batch may share a cache or a
 /// front.
 ///
-/// There must be at least one workspace. The batch uses at most one thread per workspace. Calls
-/// `parallel_for` at most once. Processes min(pairs.size(), answers.size()) pairs. Never allocates.
-/// Starting a batch on several threads takes a few microseconds, so a batch pays off from about ten
-/// pairs. The rules of this comment up to here also hold for the batches below. Needs Ask::collide
-/// of both models of each pair, Ask::solid with Body::solid, and ask_of(options.through).
+/// There must be at least one workspace: otherwise the program stops with a message. The batch uses
+/// at most one thread per workspace. Calls `parallel_for` at most once. Processes min(pairs.size(),
+/// answers.size()) pairs. Never allocates. Starting a batch on several threads takes a few
+/// microseconds, so a batch pays off from about ten pairs. The rules of this comment up to here
+/// also hold for the batches below. Needs Ask::collide of both models of each pair, Ask::solid with
+/// Body::solid, and ask_of(options.through).
 ///
 ///     std::vector<cdprep::Workspace> workspaces(4);
 ///     std::vector<cdprep::Collision> answers(pairs.size());

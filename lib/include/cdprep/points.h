@@ -84,8 +84,8 @@ struct Ray {
 
 /// A point where a ray meets a surface.
 struct RayHit {
-    double t;                ///< in multiples of the direction's length
-    Double3 point;           ///< origin + t * direction, rounded
+    double t;                ///< in multiples of the direction's length, within 2^-40 of itself
+    Double3 point;           ///< origin + t * direction with this t, rounded
     std::uint32_t triangle;  ///< source number
 
     /// Compares by t, then by triangle.
@@ -106,9 +106,12 @@ struct RayOptions {
 /// share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits at the
 /// point where the ray enters the triangle.
 ///
-/// `t` and `point` are rounded. The rounded t decides the order of hits, and the hits that max_t
-/// excludes. Among hits with equal t, the lowest source number comes first. A model without
-/// triangles is never hit, and a zero direction hits nothing.
+/// `t` and `point` are rounded. t is within 2^-40 of the exact value, relative to it, and usually
+/// within a few ulp. This also holds for rays that graze a triangle, and for slivers. It does not
+/// hold for a subnormal t, or where t |direction| is below 2^-1000 of the largest coordinate. The
+/// rounded t decides the order of hits, and the hits that max_t excludes. So two hits may change
+/// places if their exact t are as near each other. Among hits with equal t, the lowest source
+/// number comes first. A model without triangles is never hit, and a zero direction hits nothing.
 ///
 /// Needs Ask::ray. Takes O(log n) time for typical meshes. Never allocates.
 [[nodiscard]] CDPREP_API std::optional<RayHit> cast_ray(const Model& model, const Ray& ray,

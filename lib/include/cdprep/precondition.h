@@ -17,4 +17,8 @@ using PreconditionHandler = void (*)(const char* sentence);
 /// only mutable global. The C API never calls the handler; it returns CDPREP_BAD_ARGUMENT instead.
 CDPREP_API PreconditionHandler set_precondition_handler(PreconditionHandler handler) noexcept;
 
+/// Calls the handler with one or more whole sentences, then aborts the program. The library calls
+/// this function where a precondition does not hold.
+[[noreturn]] CDPREP_API void stop_with(const char* sentence) noexcept;
+
 }  // namespace cdprep

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cassert>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <variant>
+
+#include "cdprep/precondition.h"
 
 namespace cdprep {
 
@@ -27,7 +28,8 @@ struct Error {
     std::string message;
 };
 
-/// Either a value or an Error: never both, never neither.
+/// Either a value or an Error: never both, never neither. If the program uses the value where there
+/// is an error, it stops with the error's message (precondition.h).
 ///
 ///     auto opened = cdprep::Model::open("bracket.cdp.h5");
 ///     if (!opened) return fail(opened.error().message);
@@ -49,17 +51,17 @@ public:
 
     /// Requires ok().
     [[nodiscard]] T& value() & {
-        assert(ok());
+        require_value();
         return *std::get_if<0>(&state_);
     }
     /// Requires ok().
     [[nodiscard]] const T& value() const& {
-        assert(ok());
+        require_value();
         return *std::get_if<0>(&state_);
     }
     /// Requires ok().
     [[nodiscard]] T value() && {
-        assert(ok());
+        require_value();
         return std::move(*std::get_if<0>(&state_));
     }
 
@@ -86,11 +88,17 @@ public:
 
     /// Requires !ok().
     [[nodiscard]] const Error& error() const {
-        assert(!ok());
+        if (ok()) [[unlikely]]
+            stop_with("The Result holds a value, so it has no error.");
         return *std::get_if<1>(&state_);
     }
 
 private:
+    void require_value() const {
+        if (!ok()) [[unlikely]]
+            stop_with(std::get_if<1>(&state_)->message.c_str());
+    }
+
     std::variant<T, Error> state_;
 };
 

@@ -15,8 +15,9 @@ namespace cdprep::build {
 /// options.parallel_for. Oriented boxes and swept spheres are computed anew if options.bounds
 /// includes them, otherwise dropped. Ignores options.quality.
 ///
-/// `bvh` must come from build_bvh() or rebuild_bvh() over `triangles`. `positions` must meet the
-/// requirements of build_bvh(). The order stays efficient as long as neighbouring triangles stay
+/// `bvh` must come from build_bvh() or rebuild_bvh() over `triangles`. With another number of
+/// triangles, the program stops with a message. `positions` must meet the requirements of
+/// build_bvh(). The order stays efficient as long as neighbouring triangles stay
 /// neighbours. The returned cost shows when to rebuild:
 ///
 ///     double cost = refit_bvh(bvh, positions, triangles);

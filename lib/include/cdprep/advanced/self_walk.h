@@ -57,7 +57,8 @@ public:
     /// threads.
     [[nodiscard]] CDPREP_API std::size_t part_count() const noexcept;
 
-    /// Returns part `number` before any work on it. `number` must be below part_count().
+    /// Returns part `number` before any work on it. `number` must be below part_count(): otherwise
+    /// the program stops with a message.
     [[nodiscard]] CDPREP_API Rest part(std::size_t number) const;
 
     /// Calls `found` for each pair of a part's rest, until the rest is empty or `is_enough` returns

@@ -89,8 +89,9 @@ typedef int (*cdprep_ray_visitor)(void* context, const cdprep_ray_hit* hit);
 /* Stores the first hit of each ray; `hits` must have room for `count` results. Each hit is decided
  * exactly. A triangle includes its edges and vertices, so no ray passes between two triangles that
  * share an edge. Both sides of a triangle count. A ray in the plane of a triangle hits at the point
- * where the ray enters the triangle. t is rounded. So either of two hits with nearly equal t may be
- * the first. A hit near max_t may be accepted or rejected. Takes O(log n) time for most rays.
+ * where the ray enters the triangle. t is rounded, and within 2^-40 of its exact value, relative to
+ * it. So either of two hits with nearly equal t may be the first. A hit near max_t may be accepted
+ * or rejected. Takes O(log n) time for most rays.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_cast(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                 cdprep_ray_hit* hits, cdprep_error* error);

@@ -77,9 +77,9 @@ namespace cdprep::exact {
                                                                        const Corners& t) noexcept;
 
 /// Returns whether a point, segment or triangle is at most `distance` from the triangle `t`;
-/// inclusive. `corners` are the 1 to 3 corners of the point, segment or triangle. Exact. Returns
-/// false for a negative distance or NaN. Takes microseconds where double does not decide, and some
-/// 20 KiB of stack.
+/// inclusive. `corners` are the 1 to 3 corners of the point, segment or triangle: with another
+/// number, the program stops with a message. Exact. Returns false for a negative distance or NaN.
+/// Takes microseconds where double does not decide, and some 20 KiB of stack.
 [[nodiscard]] CDPREP_API bool is_within(std::span<const Double3> corners, const Corners& t,
                                         double distance) noexcept;
 

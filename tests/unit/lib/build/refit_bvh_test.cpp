@@ -171,5 +171,13 @@ TEST(RefitBvh, AnswersAreThoseOfANewHierarchy) {
     EXPECT_LE(hits, kPoses * 7 / 10);
 }
 
+// By the header: the triangles are those of the build, in every build of the program.
+TEST(RefitBvhDeathTest, AnotherNumberOfTrianglesStopsTheProgram) {
+    const TestMesh ball = icosphere(1);
+    Bvh bvh = build_bvh(ball.positions, ball.triangles);
+    const auto fewer = std::span(ball.triangles).first(ball.triangles.size() - 1);
+    EXPECT_DEATH(refit_bvh(bvh, ball.positions, fewer), "not built over these triangles");
+}
+
 }  // namespace
 }  // namespace cdprep::test

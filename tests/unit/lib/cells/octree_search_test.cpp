@@ -343,5 +343,11 @@ TEST(OctreeSearch, NothingIsFoundWithoutNodes) {
     }
 }
 
+// By the header: an index needs a grid, in every build.
+TEST(OctreeIndexDeathTest, AModelWithoutAnOctreeStopsTheProgram) {
+    const OpenModel bare = open_tiny(icosphere(1));
+    EXPECT_DEATH((void)octree_index(bare.model), "octree needs");
+}
+
 }  // namespace
 }  // namespace cdprep::test

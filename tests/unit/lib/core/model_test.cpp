@@ -292,5 +292,33 @@ TEST(Model, TouchReadsTheOpenSectionsThatItIsAskedFor) {
     EXPECT_DEATH((void)model.touch(), "");
 }
 
+// By hand: one triangle of three is a segment. A query skips it whatever sections were named.
+TEST(Model, TheMarksOfDegenerateTrianglesComeWithTheBvh) {
+    const TestMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}},
+                        {{{0, 1, 2}}, {{0, 3, 1}}, {{1, 3, 2}}}};
+    const AlignedBytes bytes = bake_tiny(mesh.positions, mesh.triangles);
+    const SectionSet some = {SectionId::bvh_nodes, SectionId::bvh_leaves,
+                             SectionId::source_triangle};
+    const auto opened = Model::open(bytes.span(), some);
+    ASSERT_TRUE(opened);
+    EXPECT_TRUE(opened.value().sections().contains(SectionId::degenerate_bits));
+    Workspace workspace;
+    const Pair twice = {*opened, *opened, Placement::b_moves(Pose())};
+    Pair skipping = twice;
+    skipping.options.degenerate = Degenerate::skip;
+    EXPECT_EQ(overlaps(twice, workspace, {}), 9U);
+    EXPECT_EQ(overlaps(skipping, workspace, {}), 4U);
+    const SectionSet mesh_alone = {SectionId::triangles};
+    EXPECT_TRUE(Model::open(bytes.span(), mesh_alone)
+                    .value()
+                    .sections()
+                    .contains(SectionId::degenerate_bits));
+    const SectionSet numbers_alone = {SectionId::source_triangle};
+    EXPECT_FALSE(Model::open(bytes.span(), numbers_alone)
+                     .value()
+                     .sections()
+                     .contains(SectionId::degenerate_bits));
+}
+
 }  // namespace
 }  // namespace cdprep::test

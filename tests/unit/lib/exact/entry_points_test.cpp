@@ -102,5 +102,18 @@ TEST(ExactEntryPoints, AnswerTheSameInEveryMode) {
     }
 }
 
+// By the header: one to three corners, in every build.
+TEST(ExactEntryPointsDeathTest, AnotherNumberOfCornersStopsTheProgram) {
+    const Corners t = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    const std::vector<Double3> points(5, {0, 0, 5});
+    const auto ask = [&](std::size_t count) {
+        return exact::is_within(std::span(points).first(count), t, 5);
+    };
+    for (const std::size_t count : {1U, 2U, 3U}) EXPECT_TRUE(ask(count)) << count;
+    for (const std::size_t count : {0U, 4U, 5U}) {
+        EXPECT_DEATH((void)ask(count), "has 1 to 3 corners") << count;
+    }
+}
+
 }  // namespace
 }  // namespace cdprep

@@ -152,6 +152,30 @@ TEST(TriangleBoxLaws, TheFilterIsRightWhenItAnswers) {
     EXPECT_GT(open[2], kCases / 10);
 }
 
+// The oracle: exact numbers. The products of two small edges underflow, and the large coordinates
+// along the third axis magnify the loss.
+TEST(TriangleBoxLaws, AgreesWithCuttingWhereAxesDifferInScale) {
+    std::mt19937 random(76);
+    std::uniform_int_distribution<int> large(-100, 300), small(-600, -450);
+    int hits = 0, cases = 0;
+    while (cases < 4000) {
+        const int turn = cases % 3;
+        const std::array<int, 3> by = {large(random), small(random), small(random)};
+        const auto at = [&](const Double3& p) {
+            const std::array<double, 3> q = {std::ldexp(p.x, by[0]), std::ldexp(p.y, by[1]),
+                                             std::ldexp(p.z, by[2])};
+            return Double3{q[turn], q[(turn + 1) % 3], q[(turn + 2) % 3]};
+        };
+        const Case c = fine_case(random);
+        const Case s = {{at(c.t[0]), at(c.t[1]), at(c.t[2])}, {at(c.box.lower), at(c.box.upper)}};
+        const bool truth = touches_box_by_cutting(s.t, s.box);
+        ASSERT_EQ(triangle_touches_box(s.t, s.box), truth) << "seed 76, case " << cases;
+        hits += truth ? 1 : 0;
+        ++cases;
+    }
+    expect_two_sided(hits, cases);
+}
+
 // By symmetry: sizes change nothing.
 TEST(TriangleBoxLaws, SizeDoesNotMatter) {
     std::mt19937 random(73);

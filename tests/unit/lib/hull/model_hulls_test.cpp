@@ -91,5 +91,13 @@ TEST(TinyBaker, MakesHullsAndPiecesThatAreTrue) {
     }
 }
 
+// By the headers: numbers end at the count, in every build.
+TEST(ConvexPointsDeathTest, ANumberBeyondTheLastStopsTheProgram) {
+    const OpenModel ball = with_hulls_of(icosphere(1));
+    const auto count = static_cast<std::uint32_t>(ball.model.hulls().hulls.size());
+    EXPECT_GT(convex_points(ball.model, count - 1).count, 0u);
+    EXPECT_DEATH((void)convex_points(ball.model, count), "no hull with this number");
+}
+
 }  // namespace
 }  // namespace cdprep::test

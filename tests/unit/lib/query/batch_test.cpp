@@ -134,5 +134,25 @@ TEST(BatchEdges, WhereThereAreFewerAnswersFewerJobsAreAsked) {
     EXPECT_EQ(counts[7], 12345u);
 }
 
+// By the headers: a batch needs a workspace, in every build.
+TEST(BatchDeathTest, WithoutAWorkspaceTheProgramStops) {
+    const Jobs made(2);
+    const std::span<Workspace> none;
+    constexpr auto kSentence = "A batch needs at least one workspace";
+    std::vector<Collision> collisions(2);
+    EXPECT_DEATH(collide_many(made.jobs, none, run_threads, collisions), kSentence);
+    std::vector<std::optional<Distance>> distances(2);
+    EXPECT_DEATH(distance_many(made.jobs, none, run_threads, distances), kSentence);
+    std::array<bool, 2> near{};
+    EXPECT_DEATH(within_many(made.jobs, 1, none, run_threads, near), kSentence);
+    std::vector<std::size_t> counts(2);
+    EXPECT_DEATH(count_overlaps_many(made.jobs, none, run_threads, counts), kSentence);
+    std::vector<OverlapList> lists(2);
+    EXPECT_DEATH(overlaps_many(made.jobs, none, run_threads, lists), kSentence);
+    std::vector<OverlapMarks> marks(2);
+    EXPECT_DEATH(mark_overlaps_many(made.jobs, none, run_threads, marks), kSentence);
+    EXPECT_DEATH((void)split_overlaps(made.jobs[0], none, run_threads, {}), kSentence);
+}
+
 }  // namespace
 }  // namespace cdprep::test

@@ -403,5 +403,112 @@ TEST(CastRay, InThePlaneOfAHugeFaceTIsFinite) {
     EXPECT_EQ(hit->point, (Double3{0, 0, 0x1p998}));
 }
 
+/// A triangle that nearly contains the ray, and a wall before it.
+TestMesh ramp_behind_a_wall() {
+    return {{{1.8, 0, 0.54000000000000004},
+             {1.3, 0, 0.39000000000000001},
+             {2.1000000000000001, 0.60000000000000009, 1.05},
+             {0.6, -1, -1},
+             {0.6, 1, -1},
+             {0.6, 0, 2}},
+            {{{0, 1, 2}}, {{3, 4, 5}}}};
+}
+
+// By exact numbers: t is 0.5 at the wall and 1.625 at the ramp, which the ray meets at an angle
+// below a rounding.
+TEST(CastRay, AGrazedTriangleIsHitAtItsPlace) {
+    const OpenModel model = open_tiny(ramp_behind_a_wall(), {.double_precision = true});
+    const Ray ray = {{0, 0, 0}, {1.2000000000000002, 0.30000000000000004, 0.57000000000000006}};
+    Workspace workspace;
+    const auto first = cast_ray(model.model, ray, workspace);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(first->triangle, 1u);
+    EXPECT_NEAR(first->t, 0.5, 1e-12);
+    EXPECT_NEAR(first->point.x, 0.6, 1e-12);
+    std::array<RayHit, 2> hits{};
+    ASSERT_EQ(all_ray_hits(model.model, ray, workspace, hits), 2u);
+    EXPECT_EQ(hits[0].triangle, 1u);
+    EXPECT_NEAR(hits[1].t, 1.625, 1e-12);
+    EXPECT_EQ(all_ray_hits(model.model, ray, workspace, {}, {.max_t = 1}), 1u);
+}
+
+// By exact numbers: t is 1.22738.
+TEST(CastRay, TheLimitKeepsAGrazedTriangleWithinIt) {
+    const TestMesh ramp{{{1.2000000000000002, -1, -0.33999999999999991},
+                         {1.6000000000000001, 0.60000000000000009, 0.90000000000000002},
+                         {2.6000000000000001, 0.20000000000000001, 0.92000000000000004}},
+                        {{{0, 1, 2}}}};
+    const OpenModel model = open_tiny(ramp, {.double_precision = true});
+    const Ray ray = {{-0.60000000000000009, 0.30000000000000004, 0.029999999999999999},
+                     {1.9000000000000001, -0.60000000000000009, 0.14999999999999999}};
+    Workspace workspace;
+    EXPECT_TRUE(ray_hits(model.model, ray, workspace, {.max_t = 2}));
+    EXPECT_FALSE(ray_hits(model.model, ray, workspace, {.max_t = 1}));
+    const auto hit = cast_ray(model.model, ray, workspace);
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->t, 1.22738, 1e-5);
+    EXPECT_NEAR(hit->point.x, 1.73202, 1e-5);
+}
+
+// By the order of hits: the first of all is the answer, and lies in the model, though rays run in
+// the plane of all triangles, up to rounding.
+TEST(CastRayLaws, TheFirstHitIsTheFirstOfAllInAPlaneToo) {
+    std::mt19937 random(20261132);
+    std::uniform_real_distribution<double> fine(-1, 1);
+    int hits = 0, rays = 0;
+    for (int round = 0; round < 60; ++round) {
+        const double x = fine(random), y = fine(random), z = fine(random);
+        const auto on_plane = [&](double at_x, double at_y) {
+            return Double3{at_x, at_y, x * at_x + y * at_y + z};
+        };
+        TestMesh mesh;
+        for (std::uint32_t i = 0; i < 120; ++i) {
+            const double at_x = fine(random), at_y = fine(random);
+            for (int k = 0; k < 3; ++k) {
+                const double by_x = 0.2 * fine(random), by_y = 0.2 * fine(random);
+                mesh.positions.push_back(on_plane(at_x + by_x, at_y + by_y));
+            }
+            mesh.triangles.push_back({{3 * i, 3 * i + 1, 3 * i + 2}});
+        }
+        const OpenModel model = open_tiny(mesh, {.double_precision = true});
+        Workspace workspace;
+        for (int i = 0; i < 30; ++i) {
+            const double from_x = 3 * fine(random), from_y = 3 * fine(random);
+            const double to_x = 0.5 * fine(random), to_y = 0.5 * fine(random);
+            const Double3 o = on_plane(from_x, from_y), to = on_plane(to_x, to_y);
+            const Ray ray{o, {to.x - o.x, to.y - o.y, to.z - o.z}};
+            ++rays;
+            hits += triangles_hit(model.model, ray, workspace).empty() ? 0 : 1;
+            const auto first = cast_ray(model.model, ray, workspace);
+            if (!first) continue;
+            ASSERT_LT(std::fabs(first->point.x), 1.21) << "round " << round << ", ray " << i;
+            ASSERT_LT(std::fabs(first->point.y), 1.21) << "round " << round << ", ray " << i;
+        }
+    }
+    EXPECT_GT(hits, rays * 3 / 10);
+}
+
+// By hand: a triangle across the x axis. Origins so far away are beyond the range of its boxes'
+// coordinates.
+TEST(CastRay, RaysFromFarAwayMeetSmallModels) {
+    for (const double size : {1.0, 0x1p-10, 0x1p-300, 0x1p-900}) {
+        const TestMesh mesh{{{0, -size, -size}, {0, size, -size}, {0, 0, size}}, {{{0, 1, 2}}}};
+        const OpenModel model = open_tiny(mesh, {.double_precision = true});
+        Workspace workspace;
+        for (const double far : {0x1p100, 0x1p900, 0x1p1000, 0x1p1014, 0x1p1020, 0x1p1023}) {
+            for (const double side : {-1.0, 1.0}) {
+                const Ray ray = {{side * far, 0, 0}, {-side, 0, 0}};
+                EXPECT_TRUE(ray_hits(model.model, ray, workspace)) << size << " " << far;
+                const auto hit = cast_ray(model.model, ray, workspace);
+                ASSERT_TRUE(hit) << size << " " << far;
+                EXPECT_EQ(hit->t, far);
+                EXPECT_EQ(hit->point.x, 0);
+                EXPECT_FALSE(ray_hits(model.model, {ray.origin, {side, 0, 0}}, workspace));
+                EXPECT_FALSE(ray_hits(model.model, ray, workspace, {.max_t = far / 2}));
+            }
+        }
+    }
+}
+
 }  // namespace
 }  // namespace cdprep::test

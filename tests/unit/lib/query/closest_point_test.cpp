@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "support/open_tiny.h"
@@ -145,6 +146,29 @@ TEST(ClosestPointLaws, IntervalHoldsTheTruth) {
     }
     EXPECT_GT(within, asked * 3 / 10);
     EXPECT_LT(within, asked * 9 / 10);
+}
+
+// By hand: from the least double to x = 2^980 it is farther than any double. From there to a face
+// at x = -2^980 it is less.
+TEST(ClosestPoint, TheIntervalHoldsDistancesBeyondDouble) {
+    constexpr double kMost = std::numeric_limits<double>::max();
+    const TestMesh face{{{0, 0, 0}, {0, 0x1p960, 0}, {0, 0, 0x1p960}}, {{{0, 1, 2}}}};
+    Workspace workspace;
+    const OpenModel beyond =
+        open_tiny(moved_by(face, 1, {0x1p980, 0, 0}), {.double_precision = true});
+    const auto far = closest_point(beyond.model, {-kMost, 0, 0}, workspace);
+    ASSERT_TRUE(far);
+    EXPECT_LE(far->lower, kMost);
+    EXPECT_GE(far->lower, kMost * (1 - 1e-12));
+    EXPECT_EQ(far->upper, std::numeric_limits<double>::infinity());
+    EXPECT_NEAR(far->point.x, 0x1p980, 0x1p972);  // rounded relative to the query
+    const OpenModel before =
+        open_tiny(moved_by(face, 1, {-0x1p980, 0, 0}), {.double_precision = true});
+    const auto near = closest_point(before.model, {-kMost, 0, 0}, workspace);
+    ASSERT_TRUE(near);
+    EXPECT_LE(near->lower, kMost - 0x1p980);
+    EXPECT_GE(near->upper, kMost - 0x1p980);
+    EXPECT_FALSE(closest_point(beyond.model, {-kMost, 0, 0}, workspace, 0x1p1023));
 }
 
 }  // namespace

@@ -134,5 +134,17 @@ TEST(SelfWalk, OfNothingFindsNothing) {
     EXPECT_TRUE(walk({}, build::Quality::fast).empty());
 }
 
+// By the header: numbers end at part_count(), and the BVH is of these triangles.
+TEST(SelfWalkDeathTest, APartOrTrianglesThatDoNotExistStopTheProgram) {
+    const test::TestMesh mesh = test::icosphere(1);
+    const build::Bvh bvh =
+        build::build_bvh(mesh.positions, mesh.triangles, {.bounds = build::BvhBounds::aligned});
+    const SelfWalk walk(bvh, mesh.triangles, serial_for);
+    EXPECT_FALSE(walk.part(walk.part_count() - 1).empty());
+    EXPECT_DEATH((void)walk.part(walk.part_count()), "no part with this number");
+    EXPECT_DEATH(SelfWalk(bvh, std::span(mesh.triangles).first(7), serial_for),
+                 "not built over these triangles");
+}
+
 }  // namespace
 }  // namespace cdprep

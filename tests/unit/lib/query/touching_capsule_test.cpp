@@ -82,5 +82,21 @@ TEST(TouchingCapsule, DistanceIsLessByTheRadius) {
     EXPECT_EQ(touching->upper, 0);
 }
 
+// By hand: the capsules contain the face. The squares of their coordinates are beyond the largest
+// double.
+TEST(TouchingCapsule, SquaresBeyondDoubleHideNothing) {
+    const TestMesh face{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}}};
+    for (const double far : {0x1p490, 0x1p505, 0x1p512, 0x1p520, 0x1p900}) {
+        const Double3 beside = {far, 0, 0};
+        EXPECT_EQ(touched(face, Capsule{beside, beside, 2 * far}).size(), 1u) << far;
+        EXPECT_EQ(touched(face, Capsule{beside, beside, far}).size(), 1u) << far;
+        EXPECT_TRUE(touched(face, Capsule{beside, beside, far / 2}).empty()) << far;
+        EXPECT_EQ(touched(face, Capsule{{-far, 0, 0}, beside, 1}).size(), 1u) << far;
+        EXPECT_EQ(touched(face, Capsule{{-far / 2, far, 0}, {far, -far / 2, 0}, far}).size(), 1u)
+            << far;
+        EXPECT_TRUE(touched(face, Capsule{{-far, 0, 2}, {far, 0, 2}, 1}).empty()) << far;
+    }
+}
+
 }  // namespace
 }  // namespace cdprep::test
