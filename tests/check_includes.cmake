@@ -42,7 +42,7 @@ set(tools_rooms
     "hull: cli command_line mesh text write"
     "repair: cli crossings import command_line mesh text validate/defects write"
     "decompose/surface: hull mesh text"
-    "decompose/enclose: cli decompose/surface hull mesh text write"
+    "decompose/enclose: cli crossings decompose/surface hull mesh text write"
     "decompose: cli decompose/enclose decompose/surface hull command_line text write"
     "export: cli command_line decompose/enclose hull mesh text write"
     "bake: cli crossings decompose/enclose decompose/surface hull import command_line mesh repair\

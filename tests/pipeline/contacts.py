@@ -59,6 +59,29 @@ def enclosed(program, folder, cube):
     must(solid["count"] == 1 and not solid["contacts"][0]["deep"], f"touching cubes: {solid}")
 
 
+def in_a_cavity(program, folder):
+    """A unit cube in the cavity of a cube with walls 1 thick: 0.1 from the inside of a wall, and so
+    1.1 from its outside, which with a tolerance is one piece around the cavity."""
+    corners = [[int(x) for x in line.split()] for line in CUBE.splitlines()[2:10]]
+    faces = [line.split()[1:] for line in CUBE.splitlines()[10:]]
+    lines = [" ".join(str(5 * x) for x in corner) for corner in corners]
+    lines += [" ".join(str(4 * x + 1) for x in corner) for corner in corners]
+    lines += ["4 " + " ".join(face) for face in faces]
+    lines += ["4 " + " ".join(str(8 + int(i)) for i in face[::-1]) for face in faces]
+    (folder / "hollow.off").write_text("\n".join(["OFF", "16 12 0", *lines]) + "\n")
+    lines = [" ".join(str(x / 2) for x in corner) for corner in corners]
+    lines += ["4 " + " ".join(face) for face in faces]
+    (folder / "unit.off").write_text("\n".join(["OFF", "8 6 0", *lines]) + "\n")
+    bake(program, folder / "unit.off", "-o", folder / "unit.cdp.h5", "--effects", "contacts")
+    for options in ([], ["--piece-tolerance", 0.001]):
+        hollow = folder / "hollow.cdp.h5"
+        bake(program, folder / "hollow.off", "-o", hollow, "--effects", "contacts", *options)
+        found = json.loads(ask(program, hollow, folder / "unit.cdp.h5", "--tolerance", 1.2,
+                               "--pose", "1 0 0 0 1 0 0 0 1 1.1 4.5 4.5", "--format", "json"))[0]
+        gaps = sorted(round(contact["lower"], 9) for contact in found["contacts"])
+        must(gaps == [0.1, 1.1], f"{options}: {found}")
+
+
 def ask(program, *arguments):
     asked = run(program, "query", "contacts", *arguments)
     must(asked.returncode == 0, f"query {arguments} exited {asked.returncode}: {asked.stderr}")
@@ -156,6 +179,7 @@ def main():
          f"{asked.returncode}: {asked.stderr}")
     enclosed(program, folder, cube)
     limited(program, folder, cube)
+    in_a_cavity(program, folder)
     asked = run(program, "query", "contacts", cube, cube)
     must(asked.returncode == 2 and "--tolerance" in asked.stderr, asked.stderr)
 

@@ -245,6 +245,20 @@ def check_units(program, reader, folder):
     must(near(found["centre"], [0.02, -0.005, 0.07]), f"centre {found['centre']}")
 
 
+def check_what_is_weighed(program, folder):
+    """Beside a box of 8 cubic metres is another: apart, over half of it, or inside out."""
+    first = box((0.0, 0.0, 0.0), (2.0, 2.0, 2.0))
+    apart = box((3.0, 0.0, 0.0), (5.0, 2.0, 2.0), 9)
+    across = box((1.0, 0.0, 0.0), (3.0, 2.0, 2.0), 9)
+    inverted = "".join(" ".join(word[i] for i in ((0, 2, 1, 3) if word[0] == "f" else range(4)))
+                       + "\n" for word in map(str.split, apart.splitlines()))
+    for second, of in ((apart, "solid"), (across, "mesh"), (inverted, "parts")):
+        source = folder / "lapping.obj"
+        source.write_text(first + second)
+        report = decompose(program, source, "-o", folder / "two.urdf", "--parts", 2, "--unit", "m")
+        must(report["mass_of"] == of and near([report["mass"]], [16000]), f"{of}: {report}")
+
+
 def check_given_units(program, reader, folder):
     """--unit and --up-axis hold where the file says nothing, and that is said where they miss."""
     bolt = SAMPLES / "bolt.obj"
@@ -458,6 +472,14 @@ def check_invalid_arguments(program, folder):
         refused(2, option, bolt, option)
     for option in ("--max-vertices", "--work", "--density"):
         refused(2, option, bolt, option, 9)
+    # Of the formats, some have no mass, some no visual mesh, and some no unit.
+    for option, formats in ((["--density", 9], ("obj", "glb")), (["--strict"], ("obj", "glb")),
+                            (["--no-visual"], ("obj", "glb", "mjcf", "xml"))):
+        refused(2, f"{option[0]} has no effect", bolt, "--parts", 3, *option)
+        for kind in formats:
+            refused(2, f"{option[0]} has no effect", bolt, "--parts", 3, *option,
+                    "-o", folder / f"idle.{kind}")
+    must(not list(folder.glob("idle*")), "options without effect were accepted")
     refused(2, "--tolerance", bolt, "--parts", 3, "--tolerance", 1)
     refused(2, "--order", bolt, "--parts", 3, "--order", "greedy")
     refused(2, "--exact", bolt, "--parts", 3, "--exact")
@@ -487,6 +509,7 @@ def main():
         folder = pathlib.Path(scratch)
         check_box_weighs_as_by_hand(program, reader, folder)
         check_units(program, reader, folder)
+        check_what_is_weighed(program, folder)
         check_given_units(program, reader, folder)
         check_nodes_stay_apart(program, reader, folder)
         check_every_format(program, reader, folder, SAMPLES / "bolt.obj",

@@ -293,6 +293,7 @@ def invalid_arguments(program, mesh, folder):
         (["bake", mesh, "--structures", "tetra-tree", "--tetra-threshold", "0"],
          ["--tetra-threshold"]),
         (["bake", mesh, "--structure-preset", "best"], ["best", "paper"]),
+        (["bake", mesh, "--structure-preset", "paper"], ["--structure-preset", "--structures"]),
         (["bake", mesh, "--octree-level", "4"], ["--octree-level", "--structures"]),
         (["bake", mesh, "--structures", "octree", "--tetra-level", "4"], ["--tetra-level"]),
         (["bake", mesh, "--structures", "octree", "--split", "area"], ["octree-adaptive"]),

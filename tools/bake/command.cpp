@@ -189,6 +189,7 @@ Exit run(const Command& command, Arguments& arguments) {
     const Result<Effects> effects = parse_effects(arguments.effects);
     if (!effects) return fail("bake", effects.error());
     if (const auto error = find_idle_option(command, *effects)) return fail("bake", *error);
+    arguments.structures.is_preset_given = command.count("--structure-preset") > 0;
     const Result<StructureChoice> structures =
         choose_structures(arguments.structures, effects.value());
     if (!structures) return fail("bake", structures.error());

@@ -77,7 +77,9 @@ std::optional<Error> find_idle_option(const StructureArguments& arguments,
         bool is_used;
         const char* user;
     };
-    const std::array<Use, 10> uses = {{
+    const bool has_cells = has_some_octree || choice.has_tetra_tree();
+    const std::array<Use, 11> uses = {{
+        {"--structure-preset", arguments.is_preset_given, has_cells, "octree or tetra-tree"},
         {"--octree-level", arguments.octree_level.has_value(), has_some_octree, "octree"},
         {"--octree-threshold", arguments.octree_threshold.has_value(), has_some_octree, "octree"},
         {"--tetra-level", arguments.tetra_level.has_value(), choice.has_tetra_tree(), "tetra-tree"},

@@ -34,6 +34,7 @@ struct HullChoice {
 struct StructureArguments {
     std::string list = {};  ///< --structures; empty: not given
     std::string preset = "tuned";
+    bool is_preset_given = false;
     std::optional<std::uint32_t> octree_level = {};
     std::optional<std::uint32_t> octree_threshold = {};
     std::optional<std::uint32_t> tetra_level = {};

@@ -22,6 +22,7 @@
 #include "decompose/surface/surface_pieces.h"
 #include "hull/enclosing_hull.h"
 #include "text/printable.h"
+#include "write/hulls_file.h"
 #include "write/pieces_file.h"
 
 namespace cdprep::cli {
@@ -144,6 +145,32 @@ bool is_enclosing(const Arguments& arguments) {
     return enclosed.max_error || enclosed.parts || enclosed.max_parts;
 }
 
+/// Returns an error for an option that the output's format has no use for. Another error tells of
+/// an output that has no format.
+std::optional<Error> find_idle_in_output(const Command& command, const Arguments& arguments) {
+    const auto format = write::hulls_format_of(arguments.output);
+    if (!format && !arguments.output.empty()) return std::nullopt;
+    struct Use {
+        const char* option;
+        bool is_used;
+        const char* users;
+    };
+    const bool has_mass = format && write::has_mass(*format);
+    const bool has_meshes = format && write::has_mesh_files(*format);
+    const std::array<Use, 3> uses = {{
+        {"--density", has_mass, ".urdf, .sdf, .mjcf and .xml have a mass"},
+        {"--no-visual", has_meshes, ".urdf and .sdf have a visual mesh"},
+        {"--strict", has_mass, ".urdf, .sdf, .mjcf and .xml need a unit"},
+    }};
+    for (const Use& use : uses) {
+        if (use.is_used || command.count(use.option) == 0) continue;
+        return Error{ErrorCode::bad_argument, std::string(use.option) + " has no effect: only " +
+                                                  use.users + ". Remove the option, or write " +
+                                                  "such a file with -o."};
+    }
+    return std::nullopt;
+}
+
 /// Returns an error for an option without effect: the user expected one.
 std::optional<Error> find_idle_option(const Command& command, const Arguments& arguments) {
     constexpr std::array<const char*, 2> kOfSurface = {"--tolerance", "--order"};
@@ -157,7 +184,7 @@ std::optional<Error> find_idle_option(const Command& command, const Arguments& a
     };
     const bool encloses = is_enclosing(arguments);
     const char* idle = encloses ? find_given(kOfSurface) : find_given(kOfEnclosing);
-    if (idle == nullptr) return std::nullopt;
+    if (idle == nullptr) return encloses ? find_idle_in_output(command, arguments) : std::nullopt;
     return Error{
         ErrorCode::bad_argument,
         idle + std::string(encloses ? " applies to pieces of the surface: remove it, or remove "

@@ -20,7 +20,7 @@ struct Colliders {
     std::string name;
     double metres_per_unit = 0;           ///< 0: unknown
     std::optional<write::BodyMass> mass;  ///< of density 1 in model units
-    bool is_of_solid = false;             ///< the mass is that of the solid, not of the parts
+    bool is_of_solid = false;             ///< the mass is that of the solid, exactly
     double error = 0;                     ///< how far parts stick out at most
     std::vector<NamedHull> parts;
 };

@@ -16,6 +16,7 @@
 #include "decompose/enclose/body_mass.h"
 #include "decompose/enclose/drop_points.h"
 #include "decompose/enclose/hull_error.h"
+#include "decompose/enclose/windings.h"
 #include "export/colliders_json.h"
 #include "mesh/mass_properties.h"
 #include "mesh/turn_up.h"
@@ -152,13 +153,14 @@ void scale(std::vector<Double3>& points, double factor) {
 
 /// Returns true if MuJoCo can read the mesh as a geom, for which it needs a volume.
 bool is_for_mujoco(const Body& body) {
-    if (!body.is_balanced) return false;
+    if (!body.is_balanced || !convex::has_known_volume(body.mesh)) return false;
     const auto found = convex::find_mass_properties(body.mesh);
     return found && found->volume > 0;
 }
 
 Result<Done> write_for_engine(Body& body, const EngineForm& form, const ExportOptions& options,
-                              const std::string& name, report::ExportReport& report) {
+                              const std::string& name, const Threads& threads,
+                              report::ExportReport& report) {
     write::HullsFileOptions how;
     how.metres_per_unit = report.metres_per_unit;
     how.is_floating = options.is_floating;
@@ -166,12 +168,15 @@ Result<Done> write_for_engine(Body& body, const EngineForm& form, const ExportOp
     how.hulls_node = form.parts_node;
     how.stores_hulls_large = form.stores_parts_large;
     if (form.has_mass) {
-        const auto weighed =
-            weigh(body.mesh, body.is_balanced, body.parts, options.density, report.metres_per_unit);
+        const auto weighed = weigh(body.mesh, body.parts,
+                                   {.is_balanced = body.is_balanced,
+                                    .density = options.density,
+                                    .metres_per_unit = report.metres_per_unit,
+                                    .parallel_for = threads.parallel_for()});
         if (weighed) {
             how.mass = weighed->body;
             report.mass = weighed->body.mass;
-            report.is_mass_of_parts = weighed->is_of_parts;
+            report.mass_of = weighed->of;
         }
     }
     report.has_visual = options.has_visual;
@@ -203,14 +208,18 @@ Result<Done> write_for_engine(Body& body, const EngineForm& form, const ExportOp
 }
 
 Result<Done> write_json(const Body& body, const EngineForm& form, const ExportOptions& options,
-                        const std::string& name, const report::ExportReport& report) {
+                        const std::string& name, const Threads& threads,
+                        const report::ExportReport& report) {
     report::Colliders colliders;
     colliders.name = name;
     colliders.metres_per_unit = report.metres_per_unit;
     colliders.error = report.outer_error;
-    if (const auto weighed = weigh(body.mesh, body.is_balanced, body.parts, 1, 1)) {
+    const auto weighed =
+        weigh(body.mesh, body.parts,
+              {.is_balanced = body.is_balanced, .parallel_for = threads.parallel_for()});
+    if (weighed) {
         colliders.mass = weighed->body;
-        colliders.is_of_solid = !weighed->is_of_parts;
+        colliders.is_of_solid = weighed->of == MassOf::solid;
     }
     for (std::size_t i = 0; i < body.parts.size(); ++i) {
         colliders.parts.push_back({part_name(form, name, i, body.parts.size()), &body.parts[i]});
@@ -262,8 +271,9 @@ Result<report::ExportReport> export_model(const fs::path& input, const EngineFor
     if (is_interrupted()) return interrupted(input);
     turn(body, report);
     const std::string name = exported_name(input, options.output);
-    const Result<Done> written = form.format ? write_for_engine(body, form, options, name, report)
-                                             : write_json(body, form, options, name, report);
+    const Result<Done> written = form.format
+                                     ? write_for_engine(body, form, options, name, threads, report)
+                                     : write_json(body, form, options, name, threads, report);
     if (!written) return written.error();
     report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return report;

@@ -18,10 +18,12 @@ constexpr std::size_t kMostPointsOfEngines = 255;  ///< of PhysX and Unity
 std::string points_text(const ExportReport& report) {
     std::string text = "  " + counted(report.points, "point", "points") + ", of " +
                        std::to_string(report.stored_points) + " in the file";
-    if (report.growth > 0) text += "; parts grew by at most " + in_six_digits(report.growth);
+    if (report.growth > 0)
+        text += "; parts grew by at most " + at_most_in_six_digits(report.growth);
     text += "\n";
     if (report.rounding > 0) {
-        text += "  corners were rounded to floats, by at most " + in_six_digits(report.rounding) +
+        text += "  corners were rounded to floats, by at most " +
+                at_most_in_six_digits(report.rounding) +
                 ": the parts may miss the mesh by as much\n";
     }
     if (report.low_points > 0) {
@@ -80,7 +82,7 @@ std::string export_text(const ExportReport& report) {
         " for " + report.engine + " (" + in_six_digits(report.seconds) + " s)\n";
     text += points_text(report);
     text += "  " + std::string(report.is_of_whole ? "it sticks" : "they stick") +
-            " out by at most " + in_six_digits(report.outer_error) + "\n";
+            " out by at most " + at_most_in_six_digits(report.outer_error) + "\n";
     if (report.left_out > 0) {
         text +=
             "  " + counted(report.left_out, "flat part was", "flat parts were") + " not written\n";
@@ -96,8 +98,8 @@ std::string export_text(const ExportReport& report) {
         text += "  the axis that is up is unknown: axes are as in the model\n";
     }
     if (report.mass) {
-        text += "  mass " + in_six_digits(*report.mass) + " kg, of ";
-        text += report.is_mass_of_parts ? "the parts; overlaps count twice\n" : "the solid\n";
+        text += "  mass " + in_six_digits(*report.mass) + " kg, of " +
+                cli::text_of(report.mass_of) + "\n";
     }
     return text + "  written to " +
            (report.output == "-" ? "standard output" : printable(report.output)) + "\n";
@@ -128,7 +130,7 @@ std::string export_json(const ExportReport& report) {
     json["written_up"] = axis_name(report.written_up);
     if (report.mass) {
         json["mass"] = *report.mass;
-        json["mass_of"] = report.is_mass_of_parts ? "parts" : "solid";
+        json["mass_of"] = cli::word_of(report.mass_of);
     }
     json["seconds"] = report.seconds;
     return compact(json) + "\n";

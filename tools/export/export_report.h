@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cdprep/format/file_header.h"
+#include "decompose/enclose/body_mass.h"
 
 namespace cdprep::report {
 
@@ -32,9 +33,9 @@ struct ExportReport {
     bool is_normalized = false;      ///< then there is no unit
     format::UpAxis up_axis = format::UpAxis::unknown;  ///< of the model
     format::UpAxis written_up = format::UpAxis::unknown;
-    std::array<double, 3> size{};   ///< of the mesh's box along the written axes, model units
-    std::optional<double> mass;     ///< the mass written, kilograms
-    bool is_mass_of_parts = false;  ///< overlaps count twice; else the mass is exact
+    std::array<double, 3> size{};  ///< of the mesh's box along the written axes, model units
+    std::optional<double> mass;    ///< the mass written, kilograms
+    cli::MassOf mass_of = cli::MassOf::solid;
     double seconds = 0;
     int exit = 0;
     std::optional<std::string> error;  ///< the message, if it failed

@@ -130,7 +130,8 @@ std::size_t add_scaled_node(Glb& glb, const HullArrays& hull) {
 /// Adds the shown mesh, then the hulls, which may have a node above them.
 void add_nodes(Glb& glb, const RobotFile& file) {
     std::vector<std::size_t> roots;
-    if (file.options.visual) {
+    // glTF requires points.
+    if (file.options.visual && !file.options.visual->positions.empty()) {
         const MeshArrays& shown = *file.options.visual;
         roots.push_back(add_node(glb, file.name, shown.positions, shown.triangles));
     }

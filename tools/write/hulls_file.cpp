@@ -247,9 +247,10 @@ Result<WrittenHulls> write_hulls(const fs::path& path, HullsFormat format,
                                  std::span<const HullArrays> hulls,
                                  const HullsFileOptions& options) {
     std::vector<HullArrays> written(hulls.begin(), hulls.end());
-    if (has_mass(format)) {
-        std::erase_if(written, [](const HullArrays& hull) { return hull.dimension < 3; });
-    }
+    const int least_dimension = has_mass(format) ? 3 : 0;
+    std::erase_if(written, [&](const HullArrays& hull) {
+        return hull.dimension < least_dimension || hull.points.empty();
+    });
     const RobotFile file = {model_name(path), mesh_stem(path), written, options,
                             scale_text(options.metres_per_unit > 0 ? options.metres_per_unit : 1)};
     if (format == HullsFormat::glb) {

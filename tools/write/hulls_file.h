@@ -92,12 +92,12 @@ struct WrittenHulls {
 /// relative to their own. Each hull is written beside the file as STEM_NAME.obj. The mesh that
 /// URDF, SDF and MJCF show is written as STEM_visual.obj. STEM is model_name(); if that replaced
 /// characters, a number distinguishes such names. URDF, SDF and MJCF omit hulls of fewer than three
-/// dimensions, because their readers require a volume. Fails with `bad_argument` if a GLB would
-/// exceed 4 GiB, if one of its coordinates exceeds the largest float, or if rounding moves a corner
-/// by more than a thousandth of the size of the whole, as far from the origin. Also fails with it
-/// if a mesh file would replace a file that another program wrote, as no argument names it. Mesh
-/// files begin with a line by which later runs know them. All files appear when they are complete,
-/// or none does (write_all()).
+/// dimensions, because their readers require a volume. All formats omit hulls without points. Fails
+/// with `bad_argument` if a GLB would exceed 4 GiB, if one of its coordinates exceeds the largest
+/// float, or if rounding moves a corner by more than a thousandth of the size of the whole, as far
+/// from the origin. Also fails with it if a mesh file would replace a file that another program
+/// wrote, as no argument names it. Mesh files begin with a line by which later runs know them. All
+/// files appear when they are complete, or none does (write_all()).
 [[nodiscard]] Result<WrittenHulls> write_hulls(const std::filesystem::path& path,
                                                HullsFormat format,
                                                std::span<const HullArrays> hulls,

@@ -63,8 +63,9 @@ std::string approximate_text(const ApproximateReport& report) {
                        in_six_digits(report.seconds) + " s)\n";
     text += "  they stick out of the ";
     text += report.to_surface ? "surface" : "solid";
-    text += " by at most " + in_six_digits(result.outer_error) + " (" + in_six_digits(share) +
-            " % of the diagonal; at least " + in_six_digits(result.outer_lower) + ")\n";
+    text += " by at most " + at_most_in_six_digits(result.outer_error) + " (" +
+            at_most_in_six_digits(share) + " % of the diagonal; at least " +
+            at_least_in_six_digits(result.outer_lower) + ")\n";
     text += "  proof of enclosure: " + std::to_string(result.proof.fragments) + " fragments, " +
             std::to_string(result.proof.outside) + " corners outside their hulls\n";
     text += "  at most " + counted(most_vertices(result), "vertex", "vertices") + " per part\n";
@@ -83,7 +84,8 @@ std::string approximate_text(const ApproximateReport& report) {
         text += "  " + std::to_string(report.left_out) + " flat parts were not written\n";
     }
     if (report.rounding > 0) {
-        text += "  corners were rounded to floats, by at most " + in_six_digits(report.rounding) +
+        text += "  corners were rounded to floats, by at most " +
+                at_most_in_six_digits(report.rounding) +
                 ": the parts may miss the mesh by as much\n";
     }
     if (report.is_for_simulators)
@@ -92,8 +94,8 @@ std::string approximate_text(const ApproximateReport& report) {
         text += std::string("  turned: ") + axis_name(report.up_axis) + " is up, written as +z\n";
     }
     if (report.mass) {
-        text += "  mass " + in_six_digits(*report.mass) + " kg, of ";
-        text += report.is_mass_of_parts ? "the parts; overlaps count twice\n" : "the solid\n";
+        text += "  mass " + in_six_digits(*report.mass) + " kg, of " +
+                cli::text_of(report.mass_of) + "\n";
     }
     if (!report.output.empty()) text += "  written to " + printable(report.output) + "\n";
     if (!report.has_table) return text;
@@ -102,8 +104,8 @@ std::string approximate_text(const ApproximateReport& report) {
         const convex::ApproximatePart& part = result.parts[i];
         text += "  " + std::to_string(i) + " " + std::to_string(part.hull.points.size()) + " " +
                 std::to_string(part.hull.facets.size()) + " " +
-                std::to_string(part.triangles.size()) + " " + in_six_digits(part.error.upper) +
-                "\n";
+                std::to_string(part.triangles.size()) + " " +
+                at_most_in_six_digits(part.error.upper) + "\n";
     }
     return text;
 }
@@ -139,7 +141,7 @@ std::string approximate_json(const ApproximateReport& report) {
         if (report.rounding > 0) json["rounding"] = report.rounding;
         if (report.mass) {
             json["mass"] = *report.mass;
-            json["mass_of"] = report.is_mass_of_parts ? "parts" : "solid";
+            json["mass_of"] = cli::word_of(report.mass_of);
         }
         json["seconds"] = report.seconds;
         if (report.has_table) json["table"] = table_json(report);

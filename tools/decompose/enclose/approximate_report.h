@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "decompose/enclose/approximate_parts.h"
+#include "decompose/enclose/body_mass.h"
 
 namespace cdprep::report {
 
@@ -30,7 +31,7 @@ struct ApproximateReport {
     std::size_t left_out = 0;             ///< hulls that the output format cannot hold
     double rounding = 0;                  ///< of corners by the output, which enclose less by it
     std::optional<double> mass;           ///< the mass written, kilograms
-    bool is_mass_of_parts = false;        ///< overlaps count twice; else the mass is exact
+    cli::MassOf mass_of = cli::MassOf::solid;
     bool has_table = false;
     double seconds = 0;  ///< of the decomposition alone
     int exit = 0;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "decompose/enclose/windings.h"
 #include "mesh/mass_properties.h"
 
 namespace cdprep::cli {
@@ -17,11 +18,13 @@ bool is_of_solid(const write::BodyMass& body) {
     return body.mass > 0 && xx > 0 && minor > 0 && determinant > 0 && std::isfinite(determinant);
 }
 
-std::optional<write::BodyMass> mass_of(const mesh::Mesh& mesh, double density, double scale) {
+std::optional<write::BodyMass> mass_of(const mesh::Mesh& mesh, const WeighOptions& options) {
+    if (!convex::has_known_volume(mesh)) return std::nullopt;
     const auto found = convex::find_mass_properties(mesh);
     if (!found) return std::nullopt;
+    const double scale = options.metres_per_unit > 0 ? options.metres_per_unit : 1;
     // If the mesh is inside out, all signs change.
-    const double per_volume = std::copysign(density, found->volume) * scale * scale * scale;
+    const double per_volume = std::copysign(options.density, found->volume) * scale * scale * scale;
     write::BodyMass body;
     body.mass = per_volume * found->volume;
     const format::Double3& centre = found->centre;
@@ -47,14 +50,28 @@ mesh::Mesh mesh_of(std::span<const convex::ConvexHull> parts) {
 
 }  // namespace
 
-std::optional<WeighedBody> weigh(const mesh::Mesh& mesh, bool is_balanced,
-                                 std::span<const convex::ConvexHull> parts, double density,
-                                 double metres_per_unit) {
-    const double scale = metres_per_unit > 0 ? metres_per_unit : 1;
-    if (is_balanced) {
-        if (const auto body = mass_of(mesh, density, scale)) return WeighedBody{*body, false};
+const char* word_of(MassOf of) noexcept {
+    return of == MassOf::solid ? "solid" : of == MassOf::mesh ? "mesh" : "parts";
+}
+
+std::string text_of(MassOf of) {
+    if (of == MassOf::solid) return "the solid";
+    if (of == MassOf::parts) return "the parts; overlaps count twice";
+    return "the mesh, which may meet itself; overlaps count twice";
+}
+
+std::optional<WeighedBody> weigh(const mesh::Mesh& mesh, std::span<const convex::ConvexHull> parts,
+                                 const WeighOptions& options) {
+    if (const auto body = options.is_balanced ? mass_of(mesh, options) : std::nullopt) {
+        const convex::Windings windings = convex::find_windings(mesh, options.parallel_for);
+        const bool is_simple = windings == convex::Windings::simple;
+        if (windings != convex::Windings::opposed) {
+            return WeighedBody{*body, is_simple ? MassOf::solid : MassOf::mesh};
+        }
     }
-    if (const auto body = mass_of(mesh_of(parts), density, scale)) return WeighedBody{*body, true};
+    if (const auto body = mass_of(mesh_of(parts), options)) {
+        return WeighedBody{*body, MassOf::parts};
+    }
     return std::nullopt;
 }
 

@@ -270,6 +270,8 @@ void DistanceField::sample(std::array<Double3, 3> corners, Detail detail, Estima
     if (longest > ab)
         std::rotate(corners.begin(), corners.begin() + (longest == bc ? 1 : 2), corners.end());
     const Double3 cut = middle_of(corners[0], corners[1]);
+    // Far from 0, doubles may be coarser than the samples: the side has no number inside.
+    if (cut == corners[0] || cut == corners[1]) return;
     sample({corners[0], cut, corners[2]}, detail, most);
     sample({cut, corners[1], corners[2]}, detail, most);
 }

@@ -11,6 +11,7 @@
 
 #include "cdprep/exact/triangles.h"
 #include "decompose/enclose/part_points.h"
+#include "decompose/enclose/plane.h"
 #include "mesh/point_tree.h"
 #include "mesh/vectors.h"
 
@@ -48,6 +49,7 @@ constexpr int kPads = 6;  ///< the last is 2^-30; then fewer points are replaced
 constexpr std::size_t kMostNeighbours = 12;  ///< tried for each low point, the nearest first
 constexpr int kSweeps = 24;                  ///< over planes; what is left is added along a way
 constexpr double kLeastSlope = 0.05;         ///< sine of a way out against a plane: no shallower
+constexpr double kThin = 0x1p-20;  ///< sine in a facet below which its rounded normal is no use
 
 /// The plane of a face, through a point of it: heights are exact up to rounding near that point.
 struct HullPlane {
@@ -64,17 +66,24 @@ std::vector<HullPlane> planes_of(const ConvexHull& hull) {
     std::vector<HullPlane> faces;
     for (std::size_t g = 0; g + 1 < hull.groups.size(); ++g) {
         HullPlane face = {};
-        double most = 0;
+        double most = -1;
+        bool is_thin = false;
+        Corners corners = {};
         for (std::uint32_t f = hull.groups[g]; f < hull.groups[g + 1]; ++f) {
             const auto& [a, b, c] = hull.facets[f];
             const Double3& at = hull.points[a];
-            const Double3 normal = cross(minus(hull.points[b], at), minus(hull.points[c], at));
+            const Double3 u = minus(hull.points[b], at), v = minus(hull.points[c], at);
+            const Double3 normal = cross(u, v);
             const double length = std::sqrt(dot(normal, normal));
             if (!(length > most) || !std::isfinite(length)) continue;
             most = length;
-            face = {scaled(normal, 1 / length), at};
+            face = {length > 0 ? scaled(normal, 1 / length) : Double3{}, at};
+            const double longest = mesh::length(u) * mesh::length(v);
+            is_thin = length < kThin * longest && std::isfinite(longest);
+            corners = {at, hull.points[b], hull.points[c]};
         }
-        if (most == 0) return {};
+        if (is_thin) face.normal = exact_plane(corners[0], corners[1], corners[2]).normal;
+        if (!(dot(face.normal, face.normal) > 0)) return {};
         faces.push_back(face);
     }
     return faces;

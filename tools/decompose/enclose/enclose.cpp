@@ -76,7 +76,7 @@ std::string unknown_unit(const fs::path& input, const EncloseOptions& options) {
 
 /// Writes the parts. For simulators, also writes the mass and the visual mesh, in metres, +z up.
 Result<Done> write_parts(mesh::Mesh mesh, bool is_balanced, const EncloseOptions& options,
-                         report::ApproximateReport& report) {
+                         const Threads& threads, report::ApproximateReport& report) {
     std::vector<convex::ConvexHull> hulls;
     for (const convex::ApproximatePart& part : report.result.parts) hulls.push_back(part.hull);
     const write::HullsFormat format = *write::hulls_format_of(options.output);
@@ -87,12 +87,15 @@ Result<Done> write_parts(mesh::Mesh mesh, bool is_balanced, const EncloseOptions
         for (convex::ConvexHull& hull : hulls) {
             mesh::turn_up(hull.points, report.up_axis, format::UpAxis::z);
         }
-        const auto weighed = weigh(mesh, is_balanced && !options.to_surface, hulls, options.density,
-                                   report.metres_per_unit);
+        const auto weighed = weigh(mesh, hulls,
+                                   {.is_balanced = is_balanced && !options.to_surface,
+                                    .density = options.density,
+                                    .metres_per_unit = report.metres_per_unit,
+                                    .parallel_for = threads.parallel_for()});
         if (weighed) {
             how.mass = weighed->body;
             report.mass = weighed->body.mass;
-            report.is_mass_of_parts = weighed->is_of_parts;
+            report.mass_of = weighed->of;
         }
     }
     if (options.has_visual && write::has_mesh_files(format)) {
@@ -185,7 +188,7 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     }
     if (options.output.empty()) return report;
     progress.show(0, name + ": write");
-    const Result<Done> written = write_parts(mesh, topology.balanced, options, report);
+    const Result<Done> written = write_parts(mesh, topology.balanced, options, threads, report);
     if (!written) return written.error();
     return report;
 }

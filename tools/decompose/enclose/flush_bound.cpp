@@ -85,7 +85,7 @@ private:
             depth = std::min(depth, most);
             if (depth <= enough) return depth;
         }
-        const Plane own = plane_of(corners[0], corners[1], corners[2]);
+        const Plane own = own_plane_of(corners);
         if (!(mesh::dot(own.normal, own.normal) > 0)) return depth;
         double above = 0;
         double below = 0;
@@ -94,6 +94,16 @@ private:
             below = std::max(below, -height(own, p));
         }
         return std::min({depth, above, below});
+    }
+
+    /// Returns the plane of a triangle. The rounded one of a thin triangle has an arbitrary
+    /// direction, and may miss the corners.
+    [[nodiscard]] Plane own_plane_of(const Corners& corners) const {
+        const Plane plane = plane_of(corners[0], corners[1], corners[2]);
+        const bool is_right = std::all_of(corners.begin(), corners.end(), [&](const Double3& p) {
+            return std::fabs(height(plane, p)) <= solid_.slack();
+        });
+        return is_right ? plane : exact_plane(corners[0], corners[1], corners[2]);
     }
 
     const ConvexHull& hull_;

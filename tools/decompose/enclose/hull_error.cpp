@@ -9,6 +9,7 @@
 
 #include "cdprep/exact/triangles.h"
 #include "decompose/enclose/flush_bound.h"
+#include "decompose/enclose/plane.h"
 #include "decompose/enclose/search_scale.h"
 #include "mesh/vectors.h"
 
@@ -182,22 +183,20 @@ private:
             return bound < other.bound;
         }
     };
-    struct Plane {
-        Double3 normal;
-        double offset;
-    };
 
-    /// Returns the planes of the facets. A facet too thin to have a direction has none.
+    /// Returns the planes of the facets, right up to less than slack(). So no point of the hull is
+    /// more than slack() above one of them. A point that is deeper than `skin` lies in a ball of
+    /// that radius in the hull, and so below all planes by `skin`, up to slack(). A thin facet
+    /// would have a plane of any direction, which cuts the hull, if its normal were rounded.
+    ///
+    /// A facet whose normal underflows has no plane. The bounds hold without it: fewer cubes are
+    /// left out, and no depth becomes less.
     static std::vector<Plane> planes_of(const ConvexHull& hull) {
         std::vector<Plane> planes;
         for (const auto& f : hull.facets) {
-            const Double3& a = hull.points[f[0]];
-            const Double3 n =
-                mesh::cross(mesh::minus(hull.points[f[1]], a), mesh::minus(hull.points[f[2]], a));
-            const double length = std::sqrt(mesh::dot(n, n));
-            if (!(length > 0)) continue;
-            const Double3 unit = {n.x / length, n.y / length, n.z / length};
-            planes.push_back({unit, mesh::dot(unit, a)});
+            const Plane plane =
+                exact_plane(hull.points[f[0]], hull.points[f[1]], hull.points[f[2]]);
+            if (mesh::dot(plane.normal, plane.normal) > 0) planes.push_back(plane);
         }
         return planes;
     }

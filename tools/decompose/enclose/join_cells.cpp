@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -130,7 +131,31 @@ private:
             for (const std::uint32_t cell : *best) is_left[cell] = false;
             chosen.push_back(*best);
         }
+        drop_needless(chosen);
         return chosen;
+    }
+
+    /// Removes parts whose cells are all in others, the smallest first. A cell belongs to the
+    /// largest part that contains it, so such a part could be left without one.
+    void drop_needless(std::vector<Cells>& parts) const {
+        std::vector<std::uint32_t> uses(wanted_.size(), 0);
+        for (const Cells& part : parts) {
+            for (const std::uint32_t cell : part) ++uses[cell];
+        }
+        std::vector<std::size_t> order(parts.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return parts[a].size() < parts[b].size();
+        });
+        for (const std::size_t i : order) {
+            Cells& part = parts[i];
+            const bool needless = std::all_of(part.begin(), part.end(),
+                                              [&](std::uint32_t cell) { return uses[cell] > 1; });
+            if (!needless) continue;
+            for (const std::uint32_t cell : part) --uses[cell];
+            part.clear();
+        }
+        std::erase_if(parts, [](const Cells& part) { return part.empty(); });
     }
 
     const SolidCells& cells_;

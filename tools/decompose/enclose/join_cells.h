@@ -13,7 +13,7 @@ namespace cdprep::convex {
 /// Covers convex cells of a solid with few unions of neighbouring cells of one body. The hull of
 /// each union sticks out by at most `error`, proved; with an error of 0, by rounding only. Unions
 /// grow from every cell to the nearest neighbours; the ones that take in most of the rest are
-/// chosen.
+/// chosen, and those of which others contain all cells are dropped.
 ///
 /// Suits some hundred cells of simple solids, because every trial examines all triangles nearby.
 /// `wanted` lists the cells to cover; the others are in no union. Returns cell numbers, ascending.

@@ -85,8 +85,7 @@ public:
     Region(const PatchRules& rules, std::span<const std::uint32_t> triangles)
         : rules_(rules), triangles_(triangles) {}
 
-    /// Returns true if all its triangles lie on its hull, and the hull stays in the solid if one
-    /// applies.
+    /// Returns true if all its triangles lie on its hull.
     [[nodiscard]] bool is_convex() {
         vertices_ = vertices_of(rules_.mesh, triangles_);
         if (!is_below_extremes()) return false;
@@ -95,8 +94,24 @@ public:
         hull_ = convex_hull(points);
         find_neighbours();
         return std::all_of(triangles_.begin(), triangles_.end(),
-                           [&](std::uint32_t t) { return is_on_hull(t); }) &&
-               is_inside();
+                           [&](std::uint32_t t) { return is_on_hull(t); });
+    }
+
+    /// Returns true if the hull stays in the solid, or no solid applies. False for a flat region of
+    /// a solid: fill_polygons() treats it. Call is_convex() first.
+    [[nodiscard]] bool is_inside() {
+        const std::uint32_t some = triangles_[0];
+        if (!rules_.solids.is_solid(some)) return true;
+        if (is_flat()) return false;
+        GrowingHull body;
+        body.adopt(hull_.points, hull_.facets);
+        const auto is_own = [&](std::uint32_t t) {
+            return std::binary_search(triangles_.begin(), triangles_.end(), t);
+        };
+        return rules_.solids.contains(body, some, is_own, tests_);
+    }
+    [[nodiscard]] bool is_flat() const {
+        return hull_.dimension < 3;
     }
 
 private:
@@ -173,18 +188,6 @@ private:
         const auto found = std::lower_bound(numbers.begin(), numbers.end(), number);
         if (found == numbers.end() || *found != number) return kNone;
         return static_cast<std::uint32_t>(found - numbers.begin());
-    }
-
-    [[nodiscard]] bool is_inside() {
-        const std::uint32_t some = triangles_[0];
-        if (!rules_.keeps_inside || !rules_.solids.is_solid(some)) return true;
-        if (hull_.dimension < 3) return false;
-        GrowingHull body;
-        body.adopt(hull_.points, hull_.facets);
-        const auto is_own = [&](std::uint32_t t) {
-            return std::binary_search(triangles_.begin(), triangles_.end(), t);
-        };
-        return rules_.solids.contains(body, some, is_own, tests_);
     }
 
     const PatchRules& rules_;
@@ -269,7 +272,11 @@ void close_convex_regions(const PatchRules& rules, PatchSet& patches, ParallelFo
         if (triangles.size() < kLeastPolygon) return;
         if (triangles.size() < kLeastRegion && !any_half_edge(triangles, is_flat)) return;
         if (!rules.keeps_inside && any_half_edge(triangles, goes_on)) return;
-        if (Region(rules, triangles).is_convex()) patches.close(triangles);
+        Region region(rules, triangles);
+        if (!region.is_convex()) return;
+        const bool is_inside = region.is_inside();
+        if (!is_inside && (rules.keeps_inside || region.is_flat())) return;
+        patches.close(triangles, is_inside ? Containment::inside : Containment::outside);
     };
     for_groups(regions, parallel_for, close);
 }

@@ -24,8 +24,9 @@ constexpr double kUnit = 0x1p-53;  ///< u below
 constexpr double kHeightDoubt = 12 * kUnit;
 constexpr double kNormalDoubt = 5 * kUnit;
 // An underflow adds an error of 2^-1074. Times an extent of at most kMostExtent, a few times, it
-// stays below kLeastDoubt. Nothing overflows.
-constexpr double kMostExtent = 1e100;
+// stays below kLeastDoubt. A component of a normal is at most twice the square of the extent, and
+// the squared length of the normal at most 12 times its fourth power: nothing overflows.
+constexpr double kMostExtent = 1e75;
 constexpr double kLeastDoubt = 1e-210;
 // A normal has the length of twice an area, in squared model units. The square of this length is
 // far above the least normal double, 2.2e-308. So smaller components may underflow without harm.

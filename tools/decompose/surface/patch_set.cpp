@@ -142,7 +142,8 @@ bool PatchSet::can_join(std::uint32_t a, std::uint32_t b, PatchScope& scope) con
 }
 
 bool PatchSet::is_contained(std::uint32_t patch, PatchScope& scope) const {
-    if (faces(patch).size() == 1) return true;
+    // A triangle, a polygon or a closed patch.
+    if (faces(patch).size() == 1) return patches_[patch].closed == Containment::inside;
     if (patches_[patch].is_flat) return is_outline_convex(patch, patch);
     return hull_stays_inside(patch, patch, scope);
 }
@@ -175,14 +176,15 @@ std::uint32_t PatchSet::join(std::uint32_t a, std::uint32_t b, PatchScope& scope
 
 void PatchSet::join_polygon(std::span<const std::uint32_t> triangles,
                             std::span<const std::uint32_t> corners) {
-    close(triangles);
+    close(triangles, Containment::inside);
     Patch& all = patches_[patch_of(triangles[0])];
     all.faces.assign({triangles[0]});
     all.vertices.assign(corners.begin(), corners.end());
 }
 
-void PatchSet::close(std::span<const std::uint32_t> triangles) {
+void PatchSet::close(std::span<const std::uint32_t> triangles, Containment containment) {
     const std::uint32_t patch = *std::min_element(triangles.begin(), triangles.end());
+    patches_[patch].closed = containment;
     for (const std::uint32_t t : triangles) parent_[t] = patch;
 }
 

@@ -33,6 +33,9 @@ struct PatchScope {
     FacePlanes::Points points = {};
 };
 
+/// The place of a patch's hull. `outside`: a part of it may be outside the solid.
+enum class Containment : std::uint8_t { inside, outside };
+
 /// A partition of a mesh's triangles, each alone at first. Tasks may join patches in parallel if
 /// their scopes share no triangle.
 class PatchSet {
@@ -61,8 +64,8 @@ public:
     void join_polygon(std::span<const std::uint32_t> triangles,
                       std::span<const std::uint32_t> corners);
 
-    /// Makes one patch of triangles; nothing will be joined to it.
-    void close(std::span<const std::uint32_t> triangles);
+    /// Makes one patch of triangles that lie on their hull; nothing will be joined to it.
+    void close(std::span<const std::uint32_t> triangles, Containment containment);
 
     /// Returns true if the hull of a patch of a balanced component stays inside. All its triangles
     /// must lie on the hull.
@@ -79,6 +82,7 @@ private:
         std::vector<std::uint32_t> vertices;  ///< empty: its corners
         std::unique_ptr<GrowingHull> hull;    ///< of large patches that are not flat
         bool is_flat = true;
+        Containment closed = Containment::inside;  ///< as close() was told
     };
 
     [[nodiscard]] bool fit(std::uint32_t a, std::uint32_t b, PatchScope& scope) const;

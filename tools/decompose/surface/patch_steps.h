@@ -30,9 +30,10 @@ void merge_patches(const PatchRules& rules, PatchSet& patches, std::uint64_t wor
                    const mesh::StopCheck& stop, ParallelFor parallel_for);
 
 /// Makes one patch of every convex region. A region is a set of triangles that convex and flat
-/// edges connect. It is convex if its triangles all lie on its hull and its hull stays inside.
-/// Exact. The same for any parallel_for. n triangles take O(n log n), where merging takes O(n) for
-/// each of them. Small regions without a flat edge are skipped.
+/// edges connect. It is convex if its triangles all lie on its hull and its hull stays inside. With
+/// a tolerance the hull may leave the solid, and the patch says so. Exact. The same for any
+/// parallel_for. n triangles take O(n log n), where merging takes O(n) for each of them. Small
+/// regions without a flat edge are skipped.
 void close_convex_regions(const PatchRules& rules, PatchSet& patches, ParallelFor parallel_for);
 
 /// Makes one patch of every set of coplanar triangles that fill a convex polygon, unless it is one

@@ -180,6 +180,13 @@ TEST(ChooseStructures, OptionsOfWhatIsNotBuiltAreRefused) {
     EXPECT_TRUE(
         names(fault({.list = "octree-adaptive", .bounding = "caps"}), "--bounding", "tetra-tree"));
     EXPECT_EQ(fault({.list = "octree-adaptive", .octree_level = 3}), "");
+    EXPECT_TRUE(names(fault({.preset = "paper", .is_preset_given = true}), "--structure-preset",
+                      "octree or tetra-tree"));
+    EXPECT_TRUE(names(fault({.list = "hull", .is_preset_given = true}), "--structure-preset",
+                      "octree or tetra-tree"));
+    for (const char* list : {"octree", "octree-adaptive", "hashed-octree", "tetra-tree", "all"}) {
+        EXPECT_EQ(fault({.list = list, .preset = "paper", .is_preset_given = true}), "");
+    }
 }
 
 }  // namespace

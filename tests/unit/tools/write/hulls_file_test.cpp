@@ -83,6 +83,25 @@ TEST(HullsFile, FlatHullsAreLeftOutWhereAVolumeIsWanted) {
     }
 }
 
+// glTF requires points, and so does every reader of an object.
+TEST(HullsFile, HullsWithoutPointsAreLeftOut) {
+    const test::ScratchFolder folder;
+    std::vector<HullArrays> hulls = solid_and_flat();
+    hulls.push_back({"nothing", {}, {}, -1});
+    hulls.push_back({"empty", {}, {}, 3});
+    for (const HullsFormat format : {HullsFormat::obj, HullsFormat::glb, HullsFormat::urdf,
+                                     HullsFormat::sdf, HullsFormat::mjcf}) {
+        const auto path = folder.path() / "x.xml";
+        const Result<WrittenHulls> written = write_hulls(path, format, hulls);
+        ASSERT_TRUE(written);
+        EXPECT_EQ(written->left_out, has_mass(format) ? 3U : 2U);
+        const std::string text = test::content_of(path.string());
+        EXPECT_EQ(count(text, "nothing") + count(text, "empty"), 0U);
+    }
+    EXPECT_TRUE(
+        write_hulls(folder.path() / "x.glb", HullsFormat::glb, {}, {.visual = MeshArrays{}}));
+}
+
 // Its chunks fill the file, begin at multiples of 4, and bounds are those of the floats.
 TEST(HullsFile, AGlbIsAsLongAsItSays) {
     const test::ScratchFolder folder;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace cdprep::report {
 namespace {
 
@@ -23,6 +25,22 @@ TEST(ApproximateText, NamesUnbalancedComponentsOfASolid) {
                       std::string::npos);
         }
     }
+}
+
+// By hand: the nearest numbers of six digits are on the other side of these bounds.
+TEST(ApproximateText, RoundsUpperBoundsUpwardsAndLowerBoundsDownwards) {
+    ApproximateReport report;
+    report.diagonal = 1;
+    report.result.outer_error = 0.12345611;
+    report.result.outer_lower = 0.12345599;
+    report.has_table = true;
+    report.result.parts.resize(1);
+    report.result.parts[0].error.upper = 0.12345611;
+    const std::string text = approximate_text(report);
+    EXPECT_NE(text.find("by at most 0.123457 (12.3457 % of the diagonal; at least 0.123455)"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("  0 0 0 0 0.123457\n"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -201,5 +201,33 @@ TEST(IgnoredHeight, FollowsTheBox) {
     EXPECT_EQ(ignored_height({}), 0);
 }
 
+// The sides of a turned square are cut in eight. Rounding makes cut points corners of the hull,
+// which stand out by some roundings. All but the four ends of the sides are low.
+TEST(DropPoints, PointsOnSlantedEdgesAreLow) {
+    std::size_t low = 0;
+    for (int i = 0; i < 50; ++i) {
+        std::vector<Double3> points;
+        std::size_t ends = 0;
+        for (const double z : {0.0, 14.0}) {
+            for (int side = 0; side < 4; ++side) {
+                const double from = 0.06 * i + 0.01 + side * std::acos(0);
+                const double to = from + std::acos(0);
+                for (int k = 0; k < 8; ++k) {
+                    const double x = 10 * std::cos(from), y = 10 * std::sin(from);
+                    points.push_back({x + (10 * std::cos(to) - x) * k / 8,
+                                      y + (10 * std::sin(to) - y) * k / 8, 0});
+                    points.back().z = z + 0.1 * points.back().x;
+                    ends += k == 0 ? 1 : 0;
+                }
+            }
+        }
+        const ConvexHull hull = convex_hull(points);
+        EXPECT_EQ(drop_points(hull, {.height = 1e-9, .growth = 0}).low, hull.points.size() - ends)
+            << i;
+        low += hull.points.size() - ends;
+    }
+    EXPECT_GT(low, 500U);
+}
+
 }  // namespace
 }  // namespace cdprep::convex

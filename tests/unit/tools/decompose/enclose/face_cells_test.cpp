@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <numeric>
+#include <set>
 #include <vector>
 
 #include "decompose/enclose/join_cells.h"
+#include "decompose/enclose/part_points.h"
 #include "support/concave_solids.h"
 #include "unit/tools/hull_flaw.h"
 #include "unit/tools/soup_of.h"
@@ -176,6 +180,74 @@ TEST(JoinCells, CoverAnLPrismWithTwoBarsOrWithOneHull) {
         const std::vector<std::uint32_t> one = {1};
         EXPECT_EQ(join_cells(*cells, one, solid, 0, serial_for),
                   std::vector<std::vector<std::uint32_t>>{one});
+    }
+}
+
+/// Blocks of a grid with columns and rows of different widths, from z = 0 to 1. Two runs of blocks,
+/// each with bumps on one side, meet at a corner; other runs continue them.
+Mesh blocks_in_a_grid() {
+    std::set<std::array<int, 2>> blocks = {{0, 0}, {2, 0}, {4, 0}, {4, 2}, {5, 2},
+                                           {5, 4}, {7, 4}, {9, 4}, {14, 1}};
+    for (int x = 0; x < 5; ++x) blocks.insert({x, 1});
+    for (int x = 5; x < 12; ++x) blocks.insert({x, 3});
+    for (int x = 11; x < 17; ++x) blocks.insert({x, 2});
+    const std::array<double, 18> x_of = {0, 1,  2,  3,  4,  5,  6,  7,   8,
+                                         9, 10, 11, 12, 42, 72, 73, 103, 133};
+    const std::array<double, 6> y_of = {0, 1, 2, 4, 5, 6};
+    Mesh mesh;
+    std::map<std::array<int, 3>, std::uint32_t> known;
+    const auto vertex = [&](const std::array<int, 3>& at) {
+        const auto [found, is_new] =
+            known.try_emplace(at, static_cast<std::uint32_t>(mesh.positions.size()));
+        if (is_new) {
+            mesh.positions.push_back({x_of[static_cast<std::size_t>(at[0])],
+                                      y_of[static_cast<std::size_t>(at[1])],
+                                      static_cast<double>(at[2])});
+        }
+        return found->second;
+    };
+    const auto add_side = [&](const std::array<std::array<int, 3>, 4>& corners) {
+        const std::array<std::uint32_t, 4> v = {vertex(corners[0]), vertex(corners[1]),
+                                                vertex(corners[2]), vertex(corners[3])};
+        mesh.triangles.push_back({{v[0], v[1], v[2]}});
+        mesh.triangles.push_back({{v[0], v[2], v[3]}});
+    };
+    for (const auto& [x, y] : blocks) {
+        const int u = x + 1, v = y + 1;
+        add_side({{{x, y, 1}, {u, y, 1}, {u, v, 1}, {x, v, 1}}});
+        add_side({{{x, y, 0}, {x, v, 0}, {u, v, 0}, {u, y, 0}}});
+        if (!blocks.contains({x - 1, y})) {
+            add_side({{{x, y, 0}, {x, y, 1}, {x, v, 1}, {x, v, 0}}});
+        }
+        if (!blocks.contains({u, y})) add_side({{{u, y, 0}, {u, v, 0}, {u, v, 1}, {u, y, 1}}});
+        if (!blocks.contains({x, y - 1})) {
+            add_side({{{x, y, 0}, {u, y, 0}, {u, y, 1}, {x, y, 1}}});
+        }
+        if (!blocks.contains({x, v})) add_side({{{x, v, 0}, {x, v, 1}, {u, v, 1}, {u, v, 0}}});
+    }
+    return mesh;
+}
+
+// Later unions take in all cells of an earlier one. A part of such cells would have no points.
+TEST(JoinCells, EveryUnionHasACellOfItsOwn) {
+    const Mesh mesh = blocks_in_a_grid();
+    const Solid solid(mesh, Reference::solid, serial_for);
+    const auto cells = cut_along_faces(mesh, solid, {true});
+    ASSERT_TRUE(cells);
+    std::vector<std::uint32_t> all(cells->cells.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const auto unions = join_cells(*cells, all, solid, 0, serial_for);
+    std::vector<int> uses(all.size(), 0);
+    for (const auto& cells_of_union : unions) {
+        for (const std::uint32_t cell : cells_of_union) ++uses[cell];
+    }
+    EXPECT_TRUE(std::all_of(uses.begin(), uses.end(), [](int count) { return count > 0; }));
+    for (const auto& cells_of_union : unions) {
+        EXPECT_TRUE(std::any_of(cells_of_union.begin(), cells_of_union.end(),
+                                [&](std::uint32_t cell) { return uses[cell] == 1; }));
+    }
+    for (const PartPoints& part : gather_points(*cells, mesh, unions)) {
+        EXPECT_FALSE(part.points.empty());
     }
 }
 

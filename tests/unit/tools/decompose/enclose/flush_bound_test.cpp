@@ -71,6 +71,28 @@ TEST(FlushBound, IsNothingForWhatSticksOut) {
     }
 }
 
+// Open needles that reach from a side to the middle. The rounded normal of some points along them,
+// so that no corner of the hull seems to be in front.
+TEST(FlushBound, IsNothingForNeedlesThatGoDeep) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> share(0.2, 0.8);
+    for (int round = 0; round < 300; ++round) {
+        Mesh mesh;
+        add_box(mesh, {0, 0, 0}, {4, 4, 4}, false);
+        const Double3 from = {0, 1 + share(random), 1 + share(random)};
+        const Double3 to = {2, from.y + 0.3 * share(random), from.z + 0.3 * share(random)};
+        const double s = share(random);
+        const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.positions.push_back(from);
+        mesh.positions.push_back(
+            {2 * s, from.y + s * (to.y - from.y), from.z + s * (to.z - from.z)});
+        mesh.positions.push_back(to);
+        mesh.triangles.push_back({{first, first + 1, first + 2}});
+        const Solid solid(mesh, Reference::solid, serial_for);
+        EXPECT_FALSE(bound_flush(box({0, 0, 0}, {4, 4, 4}), solid, 1e-9)) << round;
+    }
+}
+
 // By 0.001 into the cavity: the middle of that is 0.0005 from the solid on either side, and
 // every point of the hull nearer than the bound says.
 TEST(FlushBound, HoldsWhereTheSurfaceIsNotDeep) {

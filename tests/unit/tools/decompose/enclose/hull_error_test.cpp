@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "decompose/enclose/is_convex.h"
+#include "mesh/vectors.h"
 #include "support/concave_solids.h"
 #include "unit/tools/soup_of.h"
 
@@ -59,6 +60,99 @@ TEST(HullError, TellsOfCavities) {
     EXPECT_NEAR(error.lower, 0.5, 0.02);
     EXPECT_GE(error.upper, 0.5);
     EXPECT_LE(error.upper, 0.5 * 1.1);
+}
+
+/// A square prism, turned by an angle and with slanted ends, with a cavity of side 6 in it. Each
+/// side of the square is cut in eight. Rounding makes cut points corners of the hull, and facets
+/// slivers.
+Mesh turned_prism_with_a_cavity(double angle) {
+    constexpr std::uint32_t kCuts = 8;
+    constexpr double kHeight = 14;
+    Mesh mesh;
+    for (const double z : {0.0, kHeight}) {
+        for (int side = 0; side < 4; ++side) {
+            const double from = angle + side * std::acos(0), to = from + std::acos(0);
+            for (std::uint32_t i = 0; i < kCuts; ++i) {
+                const double share = i / double{kCuts};
+                const double x = 10 * std::cos(from), y = 10 * std::sin(from);
+                Double3 p = {x + (10 * std::cos(to) - x) * share,
+                             y + (10 * std::sin(to) - y) * share, z};
+                p.z += 0.1 * p.x;
+                mesh.positions.push_back(p);
+            }
+        }
+    }
+    constexpr std::uint32_t kAround = 4 * kCuts;
+    mesh.positions.push_back({0, 0, 0});
+    mesh.positions.push_back({0, 0, kHeight});
+    for (std::uint32_t i = 0; i < kAround; ++i) {
+        const std::uint32_t next = (i + 1) % kAround;
+        mesh.triangles.push_back({{i, next, kAround + next}});
+        mesh.triangles.push_back({{i, kAround + next, kAround + i}});
+        mesh.triangles.push_back({{2 * kAround + 1, kAround + i, kAround + next}});
+        mesh.triangles.push_back({{2 * kAround, next, i}});
+    }
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const test::TestMesh cavity = test::reversed(test::moved_by(test::unit_cube(), 6, {-3, -3, 4}));
+    mesh.positions.insert(mesh.positions.end(), cavity.positions.begin(), cavity.positions.end());
+    for (const auto& t : cavity.triangles) {
+        mesh.triangles.push_back({{first + t.vertex[0], first + t.vertex[1], first + t.vertex[2]}});
+    }
+    return mesh;
+}
+
+/// Counts facets in front of whose rounded plane some corner of the hull lies.
+int count_wrong_planes(const ConvexHull& hull) {
+    int wrong = 0;
+    for (const auto& f : hull.facets) {
+        const Double3& a = hull.points[f[0]];
+        const Double3 n =
+            mesh::cross(mesh::minus(hull.points[f[1]], a), mesh::minus(hull.points[f[2]], a));
+        const double length = std::sqrt(mesh::dot(n, n));
+        double most = 0;
+        for (const Double3& p : hull.points) {
+            most = std::max(most, mesh::dot(n, mesh::minus(p, a)) / length);
+        }
+        wrong += most > 1e-6 ? 1 : 0;
+    }
+    return wrong;
+}
+
+// The middle of the cavity is 3 from its walls.
+TEST(HullError, TellsOfCavitiesBehindSliversOfTheHull) {
+    int wrong_planes = 0;
+    for (int i = 0; i < 12; ++i) {
+        const Mesh hollow = turned_prism_with_a_cavity(0.5 * i + 0.01);
+        wrong_planes += count_wrong_planes(convex_hull(hollow.positions));
+        const HullError error = error_of_own_hull(hollow, {.relative = 0.05});
+        EXPECT_GE(error.upper, 3) << i;
+        EXPECT_LE(error.upper, 3.3) << i;
+        EXPECT_LE(error.lower, 3 + 1e-9) << i;
+    }
+    EXPECT_GT(wrong_planes, 20);
+}
+
+// A plate as thin as a few roundings, 8 wide: its rim has facets without a direction in double.
+// Nothing sticks out, and no point beyond the rim counts.
+TEST(HullError, OfATurnedSheetEndsAtItsRim) {
+    for (int i = 0; i < 20; ++i) {
+        const double angle = 0.3 * i + 0.1;
+        Mesh sheet;
+        for (int y = 0; y <= 8; ++y) {
+            for (int x = 0; x <= 8; ++x) {
+                sheet.positions.push_back(
+                    {x + 0.3 * y, std::cos(angle) * y - 0.1 * x, std::sin(angle) * y + 0.7 * x});
+            }
+        }
+        for (std::uint32_t y = 0; y < 8; ++y) {
+            for (std::uint32_t x = 0; x < 8; ++x) {
+                const std::uint32_t at = 9 * y + x;
+                sheet.triangles.push_back({{at, at + 1, at + 10}});
+                sheet.triangles.push_back({{at, at + 10, at + 9}});
+            }
+        }
+        EXPECT_LE(error_of_own_hull(sheet, {.enough = 0.5}).upper, 0.6) << i;
+    }
 }
 
 // The middle of a box without an inside is half its shortest side from the surface.

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "mesh/vectors.h"
 #include "mesh/weld.h"
 #include "support/concave_solids.h"
 #include "support/defect_zoo.h"
@@ -290,6 +292,59 @@ TEST(SurfacePieces, ATriangleWithoutAreaIsAPieceOfItsOwn) {
 
 TEST(SurfacePieces, NothingHasNoPieces) {
     EXPECT_TRUE(find_surface_pieces({}).pieces.empty());
+}
+
+// The hull of the outer surface fills the cavity. With a tolerance it may be one piece, which then
+// makes no promise. The oracle is exact.
+TEST(SurfacePieces, ToleranceContainsNothingAroundACavity) {
+    const TestMesh outer = test::moved_by(test::unit_cube(), 10, {});
+    const TestMesh inner = test::moved_by(test::unit_cube(), 8, {1, 1, 1});
+    const mesh::Mesh hollow = test::welded(test::joined(outer, test::reversed(inner)));
+    const mesh::Mesh full = test::welded(outer);
+    for (const PieceOrder order : test::kPieceOrders) {
+        const SurfacePieces pieces =
+            find_surface_pieces(hollow, {.order = order, .tolerance = 1e-3});
+        EXPECT_EQ(test::partition_flaw(hollow, pieces), "");
+        EXPECT_EQ(test::containment_flaw(hollow, pieces), "");
+        EXPECT_EQ(pieces.of(0).size(), 12U);
+        EXPECT_FALSE(pieces.pieces[0].contained);
+        // Without the cavity, it contains its hull.
+        const SurfacePieces alone = find_surface_pieces(full, {.order = order, .tolerance = 1e-3});
+        EXPECT_EQ(alone.of(0).size(), 12U);
+        EXPECT_TRUE(alone.pieces[0].contained);
+    }
+}
+
+// Two faces of a roof, the other way around: each vertex is far above the other face. Lengths of
+// normals overflow where squares of areas do, and bounds must not become 0.
+TEST(SurfacePieces, BoundsWithAToleranceHoldForEverySize) {
+    TestMesh valley;
+    valley.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 1}, {0, 1, 1}, {1, 2, 0.25}, {0, 2, 0.25}};
+    valley.triangles = {{{0, 2, 1}}, {{0, 3, 2}}, {{3, 4, 2}}, {{3, 5, 4}}};
+    for (const double size : {1.0, 1e60, 1e74, 1e76, 1e78, 1e80, 1e90, 1e99, 1e101, 1e150, 1e300}) {
+        const mesh::Mesh mesh = test::welded(test::moved_by(valley, size, {}));
+        const SurfacePieces pieces = find_surface_pieces(mesh, {.tolerance = 10 * size});
+        for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
+            double highest = 0;
+            for (const std::uint32_t t : pieces.of(i)) {
+                const auto& v = mesh.triangles[t].vertex;
+                const auto at = [&](std::uint32_t vertex) {
+                    const Double3& p = mesh.positions[vertex];
+                    return Double3{p.x / size, p.y / size, p.z / size};
+                };
+                const Double3 a = at(v[0]);
+                const Double3 n = mesh::cross(mesh::minus(at(v[1]), a), mesh::minus(at(v[2]), a));
+                for (const std::uint32_t other : pieces.of(i)) {
+                    for (const std::uint32_t vertex : mesh.triangles[other].vertex) {
+                        highest = std::max(
+                            highest, mesh::dot(n, mesh::minus(at(vertex), a)) / mesh::length(n));
+                    }
+                }
+            }
+            EXPECT_GE(pieces.pieces[i].outer_error / size, highest - 1e-9) << size;
+        }
+        if (size < 1e75) EXPECT_EQ(pieces.pieces.size(), 1U) << size;
+    }
 }
 
 // A step of 1/16 across a bar: with less tolerance it is cut, with more it is not, and
