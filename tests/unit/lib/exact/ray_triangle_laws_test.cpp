@@ -82,7 +82,8 @@ Case at_a_sliver(std::mt19937& random) {
 
 /// The origin lies on the triangle, up to rounding or a little more.
 Case leaving(std::mt19937& random) {
-    const Corners t = {random_corner(random, 1), random_corner(random, 1), random_corner(random, 1)};
+    const Corners t = {random_corner(random, 1), random_corner(random, 1),
+                       random_corner(random, 1)};
     Double3 o = between(t, 0.3, 0.3);
     if (random() % 2 == 0) o.z += 1e-9;
     return {through(o, random_corner(random, 3)), t};
