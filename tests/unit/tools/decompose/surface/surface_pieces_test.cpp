@@ -343,7 +343,9 @@ TEST(SurfacePieces, BoundsWithAToleranceHoldForEverySize) {
             }
             EXPECT_GE(pieces.pieces[i].outer_error / size, highest - 1e-9) << size;
         }
-        if (size < 1e75) EXPECT_EQ(pieces.pieces.size(), 1U) << size;
+        if (size < 1e75) {
+            EXPECT_EQ(pieces.pieces.size(), 1U) << size;
+        }
     }
 }
 
