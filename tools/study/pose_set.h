@@ -75,9 +75,9 @@ struct PoseSet {
 ///
 /// Pose number i of a stratum depends only on the models, the seed, the stratum and i. So it is the
 /// same for any parallel_for, and the first poses of a larger set are those of a smaller one. Both
-/// models must serve distance() of solids. Models without triangles or extent, or so large that B
-/// cannot be moved in the range of Pose, give no poses. Costs about 30 distance and 60 collision
-/// queries per pose.
+/// models must serve distance() of solids. Models without triangles or extent give no poses.
+/// Neither do models so large that a pose would leave the range of Pose. Costs about 30 distance
+/// and 60 collision queries per pose.
 [[nodiscard]] PoseSet make_pose_set(const Model& a, const Model& b,
                                     const PoseSetOptions& options = {});
 

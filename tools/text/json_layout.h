@@ -9,7 +9,7 @@
 
 namespace cdprep::report {
 
-/// Returns the value of a text of unknown origin. It is discarded if the text is not JSON, or is
+/// Returns the value of a text of unknown origin, discarded if the text is not JSON. So is a value
 /// nested so deeply that printing it would overflow the stack.
 template <class Json = nlohmann::ordered_json>
 [[nodiscard]] Json parsed(std::string_view text) {

@@ -77,8 +77,8 @@ struct WrittenHulls {
 [[nodiscard]] bool may_replace(const std::filesystem::path& path, HullsFormat format,
                                const std::filesystem::path& file);
 
-/// Returns the error with which write_hulls() to `path` will fail if the mesh file of this hull
-/// exists and another program wrote it.
+/// Returns the error with which write_hulls() to `path` will fail for the mesh file of this hull:
+/// it exists, and another program wrote it.
 [[nodiscard]] std::optional<Error> find_foreign_mesh(const std::filesystem::path& path,
                                                      HullsFormat format, const std::string& hull);
 
@@ -92,12 +92,13 @@ struct WrittenHulls {
 /// relative to their own. Each hull is written beside the file as STEM_NAME.obj. The mesh that
 /// URDF, SDF and MJCF show is written as STEM_visual.obj. STEM is model_name(); if that replaced
 /// characters, a number distinguishes such names. URDF, SDF and MJCF omit hulls of fewer than three
-/// dimensions, because their readers require a volume. All formats omit hulls without points. Fails
-/// with `bad_argument` if a GLB would exceed 4 GiB, if one of its coordinates exceeds the largest
-/// float, or if rounding moves a corner by more than a thousandth of the size of the whole, as far
-/// from the origin. Also fails with it if a mesh file would replace a file that another program
-/// wrote, as no argument names it. Mesh files begin with a line by which later runs know them. All
-/// files appear when they are complete, or none does (write_all()).
+/// dimensions, because their readers require a volume. All formats omit hulls without points.
+///
+/// Fails with `bad_argument` if a GLB would exceed 4 GiB, or one of its coordinates the largest
+/// float. So it does if rounding moves a corner by more than a thousandth of the size of the whole.
+/// Mesh files begin with a line by which later runs know them. It also fails if one would replace a
+/// file without that line: no argument names these files. All files appear when they are complete,
+/// or none does (write_all()).
 [[nodiscard]] Result<WrittenHulls> write_hulls(const std::filesystem::path& path,
                                                HullsFormat format,
                                                std::span<const HullArrays> hulls,

@@ -153,14 +153,16 @@ struct ContactsVerdict {
 /// of points are equally near, as between parallel faces, the contact has one of them. The normal
 /// is the direction of the shortest line between the pieces. If this line snags at a feature, the
 /// normal is turned until it no longer tilts across the feature's edges. If it leads from a vertex
-/// straight across edges, it becomes the normal of a face there, the one along which B leaves A
-/// soonest. If either feature is a face, the normal is turned only if it tilts across a flat edge.
+/// straight across edges, it becomes the normal of a face there. Of several, it is the one along
+/// which B leaves A soonest. If either feature is a face, the normal is turned only if it tilts
+/// across a flat edge.
 ///
 /// If two pieces overlap, `normal` is the direction of the shortest separating translation, unless
 /// this translation snags (see below). The candidate directions are the face normals of both hulls
-/// and the directions perpendicular to an edge of each. If a hull has many faces, is larger than
-/// 2^254 or has edges shorter than 2^-240, the candidates are the shortest separating translation
-/// and normals of faces or triangles. Only the 16 shortest candidates are tested for snags.
+/// and the directions perpendicular to an edge of each. Some hulls have many faces, are larger than
+/// 2^254, or have edges shorter than 2^-240. For these, the candidates are the shortest separating
+/// translation and normals of faces or triangles. Only the 16 shortest candidates are tested for
+/// snags.
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
 /// vertex, the tilt counts only if a triangle there reaches farther along the translation than the
