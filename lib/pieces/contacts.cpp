@@ -305,9 +305,9 @@ private:
             return *a_;
         }
 
+        std::optional<ContactSide> a_;
         const ContactSearch& search_;
         ContactQuestion question_;
-        std::optional<ContactSide> a_;
         std::uint32_t piece_a_ = 0;
     };
 

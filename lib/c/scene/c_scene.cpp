@@ -59,7 +59,7 @@ struct Layout {
 
     template <class T>
     static std::uint64_t room_of(std::uint64_t count) noexcept {
-        return aligned(count * sizeof(T));
+        return aligned(count * sizeof(T));  // NOLINT(bugprone-sizeof-expression): also of pointers
     }
     static std::uint64_t results_of(const Plan& plan, Ask effect) noexcept {
         return contains(plan.effects(), effect) ? plan.limits().pairs : 0;

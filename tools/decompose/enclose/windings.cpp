@@ -62,8 +62,9 @@ std::vector<int> signs_of(const mesh::Mesh& mesh, const mesh::ComponentNumbers& 
         if (sum.count == 0) origin[component] = mesh.positions[triangle.vertex[0]];
         sum.add(origin[component], mesh, triangle);
     }
-    std::vector<int> signs;
-    for (const VolumeSum& sum : sums) signs.push_back(sum.sign());
+    std::vector<int> signs(sums.size());
+    std::transform(sums.begin(), sums.end(), signs.begin(),
+                   [](const VolumeSum& sum) { return sum.sign(); });
     return signs;
 }
 
