@@ -110,7 +110,12 @@ PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t
     }
     if (size == 0) return {q, 0, 0, 0};
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    if (size == kInfinity) return twice_half_distance(q, t);
+    if (size == kInfinity) {
+        const bool all_finite =
+            is_finite(q) && is_finite(t[0]) && is_finite(t[1]) && is_finite(t[2]);
+        return all_finite ? twice_half_distance(q, t)
+                          : PointTriangleDistance{q, kInfinity, 0, kInfinity};
+    }
     const int exponent = -std::ilogb(size);
     const Scale forth(exponent), back(-exponent);
     for (Vector& v : corner) v = {forth(v.x), forth(v.y), forth(v.z)};

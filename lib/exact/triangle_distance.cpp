@@ -222,6 +222,8 @@ int exponent_of(const Corners& a, const Corners& b) {
                 {size, std::fabs(p.x - a[0].x), std::fabs(p.y - a[0].y), std::fabs(p.z - a[0].z)});
         }
     }
+    constexpr int kBeyondDouble = -1024;
+    if (size == std::numeric_limits<double>::infinity()) return kBeyondDouble;
     return size > 0 ? -std::ilogb(size) : 0;
 }
 
@@ -272,7 +274,8 @@ Double3 common_point(const Corners& a, const Corners& b) noexcept {
     const auto is_on = [&](const Corners& t) {
         return point_triangle_distance(point, t).computed <= 0x1p-47 * size;
     };
-    if (is_on(a) && is_on(b)) return point;
+    // Where a difference overflows, the point may be infinite or NaN.
+    if (is_finite(point) && is_on(a) && is_on(b)) return point;
     return exact_common_point(a, b).value_or(point);
 }
 

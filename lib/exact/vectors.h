@@ -39,6 +39,9 @@ inline double length(const Double3& a) noexcept {
 inline double largest_of(const Double3& a) noexcept {
     return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
 }
+inline bool is_finite(const Double3& a) noexcept {
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 /// Returns the sum of the magnitudes of the terms of dot().
 inline double dot_size(const Double3& a, const Double3& b) noexcept {
     return (std::fabs(a.x * b.x) + std::fabs(a.y * b.y)) + std::fabs(a.z * b.z);

@@ -33,9 +33,11 @@ public:
             along_[i] = to[i] - from_[i];
             squared += along_[i] * along_[i];
             per_along_[i] = std::fabs(along_[i]) > kNoStep ? 1 / along_[i] : 0;
+            // With NaN the places where the axis enters and leaves a box are NaN too, which proves
+            // nothing. So is the distance of the box, below.
+            if (!std::isfinite(along_[i])) per_along_[i] = kNaN;
         }
         per_square_ = squared > 0 ? 1 / squared : 0;
-        // With NaN the distance of a box is NaN too, which proves nothing.
         if (!(is_squarable(from_) && is_squarable(to))) per_square_ = kNaN;
         is_none_ = !(radius_ >= 0);
     }
@@ -102,7 +104,7 @@ private:
     bool is_none_;
     FrameVector from_{};
     FrameVector along_{};
-    FrameVector per_along_{};  ///< 1 / along; 0 for a zero component
+    FrameVector per_along_{};  ///< 1 / along; 0 for a zero component; NaN proves nothing
     double per_square_ = 0;
     double outer_;
     double inner_;

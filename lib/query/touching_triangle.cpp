@@ -39,6 +39,8 @@ public:
         }
         normal_error_ = 8 * frame.slack() * (size + frame.slack());
         slack_ = frame.slack();
+        // The product of three such numbers may leave the range: then the plane proves nothing.
+        if (!(frame.slack() < kMostSlack)) normal_ = {};
     }
 
     [[nodiscard]] BoxVerdict judge(const format::BvhNode& node) const noexcept {
@@ -69,6 +71,8 @@ public:
     }
 
 private:
+    static constexpr double kMostSlack = 0x1p250;
+
     Corners corners_;
     Box3 around_;
     FrameVector on_plane_{};

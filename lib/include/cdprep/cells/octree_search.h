@@ -36,7 +36,7 @@ struct OctreeIndex {
 };
 
 /// Returns the index of a model that has octree().grid, or of a builder's octree. Without
-/// triangles, its `nodes` are empty. Without a grid, the program stops with a message.
+/// triangles, its `nodes` are empty. If a model has no grid, the program stops with a message.
 [[nodiscard]] CDPREP_API OctreeIndex octree_index(const Model& model) noexcept;
 [[nodiscard]] CDPREP_API OctreeIndex octree_index(const build::Octree& octree) noexcept;
 

@@ -134,5 +134,16 @@ TEST(CommonPoint, OfThinTrianglesLiesOnBoth) {
     EXPECT_TRUE(is_near(point, b, 1e-15));
 }
 
+// By hand: the first triangle lies in the second. Differences of their corners overflow.
+TEST(CommonPoint, OfTrianglesOfAnySizeIsFinite) {
+    const Corners a = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    const double far = 1e308;
+    const Corners b = {{{-far, -far, 0}, {far, -far, 0}, {0, far, 0}}};
+    for (const Double3& point : {common_point(a, b), common_point(b, a)}) {
+        EXPECT_TRUE(point.x >= 0 && point.y >= 0 && point.x + point.y <= 1);
+        EXPECT_EQ(point.z, 0);
+    }
+}
+
 }  // namespace
 }  // namespace cdprep::test

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <ostream>
 #include <random>
 
@@ -133,6 +134,16 @@ TEST_P(PointTriangleDistanceLaws, TheIntervalHoldsTheTruth) {
 
 INSTANTIATE_TEST_SUITE_P(Situations, PointTriangleDistanceLaws, testing::ValuesIn(kSituations),
                          [](const auto& situation) { return situation.param.name; });
+
+TEST(PointTriangleDistance, OfAPointThatIsNotFiniteIsUnknown) {
+    const Corners t = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    for (const double odd : {kInfinity, -kInfinity}) {
+        const PointTriangleDistance found = point_triangle_distance({odd, 0, 0}, t);
+        EXPECT_EQ(found.lower, 0);
+        EXPECT_EQ(found.upper, kInfinity);
+    }
+}
 
 }  // namespace
 }  // namespace cdprep::test

@@ -28,6 +28,20 @@ std::optional<ExactRational> exact_place(const HalfLine& ray, const Corners& t) 
     return ExactRational(dot(n, minus(c[0], exact_point(ray.origin))), along);
 }
 
+/// Returns the ray with a step of 2^exponent directions. Its places count steps.
+HalfLine with_step(const HalfLine& ray, int exponent) {
+    const Double3& d = ray.direction;
+    return {ray.origin,
+            d,
+            {std::ldexp(d.x, exponent), std::ldexp(d.y, exponent), std::ldexp(d.z, exponent)},
+            exponent};
+}
+
+/// Returns the steps of 2^exponent in a place that counts directions.
+ExactRational in_steps(const ExactRational& place, int exponent) {
+    return place * ExactRational(std::ldexp(1.0, -exponent));
+}
+
 /// The bound of the public header: within 2^-40 of the exact place.
 void expect_place(double found, const ExactRational& truth, const std::string& where) {
     const ExactRational off = ExactRational(found) - truth;
@@ -122,7 +136,13 @@ TEST_P(RayTriangleLaws, ThePlaceIsWithinItsBound) {
             const std::optional<ExactRational> truth = exact_place(c.ray, c.t);
             if (!found || !truth) continue;
             hits += exponent == 0 ? 1 : 0;
-            expect_place(*found, *truth, "seed 20261130, round " + std::to_string(round));
+            const std::string where = "seed 20261130, round " + std::to_string(round);
+            expect_place(*found, *truth, where);
+            for (const int step : {-7, 60}) {
+                const std::optional<double> steps = ray_triangle(with_step(c.ray, step), c.t);
+                ASSERT_TRUE(steps) << where;
+                expect_place(*steps, in_steps(*truth, step), where);
+            }
         }
         if (HasFailure()) return;
     }
@@ -195,7 +215,14 @@ TEST(RayTriangleLaws, InThePlaneThePlaceIsWithinItsBoundToo) {
         ++tested;
         if (!found || inside) continue;
         ++hits;
-        expect_place(*found, *first, "seed 20261131, round " + std::to_string(round));
+        const std::string where = "seed 20261131, round " + std::to_string(round);
+        expect_place(*found, *first, where);
+        for (const int exponent : {-7, 60}) {
+            const std::optional<double> steps =
+                ray_triangle(with_step({in_space(o), step, step}, exponent), t);
+            ASSERT_TRUE(steps) << where;
+            expect_place(*steps, in_steps(*first, exponent), where);
+        }
         if (HasFailure()) return;
     }
     EXPECT_GT(hits, tested * 3 / 10) << tested;

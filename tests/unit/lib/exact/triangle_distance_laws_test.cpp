@@ -6,6 +6,7 @@
 #include <string>
 
 #include "exact/triangle_distance.h"
+#include "exact/vectors.h"
 #include "support/exact_distance.h"
 
 namespace cdprep::test {
@@ -104,6 +105,21 @@ TEST(TriangleDistance, NearlyParallelEdges) {  // X02
     EXPECT_LE(d.lower, 1);
     EXPECT_GE(d.upper, 1);
     EXPECT_LE(d.upper - d.lower, 1e-12);
+}
+
+// By hand: the segment runs above the origin. Its length is beyond the largest double.
+TEST(TriangleDistance, OfASegmentOfAnyLengthHoldsTheTruth) {
+    const Corners t = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+    const Corners segment = {{{-1e308, 0, 5}, {1e308, 0, 5}, {1e308, 0, 5}}};
+    for (const bool tight : {false, true}) {
+        for (const TriangleDistance& d :
+             {triangle_distance(t, segment, tight), triangle_distance(segment, t, tight)}) {
+            EXPECT_LE(d.lower, 5);
+            EXPECT_GE(d.upper, 5);
+            EXPECT_LE(d.upper, 0x1p-46 * 1e308);
+            EXPECT_TRUE(is_finite(d.on_a) && is_finite(d.on_b));
+        }
+    }
 }
 
 }  // namespace

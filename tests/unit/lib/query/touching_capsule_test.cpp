@@ -98,5 +98,17 @@ TEST(TouchingCapsule, SquaresBeyondDoubleHideNothing) {
     }
 }
 
+// By hand: the segment runs through the origin, in the model's plane. Its length in frame units is
+// beyond the largest double, its ends are not.
+TEST(TouchingCapsule, ALengthBeyondDoubleHidesNothing) {
+    const double s = 0x1p-25;
+    const TestMesh small{{{0, 0, 0}, {s, 0, 0}, {0, s, 0}, {-s, -s, 0}},
+                         {{{0, 1, 2}}, {{0, 2, 3}}}};
+    for (const double far : {0x1p990, 0x1p998, 0x1p999, 0x1p1000, 0x1p1010}) {
+        EXPECT_EQ(touched(small, Capsule{{-far, 0, 0}, {far, 0, 0}, 1}).size(), 2u) << far;
+        EXPECT_EQ(touched(small, Capsule{{0, far, 0}, {0, -far, 0}, 0}).size(), 2u) << far;
+    }
+}
+
 }  // namespace
 }  // namespace cdprep::test

@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
 
+#include "exact/triangle_contact.h"
 #include "support/touched.h"
 
 namespace cdprep::test {
@@ -47,6 +51,36 @@ TEST(TouchingTriangle, DistanceTakesTheLowestOfTheNearest) {
     const OpenModel empty = open_tiny(TestMesh{});
     EXPECT_FALSE(shape_distance(empty.model, far, workspace));
     EXPECT_FALSE(shape_distance(model.model, far, workspace, {.max_distance = -1}));
+}
+
+// The oracle: each triangle alone. Products of three coordinates are beyond the largest double.
+TEST(TouchingTriangle, CubesBeyondDoubleHideNothing) {
+    const TestMesh mesh{{{-1, -1, -1}, {1, 1, 1}, {1, -1, 0.25}, {0.75, 1, -1}},
+                        {{{0, 1, 2}}, {{1, 2, 3}}}};
+    std::mt19937 random(20261129);
+    std::uniform_real_distribution<double> place(-1, 1);
+    int touching = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const double size = std::ldexp(1.0, 330 + round % 20);
+        const auto corner = [&] {
+            const double x = place(random), y = place(random), z = place(random);
+            return Double3{size * x, size * y, size * z};
+        };
+        const Double3 a = corner(), b = corner();
+        const Double3 c = {-(a.x + b.x), -(a.y + b.y), -(a.z + b.z)};  // around the model
+        const TriangleShape shape = {{{a, b, c}}};
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+            const auto& [u, v, w] = mesh.triangles[i].vertex;
+            if (triangles_touch(shape.corner,
+                                {mesh.positions[u], mesh.positions[v], mesh.positions[w]})) {
+                expected.push_back(i);
+            }
+        }
+        touching += expected.empty() ? 0 : 1;
+        ASSERT_EQ(touched(mesh, shape), expected) << "seed 20261129, round " << round;
+    }
+    EXPECT_GT(touching, 100);
 }
 
 }  // namespace
