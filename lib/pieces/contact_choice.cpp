@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "pieces/contact_choice.h"
 
+#include <cmath>
+#include <limits>
+
+#include "exact/powers_of_two.h"
+
 namespace cdprep {
 
 void ContactChoice::add(const ContactCandidate& candidate) noexcept {
@@ -38,9 +43,21 @@ void ContactChoice::bring_farthest(std::size_t first) noexcept {
     std::swap(room_[first], room_[best]);
 }
 
+void ContactChoice::begin_gaps() noexcept {
+    double size = 0;
+    for (ContactCandidate& c : room_.first(count_)) {
+        c.squared_gap = std::numeric_limits<double>::infinity();
+        size = std::max(size, largest_of(c.at - room_[0].at));
+    }
+    constexpr double kLeast = 0x1p-200, kMost = 0x1p200;
+    constexpr int kMostExponent = 1000;  // its power of two is a normal number
+    const bool is_in_range = size == 0 || (size > kLeast && size < kMost);
+    scale_ = is_in_range ? 1 : two_to(std::clamp(-std::ilogb(size), -kMostExponent, kMostExponent));
+}
+
 void ContactChoice::update_gaps(std::size_t taken) noexcept {
     for (std::size_t i = taken + 1; i < count_; ++i) {
-        const Double3 d = room_[i].at - room_[taken].at;
+        const Double3 d = scale_ * (room_[i].at - room_[taken].at);
         room_[i].squared_gap = std::min(room_[i].squared_gap, dot(d, d));
     }
 }

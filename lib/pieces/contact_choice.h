@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <span>
 
 #include "exact/vectors.h"
@@ -55,17 +54,20 @@ private:
     }
     /// Brings the candidate farthest from those before `first` there.
     void bring_farthest(std::size_t first) noexcept;
+    /// Forgets all gaps, and finds a scale at which their squares stay in the range of double.
+    void begin_gaps() noexcept;
     void update_gaps(std::size_t taken) noexcept;
 
     std::span<ContactCandidate> room_;
     std::size_t count_ = 0;
+    double scale_ = 1;  ///< a power of two
 };
 
 template <class Bound, class Compute>
 std::span<ContactCandidate> ContactChoice::choose(std::size_t most, Bound&& bound,
                                                   Compute&& compute) noexcept {
     const auto all = room_.first(count_);
-    for (ContactCandidate& c : all) c.squared_gap = std::numeric_limits<double>::infinity();
+    begin_gaps();
     const bool has_rest = count_ > most;
     const bool bounds_pay = count_ > kManyMore * most;
     std::size_t taken = 0;

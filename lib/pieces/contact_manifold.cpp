@@ -151,11 +151,12 @@ void add_clipped(const Polygon& polygon, const Double3& on, const Double3& inwar
     }
 }
 
-/// Returns a direction, with the length 1 if products with lengths like its own may leave the range
-/// of double.
+/// Returns a direction, with the length 1 if its products with other lengths may leave the range of
+/// double.
 Double3 in_range(const Double3& direction) {
+    constexpr double kLeast = 0x1p-100, kMost = 0x1p100;
     const double size = largest_of(direction);
-    return size > kLeastSize && size < kMostSize ? direction : unit(direction);
+    return size > kLeast && size < kMost ? direction : unit(direction);
 }
 
 /// Returns the part of a polygon that is over another one, seen along a direction near the other's

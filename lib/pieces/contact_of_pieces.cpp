@@ -26,6 +26,9 @@ constexpr std::size_t kMostNearNormals = 16;
 /// The cosine of the angle between two unit directions up to which rounding may turn one behind the
 /// other.
 constexpr double kBeside = 1e-9;
+/// The gap, as a share of coordinates, up to which the direction across it is not sure: that
+/// between two vertices is off by less than 1e-5 beyond.
+constexpr double kRest = 0x1p-36;
 /// How many times shorter an exit must be to be preferred to one that ends at both surfaces.
 constexpr double kMuchShorter = 2;
 
@@ -110,17 +113,22 @@ private:
     /// Fills in the distance, the normal and the points. If triangles touch, so do the hulls.
     [[nodiscard]] Meeting find(Contact& contact) noexcept {
         const bool both_contained = a_.is_contained() && b_.is_contained();
+        // A complete search knows whether triangles touch, which decides the ways that are tried.
+        if (both_contained && !question_.searched && !near_.touch) find_touch();
         WaysOut ways;
-        if ((near_.touch || both_contained) && find_all(ways) &&
-            (near_.touch || ways.least() > 0)) {
+        const bool has_ways = (near_.touch || both_contained) && find_all(ways);
+        if (has_ways && (near_.touch || ways.least() > 0)) {
             return answer_overlap(ways, std::max(0.0, ways.least()), contact);
         }
         const TwoHulls hulls = {a_.hull(), b_.hull()};
         const auto nearest = hull_nearest(hulls.a, hulls.b, {}, nullptr, question_.counts);
+        const bool may_touch =
+            !both_contained && !question_.searched && !near_.touch && nearest->bounds.lower <= 0;
+        if (may_touch && find_touch()) return find(contact);
+        if (!nearest->meet && is_at_rest(*nearest) && (has_ways || find_all(ways))) {
+            return answer_at_rest(ways, *nearest, contact);
+        }
         if (!nearest->meet || !(both_contained || near_.touch)) {
-            const bool may_touch =
-                !question_.searched && !near_.touch && nearest->bounds.lower <= 0;
-            if (may_touch && find_touch()) return find(contact);
             return answer_apart(*nearest, contact);
         }
         const Penetration depth = hull_depth(hulls, nearest->simplex, {}, question_.counts);
@@ -129,13 +137,26 @@ private:
     }
 
     /// Looks for triangles that touch. Returns whether there are any.
-    [[nodiscard]] bool find_touch() noexcept {
+    bool find_touch() noexcept {
         const auto found = touching_triangles(a_, b_, question_);
         if (found) near_ = {near_.key, found->a, found->b, true};
         return found.has_value();
     }
 
     // --- Apart ----------------------------------------------------------------------
+
+    /// Returns whether the gap is so small that rounding may turn the direction across it.
+    [[nodiscard]] bool is_at_rest(const HullNearest& hulls) const noexcept {
+        return hulls.bounds.upper <= rest();
+    }
+    /// Returns the gap up to which rounding may turn the direction across it.
+    [[nodiscard]] double rest() const noexcept {
+        const auto size_of = [](const ContactSide& side) {
+            const std::uint32_t last = side.points().count - 1;  // the first may be at the origin
+            return std::max(largest_of(side.corner(0)), largest_of(side.corner(last)));
+        };
+        return kRest * (size_of(a_) + size_of(b_));
+    }
 
     /// Returns the features of the hulls if triangles have them, otherwise those of the nearest
     /// triangles.
@@ -201,7 +222,7 @@ private:
     }
 
     /// Returns the contact normal. It is computed from a face or from two edges alone, so it is
-    /// exact however small the gap is.
+    /// exact up to its sign, which needs a gap that rounding does not reach.
     [[nodiscard]] Double3 normal_between(const NearMeeting& meeting,
                                          const Contact& contact) const noexcept {
         const Double3 gap = direction_of(meeting.nearest.simplex);
@@ -246,6 +267,16 @@ private:
     }
 
     // --- Overlapping ----------------------------------------------------------------
+
+    /// A way in which B leaves A.
+    struct Exit {
+        WayOut way;
+        Meeting meeting;   ///< the features there
+        std::size_t rank;  ///< the number of shorter ways
+        bool has_points = false;
+        Double3 point_a{};
+        Double3 point_b{};
+    };
 
     /// Finds every way that may be the shortest. Returns false if that is too much work, or if the
     /// bound of the shortest is too far from it.
@@ -294,16 +325,34 @@ private:
     /// `depth` is a lower bound of the length of every way out.
     [[nodiscard]] Meeting answer_overlap(WaysOut& ways, double depth,
                                          Contact& contact) const noexcept {
-        Exit exit = best_exit(ways);
-        put_points(exit);
+        const Meeting meeting = take_exit(ways, contact);
         contact.flags |= contact_overlap;
+        contact.lower = -std::max(length_along(contact.normal), depth);
+        contact.upper = -depth;
+        return meeting;
+    }
+    /// Fills in the normal and the points of the best exit. Returns the features there.
+    [[nodiscard]] Meeting take_exit(WaysOut& ways, Contact& contact) const noexcept {
+        Exit exit = best_exit(ways);
+        set_points(exit);
         if (exit.rank > 0) contact.flags |= contact_internal_edge;
         contact.normal = exit.way.normal;
         contact.point_a = exit.point_a;
         contact.point_b = exit.point_b;
-        contact.lower = -std::max(length_along(contact.normal), depth);
-        contact.upper = -depth;
-        return exit.meeting;
+        // Faces are known by their triangles at the points.
+        return {a_.feature_along(contact.normal, exit.point_a),
+                b_.feature_along(-contact.normal, exit.point_b)};
+    }
+
+    /// The same for hulls that are apart by rounding: the normal and the features are those of the
+    /// way out, as if they overlapped as little.
+    [[nodiscard]] Meeting answer_at_rest(WaysOut& ways, const HullNearest& hulls,
+                                         Contact& contact) const noexcept {
+        const DistanceBounds bounds = nearest_features(hulls).nearest.bounds;
+        const Meeting meeting = take_exit(ways, contact);
+        contact.lower = bounds.lower;
+        contact.upper = bounds.upper;
+        return meeting;
     }
 
     /// Returns whether B leaves A along a direction through a face that no triangle covers: deeper
@@ -312,6 +361,29 @@ private:
                                     const Double3& direction) const noexcept {
         return (a_.is_contained() && !a_.leads_out(meeting.a, direction)) ||
                (b_.is_contained() && !b_.leads_out(meeting.b, -direction));
+    }
+    /// Returns whether an exit leads past a reflex edge at which a face ends: into what the cut
+    /// into pieces left on the other side.
+    [[nodiscard]] bool leads_through_cut(Exit& exit) const noexcept {
+        const Double3& normal = exit.way.normal;
+        const bool by_a = may_end(a_, exit.meeting.a, normal);
+        const bool by_b = may_end(b_, exit.meeting.b, -normal);
+        if (!by_a && !by_b) return false;
+        set_points(exit);
+        return (by_a && ends_before(a_, normal, exit.point_a, b_)) ||
+               (by_b && ends_before(b_, -normal, exit.point_b, a_));
+    }
+    static bool may_end(const ContactSide& side, const PieceFeature& feature,
+                        const Double3& out) noexcept {
+        return side.is_contained() && feature.kind == FeatureKind::face &&
+               side.ends_at_reflex_edge(out);
+    }
+    /// Returns whether a face ends before a point, and `other` crosses its plane beyond it alone.
+    [[nodiscard]] bool ends_before(const ContactSide& side, const Double3& out, const Double3& at,
+                                   const ContactSide& other) const noexcept {
+        const double most = rest();
+        return !side.has_face_at(out, at, most) && side.ends_before(out, at, most) &&
+               other.reach(out, at) > most && !side.has_face_at(out, other.hull(), most);
     }
     /// Returns whether a direction leans over an edge where a surface continues.
     [[nodiscard]] bool leans(const Meeting& meeting, const Double3& direction) const noexcept {
@@ -324,15 +396,6 @@ private:
         return a_.leans_over_flat_edge(meeting.a, direction) ||
                b_.leans_over_flat_edge(meeting.b, -direction);
     }
-    /// A way in which B leaves A.
-    struct Exit {
-        WayOut way;
-        Meeting meeting;   ///< the features there, set by put_points()
-        std::size_t rank;  ///< the number of shorter ways
-        Double3 point_a{};
-        Double3 point_b{};
-    };
-
     /// Returns the shortest exit that ends at both surfaces. Prefers another one that is shorter by
     /// kMuchShorter and leads neither along a plane nor deeper into a solid. Without either,
     /// returns the direction of the shortest exit along a plane, turned upright. Without that too,
@@ -344,9 +407,11 @@ private:
             if (other && way.length > kMuchShorter * other->way.length) break;
             const std::optional<Meeting> meeting = features_across(way);
             if (!meeting || leads_inside(*meeting, way.normal)) continue;
-            if (!leans(*meeting, way.normal)) return {way, *meeting, i};
-            if (!leaning) leaning = {way, *meeting, i};
-            if (!other && !leaves_along_plane(*meeting, way.normal)) other = {way, *meeting, i};
+            Exit exit = {way, *meeting, i};
+            if (leads_through_cut(exit)) continue;
+            if (!leans(*meeting, way.normal)) return exit;
+            if (!leaning) leaning = exit;
+            if (!other && !leaves_along_plane(*meeting, way.normal)) other = exit;
         }
         if (other) return *other;
         if (!leaning) return {ways[0], {}, 0};
@@ -393,18 +458,14 @@ private:
     }
 
     /// Sets the points of an exit: where two edges cross, or where the farthest corners of both
-    /// pieces are over each other. Then faces are known by their triangles there.
-    void put_points(Exit& exit) const noexcept {
-        const Double3& normal = exit.way.normal;
-        if (exit.way.kind == WayKind::edges) {
-            put_on_edges(exit);
-        } else {
-            const WayPoints points = way_points(a_, b_, normal);
-            exit.point_a = points.on_a;
-            exit.point_b = points.on_b;
-        }
-        exit.meeting.a = a_.feature_along(normal, exit.point_a);
-        exit.meeting.b = b_.feature_along(-normal, exit.point_b);
+    /// pieces are over each other.
+    void set_points(Exit& exit) const noexcept {
+        if (exit.has_points) return;
+        exit.has_points = true;
+        if (exit.way.kind == WayKind::edges) return put_on_edges(exit);
+        const WayPoints points = way_points(a_, b_, exit.way.normal);
+        exit.point_a = points.on_a;
+        exit.point_b = points.on_b;
     }
     /// Puts the points of an exit where its edges are nearest to each other.
     void put_on_edges(Exit& exit) const noexcept {

@@ -8,6 +8,7 @@
 #include "cdprep/hulls.h"
 #include "core/triangle_facts.h"
 #include "exact/point_triangle_distance.h"
+#include "hull/hull_nearest.h"
 #include "pieces/piece_parts.h"
 #include "walk/triangles_at_vertex.h"
 
@@ -33,6 +34,17 @@ bool turns_little(const Corners& t, double error) {
     const Double3 e = t[1] - t[0], f = t[2] - t[0];
     const double sides = length(e) + length(f), product = length(e) * length(f);
     return 4 * error * sides + 0x1p-49 * product < kSureTurn * length(cross(e, f));
+}
+
+/// Takes every triangle.
+constexpr auto kAll = [](std::uint32_t) { return true; };
+
+/// Returns whether one of a triangle's three edges is reflex.
+bool has_reflex_edge(const MovedModel& model, std::uint32_t triangle) {
+    const std::uint8_t bits = model.model->mesh().edge_convexity[triangle];
+    return format::edge_convexity(bits, 0) == EdgeConvexity::reflex ||
+           format::edge_convexity(bits, 1) == EdgeConvexity::reflex ||
+           format::edge_convexity(bits, 2) == EdgeConvexity::reflex;
 }
 
 unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
@@ -108,9 +120,13 @@ double ContactSide::position_error() const noexcept {
 
 void ContactSide::place_triangles() noexcept {
     if (placed_triangles_count_ > 0 || triangles_.size() > kMostPlacedTriangles) return;
-    for (std::size_t i = 0; i < triangles_.size(); ++i)
-        placed_triangle_[i] = placed(i, triangles_[i]);
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        const Corners at = model_->corners(triangles_[i]);
+        placed_triangle_[i] = {at, unit_normal(at)};
+    }
     placed_triangles_count_ = triangles_.size();
+    has_reflex_edges_ = std::any_of(triangles_.begin(), triangles_.end(),
+                                    [&](std::uint32_t t) { return has_reflex_edge(*model_, t); });
 }
 
 ConvexPoints ContactSide::points_of(std::uint32_t triangle) const noexcept {
@@ -192,29 +208,101 @@ std::span<const std::uint32_t> ContactSide::triangles_facing(const Double3& dire
     return std::span<const std::uint32_t>(room).first(count);
 }
 
-std::optional<PieceFeature> ContactSide::find_face(const Double3& direction,
-                                                   const Double3* near) const noexcept {
-    std::optional<PieceFeature> best;
-    double least = std::numeric_limits<double>::infinity();
+/// Calls visit(triangle, placed) for the triangles that face a unit direction squarely, until it
+/// returns false. Those without is_taken(triangle) are left out.
+template <class IsTaken, class Visit>
+void ContactSide::each_facing(const Double3& direction, IsTaken&& is_taken,
+                              Visit&& visit) const noexcept {
     const MovedModel still(*model_->model, nullptr);
     const Double3 local = turned_back(model_->pose, direction);
     Fan room;
     const auto triangles = triangles_facing(direction, room);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        if (i >= placed_triangles_count_ &&
-            is_surely_turned(still.corners(triangles[i]), local, kAligned)) {
-            continue;
+        if (!is_taken(triangles[i])) continue;
+        PlacedTriangle moved;
+        const bool is_placed = i < placed_triangles_count_;
+        if (!is_placed) {
+            if (is_surely_turned(still.corners(triangles[i]), local, kAligned)) continue;
+            moved = placed(i, triangles[i]);
         }
-        const PlacedTriangle t = placed(i, triangles[i]);
+        const PlacedTriangle& t = is_placed ? placed_triangle_[i] : moved;
         const double along = dot(t.normal, direction);
         // A surface that bounds no solid can be met from either side.
         if ((is_contained() ? along : std::fabs(along)) < kAligned) continue;
-        const PieceFeature face = {FeatureKind::face, triangles[i], 0};
-        if (near == nullptr) return face;
-        const double distance = point_triangle_distance(*near, t.at).computed;
-        if (distance < least) least = distance, best = face;
+        if (!visit(triangles[i], t)) return;
     }
+}
+
+std::optional<PieceFeature> ContactSide::find_face(const Double3& direction,
+                                                   const Double3* near) const noexcept {
+    std::optional<PieceFeature> best;
+    double least = std::numeric_limits<double>::infinity();
+    each_facing(direction, kAll, [&](std::uint32_t triangle, const PlacedTriangle& t) {
+        const double distance = near == nullptr ? 0 : point_triangle_distance(*near, t.at).computed;
+        if (!best || distance < least) {
+            least = distance;
+            best = {FeatureKind::face, triangle, 0};
+        }
+        return near != nullptr;
+    });
     return best;
+}
+
+bool ContactSide::has_face_at(const Double3& direction, const Double3& point,
+                              double most) const noexcept {
+    bool found = false;
+    each_facing(direction, kAll, [&](std::uint32_t, const PlacedTriangle& t) {
+        found = axis_gap({point, point}, box_around(t.at)) <= most &&
+                point_triangle_distance(point, t.at).computed <= most;
+        return !found;
+    });
+    return found;
+}
+
+bool ContactSide::ends_at_reflex_edge(const Double3& direction) const noexcept {
+    if (!has_reflex_edges_) return false;
+    bool found = false;
+    each_facing(
+        direction, [&](std::uint32_t triangle) { return has_reflex_edge(*model_, triangle); },
+        [&](std::uint32_t, const PlacedTriangle&) {
+            found = true;
+            return false;
+        });
+    return found;
+}
+
+bool ContactSide::ends_before(const Double3& direction, const Double3& point,
+                              double most) const noexcept {
+    double least = std::numeric_limits<double>::infinity();
+    each_facing(direction, kAll, [&](std::uint32_t, const PlacedTriangle& t) {
+        least = std::min(least, point_triangle_distance(point, t.at).computed);
+        return true;
+    });
+    const auto ends = [&](std::uint32_t triangle) { return has_reflex_edge(*model_, triangle); };
+    bool found = false;
+    each_facing(direction, ends, [&](std::uint32_t triangle, const PlacedTriangle& t) {
+        if (point_triangle_distance(point, t.at).computed > least + most) return true;
+        const std::uint8_t bits = model_->model->mesh().edge_convexity[triangle];
+        for (unsigned k = 0; k < 3 && !found; ++k) {
+            if (format::edge_convexity(bits, k) != EdgeConvexity::reflex) continue;
+            const Double3 outward = cross(unit(t.at[(k + 1) % 3] - t.at[k]), t.normal);
+            found = dot(outward, point - t.at[k]) > most;
+        }
+        return !found;
+    });
+    return found;
+}
+
+bool ContactSide::has_face_at(const Double3& direction, const MovedHull& hull,
+                              double most) const noexcept {
+    bool found = false;
+    each_facing(direction, kAll, [&](std::uint32_t triangle, const PlacedTriangle&) {
+        const ConvexPoints points = points_of(triangle);
+        const MovedHull face(points, model_->pose);
+        found = hull_nearest(face, hull, {}, nullptr, nullptr)->bounds.lower <= most;
+        return !found;
+    });
+    return found;
 }
 
 PieceFeature ContactSide::feature_along(const Double3& direction,

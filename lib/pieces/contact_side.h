@@ -164,6 +164,19 @@ public:
     [[nodiscard]] std::optional<PieceFeature> find_face(const Double3& direction,
                                                         const Double3* near) const noexcept;
 
+    /// Returns whether a triangle of the piece that faces a unit direction squarely is at most so
+    /// far from a point, or from a hull.
+    [[nodiscard]] bool has_face_at(const Double3& direction, const Double3& point,
+                                   double most) const noexcept;
+    [[nodiscard]] bool has_face_at(const Double3& direction, const MovedHull& hull,
+                                   double most) const noexcept;
+    /// Returns whether one of those triangles has a reflex edge.
+    [[nodiscard]] bool ends_at_reflex_edge(const Double3& direction) const noexcept;
+    /// Returns whether those triangles end at a reflex edge before a point of their plane: what is
+    /// there is solid. Lengths up to `most` count as 0.
+    [[nodiscard]] bool ends_before(const Double3& direction, const Double3& point,
+                                   double most) const noexcept;
+
     /// Returns the feature that is farthest along a unit direction. Of several triangles in a face
     /// there, it names the nearest to a point.
     [[nodiscard]] PieceFeature feature_along(const Double3& direction,
@@ -262,6 +275,8 @@ private:
     [[nodiscard]] double facing(const PieceFeature& feature,
                                 const Double3& direction) const noexcept;
     [[nodiscard]] std::uint32_t nearest_triangle(const Double3& near) const noexcept;
+    template <class IsTaken, class Visit>
+    void each_facing(const Double3& direction, IsTaken&& is_taken, Visit&& visit) const noexcept;
     template <class Visit>
     void each_around(const PieceFeature& feature, Visit&& visit) const noexcept;
     /// The lean of a direction over an edge of a triangle: its amount, and the direction outwards
@@ -305,6 +320,7 @@ private:
     Workspace::Storage* scratch_;
     PlacedHull* large_ = nullptr;  ///< or null: the hull is not in a PlacedHull
     std::size_t placed_triangles_count_ = 0;
+    bool has_reflex_edges_ = true;              ///< or is too large to know
     std::span<const std::uint32_t> triangles_;  ///< tree order
     ConvexPoints
         placed_points_;  ///< in placed_ or a PlacedHull; empty for a hull too large for both

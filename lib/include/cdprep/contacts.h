@@ -155,18 +155,21 @@ struct ContactsVerdict {
 /// normal is turned until it no longer tilts across the feature's edges. If it leads from a vertex
 /// straight across edges, it becomes the normal of a face there. Of several, it is the one along
 /// which B leaves A soonest. If either feature is a face, the normal is turned only if it tilts
-/// across a flat edge.
+/// across a flat edge. Across a gap below 2^-36 of the coordinates, rounding may turn this line.
+/// Then the normal, the points and the features are found as if the pieces overlapped.
 ///
 /// If two pieces overlap, `normal` is the direction of the shortest separating translation, unless
 /// this translation snags (see below). The candidate directions are the face normals of both hulls
 /// and the directions perpendicular to an edge of each. Some hulls have many faces, are larger than
 /// 2^254, or have edges shorter than 2^-240. For these, the candidates are the shortest separating
 /// translation and normals of faces or triangles. Only the 16 shortest candidates are tested for
-/// snags.
+/// snags. If triangles touch, two edges count only if they are near enough to each other: at most
+/// twice as far as the shortest translation along a face normal is long.
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
 /// vertex, the tilt counts only if a triangle there reaches farther along the translation than the
-/// vertex. A translation also snags if it leads through a part of the hull that no triangle covers.
+/// vertex. A translation also snags if it leads through a face of the hull that no triangle covers,
+/// or past a reflex edge at which a face's triangles end.
 /// The shortest translation that does not snag is used. Exception: some translations tilt across
 /// reflex edges only, and do not lead deeper into a solid. The shortest of these is used if it is
 /// less than half as long, or if all translations snag. Without such a translation, the shortest
@@ -191,8 +194,9 @@ struct ContactsVerdict {
 ///
 /// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
 /// are the corners of one face, clipped by the other. ManifoldPoint::distance is the distance of
-/// the two faces there, along the normal. Without contact_overlap, it is negative by rounding only:
-/// points farther behind the other face are left out. The normal of the clipping face may deviate
+/// the two faces there, along the normal. Without contact_overlap, it is negative by rounding only,
+/// or by up to 2e-5 of the face's size where the faces are not quite parallel. Points farther
+/// behind the other face are left out. The normal of the clipping face may deviate
 /// from that of the contact by up to 0.03 radians. This happens if nearly parallel faces are
 /// nearest where two of their edges cross. The deepest point is first, then those that span the
 /// largest area.

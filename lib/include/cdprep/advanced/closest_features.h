@@ -46,7 +46,7 @@ struct ClosestFeatures {
     Double3 witness_b;
     /// True if parallel features are nearest: two edges, an edge and a face, or two faces. `a` or
     /// `b` may then name a vertex or an edge of such a feature. Other pairs of points may be
-    /// equally near.
+    /// equally near. It may be wrong for models larger than 1e50 or smaller than 1e-50.
     bool parallel;
 };
 
