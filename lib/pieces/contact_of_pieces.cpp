@@ -125,6 +125,7 @@ private:
         const bool may_touch =
             !both_contained && !question_.searched && !near_.touch && nearest->bounds.lower <= 0;
         if (may_touch && find_touch()) return find(contact);
+        if (nearest->meet && has_ways) return answer_overlap(ways, 0, contact);
         if (!nearest->meet && is_at_rest(*nearest) && (has_ways || find_all(ways))) {
             return answer_at_rest(ways, *nearest, contact);
         }
@@ -422,23 +423,30 @@ private:
     /// Returns the features across which a way leads, with any triangle of a face. Returns nothing
     /// if it leads through a face or an edge of a hull that no triangle has: deeper into the solid.
     [[nodiscard]] std::optional<Meeting> features_across(const WayOut& way) const noexcept {
-        const auto a = way.kind == WayKind::edges    ? edge_of(a_, way.a)
-                       : way.kind == WayKind::face_a ? face_of(a_, way.a, way.normal)
-                                                     : farthest_of(a_, way.normal);
+        if (way.kind == WayKind::edges) return edges_across(way);
+        const auto a = way.kind == WayKind::face_a ? face_of(a_, way.a, way.normal)
+                                                   : farthest_of(a_, way.normal);
         if (!a) return std::nullopt;
-        const auto b = way.kind == WayKind::edges    ? edge_of(b_, way.b)
-                       : way.kind == WayKind::face_b ? face_of(b_, way.b, -way.normal)
-                                                     : farthest_of(b_, -way.normal);
+        const auto b = way.kind == WayKind::face_b ? face_of(b_, way.b, -way.normal)
+                                                   : farthest_of(b_, -way.normal);
         if (!b) return std::nullopt;
         return Meeting{*a, *b};
     }
-    static std::optional<PieceFeature> edge_of(const ContactSide& side,
-                                               std::uint8_t place) noexcept {
+    [[nodiscard]] std::optional<Meeting> edges_across(const WayOut& way) const noexcept {
+        const WayPoints points = points_on_edges(way);
+        const auto a = edge_of(a_, way.a, points.on_a);
+        if (!a) return std::nullopt;
+        const auto b = edge_of(b_, way.b, points.on_b);
+        if (!b) return std::nullopt;
+        return Meeting{*a, *b};
+    }
+    static std::optional<PieceFeature> edge_of(const ContactSide& side, std::uint8_t place,
+                                               const Double3& near) noexcept {
         const PieceShape::Edge& edge = side.shape()->edges()[place];
         VertexSet ends;
         ends.add(side.points().corners[edge.from]);
         ends.add(side.points().corners[edge.to]);
-        const auto feature = side.find_feature(ends);
+        const auto feature = side.find_feature(ends, near);
         if (feature || side.is_contained()) return feature;
         return PieceFeature{FeatureKind::face, side.triangles()[0], 0};
     }
@@ -452,7 +460,8 @@ private:
     static std::optional<PieceFeature> farthest_of(const ContactSide& side,
                                                    const Double3& direction) noexcept {
         if (const auto face = side.find_face(direction, nullptr)) return face;
-        const auto feature = side.find_feature(side.farthest_vertices(direction));
+        const VertexSet farthest = side.farthest_vertices(direction);
+        const auto feature = side.find_feature(farthest, side.model().position(farthest.vertex[0]));
         if (feature || side.is_contained()) return feature;
         return PieceFeature{FeatureKind::face, side.triangles()[0], 0};
     }
@@ -462,14 +471,14 @@ private:
     void set_points(Exit& exit) const noexcept {
         if (exit.has_points) return;
         exit.has_points = true;
-        if (exit.way.kind == WayKind::edges) return put_on_edges(exit);
-        const WayPoints points = way_points(a_, b_, exit.way.normal);
+        const WayPoints points = exit.way.kind == WayKind::edges
+                                     ? points_on_edges(exit.way)
+                                     : way_points(a_, b_, exit.way.normal);
         exit.point_a = points.on_a;
         exit.point_b = points.on_b;
     }
-    /// Puts the points of an exit where its edges are nearest to each other.
-    void put_on_edges(Exit& exit) const noexcept {
-        const WayOut& way = exit.way;
+    /// Returns the points where the edges of a way are nearest to each other.
+    [[nodiscard]] WayPoints points_on_edges(const WayOut& way) const noexcept {
         const PieceShape::Edge& a = a_.shape()->edges()[way.a];
         const PieceShape::Edge& b = b_.shape()->edges()[way.b];
         const Double3 from_a = a_.corner(a.from), from_b = b_.corner(b.from);
@@ -479,8 +488,8 @@ private:
         const Double3 across_b = cross(way.normal, along_b);
         const double at_a = dot(gap, across_b) / dot(along_a, across_b);
         const double at_b = -dot(gap, across_a) / dot(along_b, across_a);
-        exit.point_a = from_a + std::clamp(at_a, 0.0, 1.0) * along_a;
-        exit.point_b = from_b + std::clamp(at_b, 0.0, 1.0) * along_b;
+        return {from_a + std::clamp(at_a, 0.0, 1.0) * along_a,
+                from_b + std::clamp(at_b, 0.0, 1.0) * along_b};
     }
 
     [[nodiscard]] double about_way_out(const Double3& direction) const noexcept {

@@ -173,6 +173,40 @@ std::optional<PieceFeature> ContactSide::find_feature(const VertexSet& set) cons
     return std::nullopt;
 }
 
+/// A mesh may divide an edge of the hull. Then no triangle has both of its ends.
+std::optional<PieceFeature> ContactSide::find_part_of_edge(const Double3& from, const Double3& to,
+                                                           const Double3& near) const noexcept {
+    const Double3 way = to - from, along = unit(way);
+    const auto is_on = [&](const Double3& p) {
+        return largest_of(cross(p - from, along)) <= kLevel * largest_of(way);
+    };
+    std::optional<PieceFeature> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        const Corners at = corners_of(i);
+        const std::array<bool, 3> on = {is_on(at[0]), is_on(at[1]), is_on(at[2])};
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            const std::uint32_t next = (k + 1) % 3;
+            if (!on[k] || !on[next]) continue;
+            const double distance =
+                point_triangle_distance(near, {at[k], at[next], at[next]}).computed;
+            if (distance < least) {
+                least = distance;
+                best = {FeatureKind::edge, triangles_[i], k};
+            }
+        }
+    }
+    return best;
+}
+
+std::optional<PieceFeature> ContactSide::find_feature(const VertexSet& set,
+                                                      const Double3& near) const noexcept {
+    const auto feature = find_feature(set);
+    if (feature || set.count != 2) return feature;
+    return find_part_of_edge(model_->position(set.vertex[0]), model_->position(set.vertex[1]),
+                             near);
+}
+
 std::uint32_t ContactSide::nearest_triangle(const Double3& near) const noexcept {
     std::uint32_t best = triangles_[0];
     double least = std::numeric_limits<double>::infinity();
@@ -308,7 +342,7 @@ bool ContactSide::has_face_at(const Double3& direction, const MovedHull& hull,
 PieceFeature ContactSide::feature_along(const Double3& direction,
                                         const Double3& near) const noexcept {
     if (const auto face = find_face(direction, &near)) return *face;
-    if (const auto feature = find_feature(farthest_vertices(direction))) return *feature;
+    if (const auto feature = find_feature(farthest_vertices(direction), near)) return *feature;
     return {FeatureKind::face, nearest_triangle(near), 0};
 }
 

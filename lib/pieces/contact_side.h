@@ -158,6 +158,10 @@ public:
     /// Returns the feature that one to three vertices span, if a triangle of the piece has them
     /// all. The first of several triangles counts.
     [[nodiscard]] std::optional<PieceFeature> find_feature(const VertexSet& set) const noexcept;
+    /// The same for vertices of the hull. Of an edge that the mesh divides, returns the part that
+    /// is nearest to a point.
+    [[nodiscard]] std::optional<PieceFeature> find_feature(const VertexSet& set,
+                                                           const Double3& near) const noexcept;
 
     /// Returns a triangle of the piece that faces a unit direction squarely: the nearest to a point
     /// or, if that is null, the first.
@@ -274,6 +278,9 @@ private:
     /// triangle with the feature.
     [[nodiscard]] double facing(const PieceFeature& feature,
                                 const Double3& direction) const noexcept;
+    [[nodiscard]] std::optional<PieceFeature> find_part_of_edge(const Double3& from,
+                                                                const Double3& to,
+                                                                const Double3& near) const noexcept;
     [[nodiscard]] std::uint32_t nearest_triangle(const Double3& near) const noexcept;
     template <class IsTaken, class Visit>
     void each_facing(const Double3& direction, IsTaken&& is_taken, Visit&& visit) const noexcept;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -847,6 +848,71 @@ TEST(Contacts, AFaceBesideASeamDoesNotPushSideways) {
         }
     }
     EXPECT_GT(both, 1500U);
+}
+
+/// Where a body that comes down along a way begins to touch another: the last height at which it
+/// does not, and the first at which it does.
+struct Landing {
+    double above;
+    double below;
+};
+
+/// Returns nothing if they do not meet between the heights -8 and 8.
+template <class Touches>
+std::optional<Landing> find_landing(Touches&& touches) {
+    double below = 8;
+    while (below > -8 && !touches(below)) below -= 0.0625;
+    if (below <= -8) return std::nullopt;
+    Landing landing = {below + 0.0625, below};
+    for (;;) {
+        const double middle = 0.5 * (landing.above + landing.below);
+        if (middle == landing.above || middle == landing.below) return landing;
+        (touches(middle) ? landing.below : landing.above) = middle;
+    }
+}
+
+// By definition: bodies that come to touch do so by their rounding, and are pushed back the way
+// they came or to a side. Edges of their hulls are divided in the mesh, or end at a seam.
+TEST(Contacts, BodiesThatBeginToTouchAreNotDeep) {
+    const OpenModel arms =
+        open_with_pieces(prism({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
+                               {{1, 2, 3}, {1, 3, 4}, {0, 1, 4}, {0, 4, 5}, {0, 5, 6}}));
+    const OpenModel plate =
+        open_with_pieces(prism({{0, 0}, {0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}, {0, 1}},
+                               {{0, 1, 5}, {1, 4, 5}, {1, 2, 4}, {2, 3, 4}}));
+    const OpenModel tip = open_with_pieces(on_its_tip());
+    const std::array<const OpenModel*, 3> models = {&arms, &plate, &tip};
+    const Double3 way = {0.1, 0.2, 1};
+    Workspace workspace;
+    std::mt19937 random(26);
+    std::size_t apart = 0, overlapping = 0;
+    for (int round = 0; round < 1200; ++round) {
+        SCOPED_TRACE(round);
+        const OpenModel &a = *models[random() % 3], &b = *models[random() % 3];
+        const Pose below = random_pose(random, 1), above = random_pose(random, 1);
+        const auto at = [&](double height) {
+            std::array<double, 12> rows{};
+            std::copy_n(above.rotation().begin(), 9, rows.begin());
+            const Double3 place = above.translation() + height * way;
+            rows[9] = place.x, rows[10] = place.y, rows[11] = place.z;
+            return Placement::world(below, Pose::from_rows(rows).value());
+        };
+        const auto landing = find_landing([&](double height) {
+            return collide({a.model, b.model, at(height)}, workspace).hit == Answer::yes;
+        });
+        if (!landing) continue;
+        for (const double height : {landing->above, landing->below}) {
+            for (const Contact& contact : all_contacts(a, b, at(height), 1e-9)) {
+                if ((contact.flags & contact_from_behind) != 0) continue;
+                EXPECT_GE(cdprep::dot(contact.normal, way), -1e-7);
+                EXPECT_GE(contact.lower, -1e-9);
+                overlapping += contact.flags & contact_overlap ? 1 : 0;
+                apart += contact.flags & contact_overlap ? 0 : 1;
+            }
+        }
+    }
+    EXPECT_GT(apart, 500U);
+    EXPECT_GT(overlapping, 500U);
 }
 
 /// A sheet over [0, 1] x [0, 1] that is bent everywhere.
