@@ -308,7 +308,9 @@ void list_bad_numbers(mesh::TriangleSoup& soup, const std::vector<BadNumber>& ba
     // Nothing but this list tells these triangles from others at vertex 0, so it must be complete.
     // Its memory grows with bad triangles only.
     soup.out_of_range.reserve(bad_triangles.size());
-    for (const BadNumber& bad : bad_triangles) soup.out_of_range.push_back(bad.triangle);
+    for (const BadNumber& bad : bad_triangles) {
+        soup.out_of_range.push_back({bad.triangle, bad.found});
+    }
     constexpr std::size_t kBlock = 65536;
     std::vector<std::vector<std::uint32_t>> bad((soup.positions.size() + kBlock - 1) / kBlock);
     parallel_for(bad.size(), [&](std::size_t block) {

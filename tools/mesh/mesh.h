@@ -28,6 +28,12 @@ struct BadNumber {
     std::int64_t first = 0;      ///< the number of the first vertex in this format
 };
 
+/// A triangle with a corner out of range.
+struct OutOfRange {
+    std::uint32_t triangle;  ///< source number
+    std::int64_t found;      ///< the number of its first such corner in the file
+};
+
 /// Named runs over source triangles: groups or materials. Names are UTF-8.
 struct NamedRuns {
     std::vector<format::NamedRun> runs;
@@ -66,7 +72,7 @@ struct TriangleSoup {
     std::vector<BadNumber> bad_numbers;  ///< the first 1000 at most, lowest first
     std::uint64_t bad_number_count = 0;  ///< of all bad numbers
     /// All triangles with a corner out of range, ascending; bad_numbers may lack some.
-    std::vector<std::uint32_t> out_of_range;
+    std::vector<OutOfRange> out_of_range;
 };
 
 /// A mesh with shared vertices: every stored vertex is used, and no two are equal.

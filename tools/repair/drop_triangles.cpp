@@ -29,11 +29,11 @@ void drop(RepairMesh& mesh, StepReport& report, ReasonFor reason_for) {
 
 }  // namespace
 
-Stepped drop_bad_numbers(RepairMesh mesh, std::span<const std::uint32_t> out_of_range) {
+Stepped drop_bad_numbers(RepairMesh mesh, std::span<const OutOfRange> out_of_range) {
     StepReport report(RepairStep::drop_bad_numbers);
     drop(mesh, report, [&](std::uint32_t t) -> std::optional<DroppedTriangle> {
-        if (std::binary_search(out_of_range.begin(), out_of_range.end(),
-                               mesh.triangle_origin[t].source)) {
+        if (std::ranges::binary_search(out_of_range, mesh.triangle_origin[t].source, {},
+                                       &OutOfRange::triangle)) {
             return DroppedTriangle{t, DropReason::out_of_range};
         }
         for (const std::uint32_t vertex : mesh.triangles[t].vertex) {

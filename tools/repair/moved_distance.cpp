@@ -198,7 +198,7 @@ std::vector<bool> find_placed(const TriangleSoup& soup) {
             return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
         });
     }
-    for (const std::uint32_t t : soup.out_of_range) placed[t] = false;
+    for (const OutOfRange& bad : soup.out_of_range) placed[bad.triangle] = false;
     return placed;
 }
 

@@ -43,15 +43,15 @@ std::optional<TriangleSoup> marked(const TriangleSoup& soup) {
     std::optional<TriangleSoup> result;
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         const auto& corners = soup.triangles[t].vertex;
-        if (std::none_of(corners.begin(), corners.end(),
-                         [limit](std::uint32_t vertex) { return vertex >= limit; })) {
-            continue;
-        }
+        const auto* const bad =
+            std::find_if(corners.begin(), corners.end(),
+                         [limit](std::uint32_t vertex) { return vertex >= limit; });
+        if (bad == corners.end()) continue;
         if (!result) result = soup;
+        result->out_of_range.push_back({t, *bad});
         result->triangles[t] = {{0, 0, 0}};
-        result->out_of_range.push_back(t);
     }
-    if (result) std::sort(result->out_of_range.begin(), result->out_of_range.end());
+    if (result) std::ranges::sort(result->out_of_range, {}, &OutOfRange::triangle);
     return result;
 }
 
@@ -229,7 +229,7 @@ private:
 
     const RepairOptions& options_;
     const StopCheck& stop_;
-    const std::vector<std::uint32_t>& bad_;
+    const std::vector<OutOfRange>& bad_;
     RepairMesh mesh_;
     std::uint64_t revision_ = 0;
     /// By step; the last is for weld() within a distance.

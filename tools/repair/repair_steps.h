@@ -11,8 +11,7 @@ namespace cdprep::mesh {
 
 /// Drops triangles with a corner that is not finite, and those in `out_of_range`. These are the
 /// triangles that the import found out of range, by ascending number.
-[[nodiscard]] Stepped drop_bad_numbers(RepairMesh mesh,
-                                       std::span<const std::uint32_t> out_of_range);
+[[nodiscard]] Stepped drop_bad_numbers(RepairMesh mesh, std::span<const OutOfRange> out_of_range);
 
 /// Runs weld(), and drops vertices that no triangle uses.
 [[nodiscard]] Stepped weld_vertices(RepairMesh mesh, double distance);

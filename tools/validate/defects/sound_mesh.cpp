@@ -2,6 +2,7 @@
 #include "validate/defects/sound_mesh.h"
 
 #include <cmath>
+#include <optional>
 
 #include "mesh/half_edges.h"
 #include "mesh/point_table.h"
@@ -39,48 +40,28 @@ std::vector<std::uint32_t> join_equal(const TriangleSoup& soup, FindingList& fin
     return joined;
 }
 
-/// A test for triangles with a corner out of range. An import sets all corners of such a
-/// triangle to vertex 0, and lists the first thousand. The others are the next triangles with
-/// such corners.
-class OutOfRange {
+/// A test for triangles with a corner out of range. An import lists them all, and sets their
+/// corners to vertex 0. A soup made by hand has the corners themselves.
+class OutOfRangeTest {
 public:
-    OutOfRange(const TriangleSoup& soup, std::uint64_t non_finite) : soup_(soup) {
-        for (const BadNumber& bad : soup.bad_numbers) {
-            if (bad.kind == BadNumber::Kind::index_out_of_range) listed_.push_back(&bad);
-        }
-        const bool some_unlisted = soup.bad_number_count > soup.bad_numbers.size();
-        const std::uint64_t known = non_finite + listed_.size();
-        if (some_unlisted && soup.bad_number_count > known) {
-            unlisted_ = soup.bad_number_count - known;
-        }
-    }
+    explicit OutOfRangeTest(const TriangleSoup& soup) : soup_(soup) {}
 
-    /// Returns whether the triangle is out of range, and sets the vertex number of the file.
-    /// Call this in ascending order of triangles.
-    bool is(std::uint32_t triangle, double& index) {
-        bool is_listed = false;
-        // A triangle is listed once, or once per corner.
-        for (; next_ < listed_.size() && listed_[next_]->triangle <= triangle; ++next_) {
-            is_listed = true;
-            index = static_cast<double>(listed_[next_]->found);
+    /// Returns the first number out of range of the triangle, as the file has it; nothing if all
+    /// are in range. Call this in ascending order of triangles.
+    std::optional<std::int64_t> found_in(std::uint32_t triangle) {
+        const std::vector<OutOfRange>& listed = soup_.out_of_range;
+        if (next_ < listed.size() && listed[next_].triangle == triangle) {
+            return listed[next_++].found;
         }
-        if (is_listed) return true;
-        bool all_zero = true;
         for (const std::uint32_t vertex : soup_.triangles[triangle].vertex) {
-            index = vertex;
-            if (vertex >= soup_.positions.size()) return true;
-            all_zero &= vertex == 0;
+            if (vertex >= soup_.positions.size()) return vertex;
         }
-        if (!all_zero || unlisted_ == 0 || next_ < listed_.size()) return false;
-        --unlisted_;
-        return true;
+        return std::nullopt;
     }
 
 private:
     const TriangleSoup& soup_;
-    std::vector<const BadNumber*> listed_;
     std::size_t next_ = 0;
-    std::uint64_t unlisted_ = 0;
 };
 
 /// Bits of the uses of a vertex of the file.
@@ -99,12 +80,13 @@ public:
     }
 
     SoundMesh sieve() {
-        OutOfRange out_of_range(soup_, counts_.non_finite_vertices);
-        double index = 0;
+        OutOfRangeTest out_of_range(soup_);
         for (std::uint32_t i = 0; i < soup_.triangles.size(); ++i) {
-            if (out_of_range.is(i, index)) {
+            if (const std::optional<std::int64_t> found = out_of_range.found_in(i)) {
                 ++counts_.out_of_range_triangles;
-                findings_.add(Rule::index_out_of_range, [&] { return Place{{i}, {}, {}, index}; });
+                findings_.add(Rule::index_out_of_range, [&] {
+                    return Place{{i}, {}, {}, static_cast<double>(*found)};
+                });
             } else {
                 add(i);
             }

@@ -155,8 +155,9 @@ TEST(ReadObj, ListsAThousandBadNumbersAndAllTrianglesOutOfRange) {
     EXPECT_EQ(s.bad_numbers[700].kind, BadNumber::Kind::index_out_of_range);
     EXPECT_EQ(s.bad_numbers[999].triangle, 299u);
     ASSERT_EQ(s.out_of_range.size(), 900u);
-    EXPECT_EQ(s.out_of_range.front(), 0u);
-    EXPECT_EQ(s.out_of_range.back(), 899u);
+    EXPECT_EQ(s.out_of_range.front().triangle, 0u);
+    EXPECT_EQ(s.out_of_range.back().triangle, 899u);
+    EXPECT_EQ(s.out_of_range.back().found, 9999);
 }
 
 // 0.1 as a float is 0.100000001490116; as a double it is nearer.

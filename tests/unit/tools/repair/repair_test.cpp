@@ -109,7 +109,7 @@ TEST(Repair, BadNumbersAndRepeatedCornersAreListedAndDropped) {
     soup.triangles.push_back({{0, 1, 8}});
     soup.triangles.push_back({{0, 1, 1}});
     soup.triangles.push_back({{0, 0, 0}});
-    soup.out_of_range = {14};
+    soup.out_of_range = {{.triangle = 14, .found = 9}};
     const Repaired mended = repaired(soup, "safe");
     EXPECT_EQ(mended.report.counts.dropped, 3U);
     EXPECT_EQ(mended.report.counts.unused_vertices + mended.report.counts.merged_vertices, 1U);
@@ -128,7 +128,7 @@ TriangleSoup as_imported(TriangleSoup soup) {
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         for (const std::uint32_t vertex : soup.triangles[t].vertex) {
             if (vertex < soup.positions.size()) continue;
-            soup.out_of_range.push_back(t);
+            soup.out_of_range.push_back({t, vertex});
             soup.triangles[t] = {{0, 0, 0}};
             break;
         }

@@ -159,26 +159,30 @@ TEST(FindDefects, MeshesWithoutASoundTrianglePromiseNothingOfTheSolid) {
     EXPECT_EQ(finding_of(report_of(one), Rule::empty_mesh).count, 0U);
 }
 
-// As an import leaves them: corners set to 0, the first thousand listed, the others counted.
-TEST(FindDefects, CornersOutOfRangeAreCountedBeyondThoseListed) {
+// As an import leaves them: corners set to 0, all such triangles listed.
+TEST(FindDefects, TrianglesOutOfRangeAreThoseOfTheList) {
     TriangleSoup soup = test::soup_of(test::unit_cube());
     constexpr std::uint32_t kBad = 1500;
-    constexpr std::uint32_t kListed = 1000;
     for (std::uint32_t i = 0; i < kBad; ++i) {
-        if (i < kListed) {
-            soup.bad_numbers.push_back({BadNumber::Kind::index_out_of_range, 0,
-                                        static_cast<std::uint32_t>(soup.triangles.size()),
-                                        -1 - static_cast<std::int64_t>(i), 8});
-        }
+        const auto number = static_cast<std::uint32_t>(soup.triangles.size());
+        soup.out_of_range.push_back({number, -1 - static_cast<std::int64_t>(i)});
         soup.triangles.push_back({{0, 0, 0}});
+        // Between the last two is one that is as the file has it.
+        if (i + 2 == kBad) soup.triangles.push_back({{0, 0, 0}});
     }
-    soup.triangles.push_back({{0, 0, 0}});  // this one is as the file has it
     soup.bad_number_count = kBad;
-    const DefectReport report = find_defects(soup);
+    DefectOptions options;
+    options.max_places = kBad;
+    const DefectReport report = find_defects(soup, options);
     EXPECT_EQ(report.counts.out_of_range_triangles, kBad);
     EXPECT_EQ(report.counts.degenerate_triangles, 1U);
-    EXPECT_EQ(finding_of(report, Rule::index_out_of_range).places[2].measure, -3);
-    EXPECT_EQ(finding_of(report, Rule::repeated_corner).places[0].triangles, Numbers{12 + kBad});
+    const Finding out_of_range = finding_of(report, Rule::index_out_of_range);
+    ASSERT_EQ(out_of_range.places.size(), kBad);
+    EXPECT_EQ(out_of_range.places[2].measure, -3);
+    EXPECT_EQ(out_of_range.places.back().triangles, Numbers{12 + kBad});
+    EXPECT_EQ(out_of_range.places.back().measure, -double{kBad});
+    EXPECT_EQ(finding_of(report, Rule::repeated_corner).places[0].triangles,
+              Numbers{12 + kBad - 1});
 }
 
 // Every triangle has corners of its own: places name those, not the joined ones.
