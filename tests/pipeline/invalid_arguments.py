@@ -219,6 +219,11 @@ def main():
         (["bake", ""], 2, ["the value is empty."]),
         *(([*pair, option, ""], 2, [f"{option}: the value is empty."])
           for option in ("--pose", "--poses", "--pose-a", "--pose-b")),
+        *((["repair", *words], 2, ["cdprep repair: --output: the value is empty."])
+          for words in (["--output=", folder / "sheet.off"], ["--output", "", folder / "sheet.off"],
+                        [folder / "sheet.off", "--output="])),
+        *(([*words, "validate", folder / "sheet.off"], 2, ["--config: the value is empty."])
+          for words in (["--config", ""], ["--config="])),
         (["query", "distance", model, model, "--repeat", "0x2"], 2, ["'0x2' is not a whole number"]),
         *(([*question, folder / "mm.cdp.h5", folder / "inches.cdp.h5"], 2,
            ["mm.cdp.h5 is in mm, but ", "inches.cdp.h5 is in in. "])

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <span>
+#include <string_view>
 
 #include "command_line/help_text.h"
 #include "command_line/usage.h"
@@ -17,9 +19,19 @@ CLI::Validator validator_of(const Check& check) {
 /// Refuses an empty value: a variable that a script forgot to set must not mean the default.
 Option filled(CLI::Option& option) {
     option.transform(CLI::Validator(
-        [](std::string& word) { return std::string(word.empty() ? "the value is empty." : ""); },
-        ""));
+        [](std::string& word) { return std::string(word.empty() ? kEmptyValue : ""); }, ""));
     return Option(option);
+}
+
+/// Returns the number of the first argument "--name=" or "-n=". CLI11 would take the next argument
+/// as its value, or "=".
+std::optional<std::size_t> find_empty_value(std::span<const char* const> arguments) {
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const std::string_view word = arguments[i];
+        if (word == "--") break;  // inputs follow
+        if (word.starts_with('-') && word.find('=') == word.size() - 1) return i;
+    }
+    return std::nullopt;
 }
 
 bool any(const CLI::App* /*command*/) {
@@ -159,10 +171,10 @@ Program::Program(const std::string& name, const std::string& version, const std:
     app_->set_version_flag("--version", version)
         ->description("Print the version and exit")
         ->group("General");
-    app_->set_config("--config", "",
-                     "Read options from a TOML file: bake.jobs=2 means --jobs=2 of bake")
-        ->type_name("FILE")
-        ->group("General");
+    filled(*app_->set_config("--config", "",
+                             "Read options from a TOML file: bake.jobs=2 means --jobs=2 of bake"))
+        .type_name("FILE")
+        .group("General");
     app_->require_subcommand(1);
 }
 
@@ -177,12 +189,17 @@ void Program::add_hidden(const std::string& name,
     const auto call = [run](const std::string& value) {
         throw CLI::RuntimeError(static_cast<int>(run(value)));
     };
-    app_->add_option_function<std::string>(name, call, "")->group("")->trigger_on_parse();
+    filled(*app_->add_option_function<std::string>(name, call, "")->trigger_on_parse()).group("");
 }
 
 std::optional<Exit> Program::parse(int count, const char* const* arguments) const {
     add_general_options(*app_);
     use_help_text(*app_);
+    const std::span words(arguments, static_cast<std::size_t>(count));
+    if (const std::optional<std::size_t> empty = find_empty_value(words)) {
+        std::cerr << empty_value_sentence(*app_, words.first(*empty), words[*empty]) << '\n';
+        return Exit::usage;
+    }
     try {
         app_->parse(count, arguments);
     } catch (const CLI::RuntimeError& ended) {

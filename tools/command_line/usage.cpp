@@ -16,6 +16,10 @@ struct Reached {
     std::string name;
 };
 
+bool any_command(const CLI::App* /*command*/) {
+    return true;
+}
+
 Reached reached(const CLI::App& app) {
     Reached at{&app, app.get_name()};
     for (;;) {
@@ -25,9 +29,23 @@ Reached reached(const CLI::App& app) {
     }
 }
 
+/// Returns the command that the words name. CLI11 has not read them yet, so the value of an option
+/// may count as a command too.
+Reached command_named(const CLI::App& app, std::span<const char* const> words) {
+    Reached at{&app, app.get_name()};
+    for (const char* const word : words) {
+        for (const CLI::App* sub : at.command->get_subcommands(any_command)) {
+            if (sub->get_name() != word) continue;
+            at = {sub, at.name + " " + word};
+            break;
+        }
+    }
+    return at;
+}
+
 std::vector<std::string> command_names(const CLI::App& command) {
     std::vector<std::string> names;
-    for (const CLI::App* sub : command.get_subcommands([](const CLI::App*) { return true; })) {
+    for (const CLI::App* sub : command.get_subcommands(any_command)) {
         names.push_back(sub->get_name());
     }
     return names;
@@ -146,6 +164,12 @@ std::string usage_sentence(const CLI::App& app, const CLI::ParseError& error) {
                with_inputs(at) + "'.";
     }
     return at.name + ": " + as_sentence(at, error.what());
+}
+
+std::string empty_value_sentence(const CLI::App& app, std::span<const char* const> before,
+                                 std::string_view argument) {
+    const std::string option(argument.substr(0, argument.find('=')));
+    return command_named(app, before).name + ": " + report::printable(option) + ": " + kEmptyValue;
 }
 
 }  // namespace cdprep::cli
