@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "cli/glob.h"
+#include "cli/output_path.h"
 #include "import/mesh_endings.h"
 
 namespace cdprep::cli {
@@ -65,8 +66,8 @@ void add_argument(std::vector<Input>& inputs, const std::string& argument) {
 
 /// Returns one spelling for the paths to a name in a folder. Links to the folder are followed.
 fs::path place_of(const fs::path& path) {
-    std::error_code unknown;
-    return fs::weakly_canonical(fs::absolute(path).parent_path(), unknown) / path.filename();
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    return without_links(folder) / path.filename();
 }
 
 /// Keeps the first of several inputs that name one file.

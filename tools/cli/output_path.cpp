@@ -11,12 +11,16 @@
 
 namespace cdprep::cli {
 
-std::filesystem::path named_file(const std::filesystem::path& path) {
+std::filesystem::path without_links(const std::filesystem::path& path) {
     std::error_code unknown;
-    const std::filesystem::path whole = std::filesystem::absolute(write::followed(path), unknown);
+    const std::filesystem::path whole = std::filesystem::absolute(path, unknown);
     if (unknown) return path;
     const std::filesystem::path file = std::filesystem::weakly_canonical(whole, unknown);
     return unknown ? whole.lexically_normal() : file;
+}
+
+std::filesystem::path named_file(const std::filesystem::path& path) {
+    return without_links(write::followed(path));
 }
 
 std::filesystem::path shortened(const std::filesystem::path& path) {

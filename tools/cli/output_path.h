@@ -14,6 +14,9 @@
 
 namespace cdprep::cli {
 
+/// Returns the path without links. Where links cannot be followed, returns the absolute path.
+[[nodiscard]] std::filesystem::path without_links(const std::filesystem::path& path);
+
 /// Returns one spelling for the paths that lead to a file through folders and links. The file need
 /// not exist.
 [[nodiscard]] std::filesystem::path named_file(const std::filesystem::path& path);

@@ -92,5 +92,16 @@ TEST(ListInputs, KeepsFilesThatALinkTellsApart) {
     EXPECT_EQ(list_inputs({linked, direct, plain, plain}).size(), 2U);
 }
 
+TEST(ListInputs, KeepsFilesBehindLinksThatLeadNowhere) {
+    namespace fs = std::filesystem;
+    const test::ScratchFolder scratch;
+    for (const char* name : {"first", "second"}) {
+        fs::create_symlink(name, scratch.path() / name);  // a link to itself
+    }
+    const std::string first = (scratch.path() / "first" / "a.obj").string();
+    const std::string second = (scratch.path() / "second" / "a.obj").string();
+    EXPECT_EQ(list_inputs({first, second, first}).size(), 2U);
+}
+
 }  // namespace
 }  // namespace cdprep::cli
