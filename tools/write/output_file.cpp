@@ -42,12 +42,14 @@ bool is_replaceable(const std::filesystem::path& target) {
     return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
 }
 
-/// Opens and locks one temporary; returns -1 and sets errno if it cannot. The lock is on the
-/// inode. After locking we therefore test that the name still leads to the inode: another
-/// writer may just have renamed or removed it.
+/// Opens and locks one temporary; returns -1 and sets errno if it cannot. A link of that name is
+/// not followed: what it leads to is somebody else's file. The lock is on the inode. After locking
+/// we therefore test that the name still leads to the inode: another writer may just have renamed
+/// or removed it.
 int open_locked(const std::filesystem::path& temporary) {
     while (true) {
-        const int descriptor = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        const int descriptor =
+            ::open(temporary.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (descriptor < 0) return -1;
         struct stat ours {};
         struct stat named {};
@@ -168,7 +170,8 @@ Result<OutputFile> OutputFile::create(const std::filesystem::path& wanted, Tempo
             if (::ftruncate(descriptor, 0) != 0) return file.failed("cannot be truncated");
             return file;
         }
-        if (errno != EWOULDBLOCK) {
+        const bool is_taken = errno == EWOULDBLOCK || errno == ELOOP;  // ELOOP: by a link
+        if (!is_taken) {
             return unwritable(target, why_not_created(target, errno));
         }
     }

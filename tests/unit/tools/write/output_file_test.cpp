@@ -171,6 +171,18 @@ TEST_P(OutputFileOf, ATemporaryThatIsBeingWrittenIsLeftAlone) {
     ::close(descriptor);
 }
 
+TEST_P(OutputFileOf, ALinkWithTheNameOfATemporaryIsNotFollowed) {
+    test::put_content(folder.file("precious"), "kept");
+    std::filesystem::create_symlink("precious", folder.file(".out.tmp"));
+    Result<OutputFile> file = create("out");
+    ASSERT_TRUE(file);
+    put(file.value(), "new");
+    ASSERT_TRUE(file.value().commit());
+    EXPECT_EQ(content_of(folder.file("precious")), "kept");
+    EXPECT_EQ(content_of(folder.file("out")), "new");
+    EXPECT_EQ(folder.names(), (std::set<std::string>{".out.tmp", "out", "precious"}));
+}
+
 TEST(WriteAll, WritesEveryFile) {
     const ScratchFolder folder;
     test::put_content(folder.file("b"), "old");
