@@ -219,6 +219,10 @@ def main():
         (["bake", ""], 2, ["the value is empty."]),
         *(([*pair, option, ""], 2, [f"{option}: the value is empty."])
           for option in ("--pose", "--poses", "--pose-a", "--pose-b")),
+        *((["query", "inside", model, "--points", folder / "points.ply", "--export", output], 2,
+           [f"{output} is an input or another output"])
+          for output in (folder / "points.ply", model)),
+        (["query", "inaccessible", model, "--export", model], 2, ["is an input or another output"]),
         *((["repair", *words], 2, ["cdprep repair: --output: the value is empty."])
           for words in (["--output=", folder / "sheet.off"], ["--output", "", folder / "sheet.off"],
                         [folder / "sheet.off", "--output="])),

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/open_for.h"
+#include "cli/output_path.h"
 #include "cli/program_threads.h"
 #include "command_line/command_page.h"
 #include "query/answer_report.h"
@@ -90,6 +91,9 @@ std::string inaccessible_text(const InaccessibleAnswer& answer, report::AnswerFo
 }
 
 Exit run(const InaccessibleArguments& arguments) {
+    if (const auto error = find_replaced_input(arguments.model, arguments.coloured)) {
+        return fail("query", *error);
+    }
     const Result<Model> opened = open_for(arguments.model, Ask::inaccessible);
     if (!opened) return fail("query", opened.error());
     const Model& model = opened.value();

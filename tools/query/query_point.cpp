@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "cdprep/cells/overlap_through.h"
 #include "cdprep/points.h"
 #include "cli/open_for.h"
+#include "cli/output_path.h"
 #include "cli/signals.h"
 #include "command_line/command_page.h"
 #include "query/command.h"
@@ -136,8 +138,18 @@ Exit export_places(const std::filesystem::path& path, const std::vector<Double3>
     return written ? Exit::success : fail("query", written.error());
 }
 
+/// Returns an error if the export would replace a file that is read.
+std::optional<Error> find_bad_export(const PointArguments& arguments) {
+    UsedFiles used;
+    used.add_input(arguments.model);
+    used.add_input(arguments.places);
+    const Result<Done> added = used.add_output(arguments.coloured);
+    return added ? std::nullopt : std::optional(added.error());
+}
+
 template <class Place>
 Exit run(const PointArguments& arguments, const PointQuestion<Place>& question) {
+    if (const auto error = find_bad_export(arguments)) return fail("query", *error);
     const Result<StructureOptions> through = parse_structure(arguments.structure);
     if (!through) return fail("query", through.error());
     const Structure structure = through.value().structure;

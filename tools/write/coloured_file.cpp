@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "write/coloured_file.h"
 
+#include <array>
 #include <optional>
 
 #include "write/mesh_bytes.h"
 #include "write/output_file.h"
+#include "write/own_file.h"
 
 namespace cdprep::write {
 namespace {
@@ -49,7 +51,7 @@ std::string coloured_ply(const MeshArrays& mesh, std::span<const Shade> shades,
 }
 
 std::string material_text(std::span<const Shade> shades) {
-    std::string text;
+    std::string text(kOwnLine);
     for (const Shade& shade : shades) {
         text += "newmtl " + shade.name + "\nKd";
         append_colour_text(text, shade);
@@ -84,9 +86,11 @@ Result<Done> write_coloured_mesh(const fs::path& path, const MeshArrays& mesh,
     }
     fs::path materials = path;
     materials.replace_extension(".mtl");
-    const Result<Done> written = write_whole(materials, material_text(shades));
-    if (!written) return written.error();
-    return write_whole(path, coloured_obj(materials, mesh, shades, shade_of));
+    if (const auto error = find_foreign(materials)) return *error;
+    const std::array<FileBytes, 2> files = {
+        {{materials, material_text(shades)},
+         {path, coloured_obj(materials, mesh, shades, shade_of)}}};
+    return write_all(files);
 }
 
 Result<Done> write_coloured_points(const fs::path& path, std::span<const format::Double3> points,

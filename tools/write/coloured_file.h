@@ -20,8 +20,8 @@ struct Shade {
 
 /// Writes a mesh with a colour per triangle: `shade_of[i]` is the number of triangle i's
 /// shade. PLY stores the colours as properties of the faces. OBJ names materials, which a
-/// second file of the same name with the extension .mtl defines. Other formats have no
-/// colours; they fail with `bad_argument`.
+/// second file of the same name with the extension .mtl defines. A file of that name that cdprep
+/// did not write stays; this fails with `bad_argument`. So do other formats, which have no colours.
 [[nodiscard]] Result<Done> write_coloured_mesh(const std::filesystem::path& path,
                                                const MeshArrays& mesh,
                                                std::span<const Shade> shades,

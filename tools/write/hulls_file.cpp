@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "write/hulls_text.h"
 #include "write/mesh_bytes.h"
 #include "write/output_file.h"
+#include "write/own_file.h"
 
 namespace cdprep::write {
 namespace {
@@ -74,26 +73,6 @@ std::string text_in(HullsFormat format, const RobotFile& file) {
             return mjcf_text(file);
     }
     return {};
-}
-
-/// The first line of the mesh files, by which a later run knows that it may replace them.
-constexpr std::string_view kOwnLine = "# written by cdprep\n";
-
-bool is_own(const fs::path& file) {
-    std::string begin(kOwnLine.size(), ' ');
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    return stream && begin == kOwnLine;
-}
-
-/// No argument names the mesh files, so one that somebody else wrote must stay.
-std::optional<Error> find_foreign(const fs::path& file) {
-    std::error_code unknown;
-    if (!fs::is_regular_file(file, unknown) || is_own(file)) return std::nullopt;
-    return Error{ErrorCode::bad_argument,
-                 file.string() +
-                     ": would be replaced, but cdprep did not write it. Choose another output, or "
-                     "remove it."};
 }
 
 std::string own(std::string text) {

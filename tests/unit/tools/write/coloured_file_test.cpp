@@ -63,7 +63,8 @@ TEST(ColouredFile, ObjNamesMaterials) {
     ASSERT_TRUE(
         write_coloured_mesh(folder.path() / "cube.obj", cube.arrays(), kShades, cube.shade_of));
     EXPECT_EQ(text_of(folder.path() / "cube.mtl"),
-              "newmtl free\nKd 0.78431374 0.78431374 0.78431374\nnewmtl hidden\nKd 1 0 0.2\n");
+              "# written by cdprep\nnewmtl free\nKd 0.78431374 0.78431374 0.78431374\nnewmtl "
+              "hidden\nKd 1 0 0.2\n");
     const std::string text = text_of(folder.path() / "cube.obj");
     EXPECT_EQ(text.substr(0, 16), "mtllib cube.mtl\n");
     const auto read = import::import_file(folder.path() / "cube.obj", {});
@@ -71,6 +72,25 @@ TEST(ColouredFile, ObjNamesMaterials) {
     EXPECT_EQ(read.value().triangles.size(), 12U);
     EXPECT_EQ(read.value().materials.names, (std::vector<std::string>{"free", "hidden"}));
     EXPECT_EQ(read.value().materials.runs[1].triangle_count, 2U);
+}
+
+// No argument names the file of the materials.
+TEST(ColouredFile, MaterialsOfOthersStay) {
+    const test::ScratchFolder folder;
+    const Cube cube;
+    const auto write = [&] {
+        return write_coloured_mesh(folder.path() / "cube.obj", cube.arrays(), kShades,
+                                   cube.shade_of);
+    };
+    ASSERT_TRUE(write());
+    ASSERT_TRUE(write()) << "its own file is replaced";
+    std::filesystem::remove(folder.path() / "cube.obj");
+    std::ofstream(folder.path() / "cube.mtl") << "newmtl stone\n";
+    const Result<Done> again = write();
+    ASSERT_FALSE(again);
+    EXPECT_EQ(again.error().code, ErrorCode::bad_argument);
+    EXPECT_EQ(text_of(folder.path() / "cube.mtl"), "newmtl stone\n");
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "cube.obj"));
 }
 
 TEST(ColouredFile, PointsHaveTheirColours) {
