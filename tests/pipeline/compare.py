@@ -153,6 +153,17 @@ def check_poses(program, meshes, folder):
     text = run(program, *models, "--quick", "--tables", "4", "--poses", folder / "poses").stdout
     assert f"15 poses of {path}, hash {drawn['hash']}" in text, text[:2000]
 
+    # Neither the poses that were read nor the report are replaced.
+    before = path.read_bytes()
+    kept = run(program, *models, "--quick", "--tables", "4", "--poses", folder / "poses",
+               "--save-poses", folder / "poses")
+    assert kept.returncode == 2 and "Choose another folder." in kept.stderr, kept
+    kept = run(program, *models, "--quick", "--tables", "4", "-o", path, "--save-poses",
+               folder / "poses")
+    assert kept.returncode == 2 and "another output" in kept.stderr, kept
+    assert "Table 4" in path.read_text(), path.read_text()[:200]
+    path.write_bytes(before)
+
     # Others' files need not tell of strata: what touches is deep.
     path.write_text("\n".join(line for line in lines if not line.startswith("#")) + "\n")
     bare = parsed(run(program, *models, "--quick", "--tables", "talk", "--poses", folder / "poses",

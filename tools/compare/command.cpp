@@ -78,7 +78,17 @@ Exit failed_with(const Arguments& arguments, const Error& error) {
     return fail("compare", error);
 }
 
+/// Returns an error if the folder for poses is the one that they are read from.
+std::optional<Error> find_replaced_poses(const Arguments& arguments) {
+    std::error_code missing;
+    if (!fs::equivalent(arguments.poses, arguments.options.poses, missing)) return std::nullopt;
+    return Error{ErrorCode::bad_argument, "--save-poses: " + arguments.poses.string() +
+                                              " has the poses that are read. Choose another "
+                                              "folder."};
+}
+
 Exit run(Arguments& arguments) {
+    if (const auto error = find_replaced_poses(arguments)) return fail("compare", *error);
     UsedFiles used;
     for (const fs::path& input : arguments.inputs) used.add_input(input);
     std::error_code unreadable;
@@ -106,7 +116,7 @@ Exit run(Arguments& arguments) {
     Result<Done> written = output.value().append(report_in(arguments.format, report));
     if (written) written = output.value().finish();
     if (written && !arguments.poses.empty()) {
-        written = write_pair_poses(arguments.poses, report.comparison);
+        written = write_pair_poses(arguments.poses, report.comparison, used);
     }
     if (!written) return fail("compare", written.error());
     if (exit != Exit::success) {

@@ -86,7 +86,13 @@ Result<std::vector<study::GivenPose>> read_pair_poses(const fs::path& path) {
     return poses;
 }
 
-Result<Done> write_pair_poses(const fs::path& folder, const study::Comparison& comparison) {
+Result<Done> write_pair_poses(const fs::path& folder, const study::Comparison& comparison,
+                              UsedFiles& used) {
+    for (const study::ComparedPair& pair : comparison.pairs) {
+        if (Result<Done> added = used.add_output(pose_path(folder, pair.a, pair.b)); !added) {
+            return added;
+        }
+    }
     std::error_code failed;
     fs::create_directories(folder, failed);
     if (failed) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cdprep/result.h"
+#include "cli/output_path.h"
 #include "compare/comparison.h"
 #include "study/pose_set.h"
 
@@ -24,8 +25,9 @@ namespace cdprep::cli {
     const std::filesystem::path& path);
 
 /// Writes such a file for every pair into a folder, which is created if necessary. The poses read
-/// back are the same to the last bit. Fails with `unwritable`.
+/// back are the same to the last bit. Fails with `unwritable`, or with `bad_argument` if a file is
+/// among those used.
 [[nodiscard]] Result<Done> write_pair_poses(const std::filesystem::path& folder,
-                                            const study::Comparison& comparison);
+                                            const study::Comparison& comparison, UsedFiles& used);
 
 }  // namespace cdprep::cli
