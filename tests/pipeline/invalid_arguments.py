@@ -317,9 +317,10 @@ def main():
     must(done.returncode == 130 and not done.stderr, f"a closed pipe exited {done}")
 
     # Answers that nobody can take.
-    with open("/dev/full", "w") as full:
-        done = subprocess.run([program, *map(str, pair)], stdout=full, stderr=subprocess.PIPE)
-    must(done.returncode == 4 and done.stderr, f"a full stdout exited {done.returncode}")
+    for words in (pair, ["--version"], ["bake", "--help"]):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([program, *map(str, words)], stdout=full, stderr=subprocess.PIPE)
+        must(done.returncode == 4 and done.stderr, f"{words}, stdout full: {done.returncode}")
     print(f"{len(cases)} commands")
 
 

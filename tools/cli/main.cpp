@@ -42,7 +42,8 @@ Exit run(int argc, char** argv) {
     });
     watch_for_interrupts();
     watch_for_lost_pages();
-    if (const std::optional<Exit> ended = program.parse(argc, argv)) return *ended;
+    // --help and --version print too, and end the parse.
+    if (const std::optional<Exit> ended = program.parse(argc, argv)) exit = *ended;
     end_by_itself();
     if (is_interrupted()) exit = Exit::interrupted;
     const bool is_written = static_cast<bool>(std::cout.flush());
