@@ -2,11 +2,12 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
-#include <set>
 
+#include "repair/mesh_meetings.h"
 #include "repair/ray_along_x.h"
 #include "repair/repair_steps.h"
 #include "repair/stored_verdict.h"
+#include "repair/test_points.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -37,9 +38,9 @@ bool contains(const ComponentBox& outer, const ComponentBox& inner) {
            outer.upper.y >= inner.upper.y && outer.upper.z >= inner.upper.z;
 }
 
-/// Returns whether p lies inside the component: an odd winding number. Nothing on its surface.
-std::optional<bool> is_within(const RepairMesh& mesh, const StoredComponent& component,
-                              const Double3& p) {
+/// Returns the winding number of a component at p; nothing on its surface.
+std::optional<int> number_at(const RepairMesh& mesh, const StoredComponent& component,
+                             const Double3& p) {
     int winding = 0;
     for (const std::uint32_t t : component.triangles) {
         const auto& v = mesh.triangles[t].vertex;
@@ -48,21 +49,63 @@ std::optional<bool> is_within(const RepairMesh& mesh, const StoredComponent& com
         if (term.on_surface) return std::nullopt;
         winding += term.crossings;
     }
-    return winding % 2 != 0;
+    return winding;
 }
 
-/// Returns whether the first vertex of `inner` off the surface of `outer` lies inside `outer`.
-/// False if there is none.
-bool is_within(const RepairMesh& mesh, const StoredComponent& outer, const StoredComponent& inner) {
-    std::set<std::uint32_t> tested;
-    for (const std::uint32_t t : inner.triangles) {
-        for (const std::uint32_t vertex : mesh.triangles[t].vertex) {
-            if (!tested.insert(vertex).second) continue;
-            if (const auto within = is_within(mesh, outer, mesh.positions[vertex])) return *within;
+/// Returns whether the first point of `inner` off the surface of `outer` lies inside `outer`: at
+/// an odd winding number. Nothing if all points tested lie on the surface.
+std::optional<bool> is_within(const RepairMesh& mesh, const StoredComponent& outer,
+                              const StoredComponent& inner) {
+    const auto number =
+        find_number_at_part(mesh.positions, mesh.triangles, inner.triangles,
+                            [&](const Double3& p) { return number_at(mesh, outer, p); }, {});
+    if (!number) return std::nullopt;
+    return *number % 2 != 0;
+}
+
+/// Decides which components of negative volume are cavities.
+class Cavities {
+public:
+    Cavities(const RepairMesh& mesh, const std::vector<StoredComponent>& components)
+        : mesh_(mesh), components_(components) {
+        for (const StoredComponent& component : components) {
+            boxes_.push_back(box_of(mesh, component));
         }
     }
-    return false;
-}
+
+    /// Returns whether the component lies within an odd number of others. Nothing if it touches
+    /// one of them at every point tested; then reports a refusal.
+    std::optional<bool> is_cavity(std::size_t i, StepReport& report) const {
+        bool is_odd = false;
+        for (std::size_t j = 0; j < components_.size(); ++j) {
+            if (j == i || !components_[j].balanced || !contains(boxes_[j], boxes_[i])) continue;
+            const auto within = is_within(mesh_, components_[j], components_[i]);
+            if (!within) {
+                report.refused.push_back(refusal(components_[i], components_[j]));
+                return std::nullopt;
+            }
+            is_odd = is_odd != *within;
+        }
+        return is_odd;
+    }
+
+private:
+    [[nodiscard]] Refusal refusal(const StoredComponent& inner,
+                                  const StoredComponent& outer) const {
+        const std::uint32_t t = inner.triangles[0], u = outer.triangles[0];
+        Refusal refusal;
+        refusal.sentence = "the component of " + triangle_in_words(mesh_, t) + " touches that of " +
+                           triangle_in_words(mesh_, u) +
+                           " at every point that was tested, so it may be a cavity.";
+        refusal.triangles = {mesh_.triangle_origin[t].source, mesh_.triangle_origin[u].source};
+        refusal.position = mesh_.positions[mesh_.triangles[t].vertex[0]];
+        return refusal;
+    }
+
+    const RepairMesh& mesh_;
+    const std::vector<StoredComponent>& components_;
+    std::vector<ComponentBox> boxes_;
+};
 
 }  // namespace
 
@@ -70,19 +113,13 @@ Stepped orient_outward(RepairMesh mesh) {
     StepReport report(RepairStep::orient_outward);
     const std::vector<StoredComponent> components =
         find_stored_components(mesh.positions, mesh.triangles);
-    std::vector<ComponentBox> boxes;
-    boxes.reserve(components.size());
-    for (const StoredComponent& component : components) boxes.push_back(box_of(mesh, component));
+    const Cavities cavities(mesh, components);
     std::vector<std::size_t> turned;
     for (std::size_t i = 0; i < components.size(); ++i) {
         const StoredComponent& component = components[i];
         if (!component.balanced || !(component.volume < -component.volume_error)) continue;
-        std::size_t around = 0;
-        for (std::size_t j = 0; j < components.size(); ++j) {
-            if (j == i || !components[j].balanced || !contains(boxes[j], boxes[i])) continue;
-            if (is_within(mesh, components[j], component)) ++around;
-        }
-        if (around % 2 == 0) turned.push_back(i);  // an odd number: a cavity, already wound as one
+        const std::optional<bool> is_cavity = cavities.is_cavity(i, report);
+        if (is_cavity && !*is_cavity) turned.push_back(i);  // a cavity is already wound as one
     }
     for (const std::size_t i : turned) {
         for (const std::uint32_t t : components[i].triangles) {

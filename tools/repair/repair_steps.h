@@ -69,7 +69,8 @@ struct HoleLimits {
                                  const SearchOptions& search);
 
 /// Reverses balanced components of negative volume, except cavities. A cavity lies within an odd
-/// number of other balanced components, by its box and its first vertex off the other's surface.
+/// number of other balanced components, by its box and its first point off the other's surface.
+/// Refuses to reverse a component that touches another at every point tested.
 [[nodiscard]] Stepped orient_outward(RepairMesh mesh);
 
 /// Keeps the boundary of the solid. Cuts triangles where they cross, touch or overlap. Keeps

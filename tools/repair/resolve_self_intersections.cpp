@@ -5,7 +5,6 @@
 #include <deque>
 #include <limits>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "cdprep/exact/predicates.h"
@@ -14,11 +13,10 @@
 #include "repair/ray_along_x.h"
 #include "repair/repair_steps.h"
 #include "repair/stored_verdict.h"
+#include "repair/test_points.h"
 
 namespace cdprep::mesh {
 namespace {
-
-constexpr std::size_t kMostTestPoints = 256;  ///< per part, to find one off the others
 
 /// One triangle for all with the same corners. The count is the number of those with its winding
 /// minus the number of the others.
@@ -58,19 +56,6 @@ std::vector<Facet> join_facets(const std::vector<Triangle>& triangles) {
         facets.back().count += keys[i].turned ? -1 : 1;
     }
     return facets;
-}
-
-/// Returns the middle of two numbers; nothing if it is no double.
-std::optional<double> exact_middle(double a, double b) {
-    const double sum = a + b, part = sum - a;
-    const double error = (a - (sum - part)) + (b - part);
-    if (error != 0 || 2 * (sum / 2) != sum) return std::nullopt;  // also if it overflows
-    return sum / 2;
-}
-std::optional<Double3> exact_middle(const Double3& a, const Double3& b) {
-    const auto x = exact_middle(a.x, b.x), y = exact_middle(a.y, b.y), z = exact_middle(a.z, b.z);
-    if (!x || !y || !z) return std::nullopt;
-    return Double3{*x, *y, *z};
 }
 
 /// The winding numbers on both sides of every facet of a mesh without crossings.
@@ -239,25 +224,8 @@ private:
     std::optional<int> number_of_others(const std::vector<std::uint32_t>& part,
                                         const StopCheck& stop) {
         const std::uint32_t own = parts_.lowest(part[0]);
-        std::set<std::uint32_t> tested;
-        for (const std::uint32_t f : part) {
-            for (const std::uint32_t vertex : triangles_[f].vertex) {
-                if (tested.size() == kMostTestPoints || is_stopped(stop)) break;
-                if (!tested.insert(vertex).second) continue;
-                if (const auto number = number_at(positions_[vertex], own)) return number;
-            }
-        }
-        std::size_t left = kMostTestPoints;
-        for (const std::uint32_t f : part) {
-            for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
-                const auto middle = exact_middle(positions_[start_of(triangles_, h)],
-                                                 positions_[end_of(triangles_, h)]);
-                if (!middle) continue;
-                if (left-- == 0 || is_stopped(stop)) return std::nullopt;
-                if (const auto number = number_at(*middle, own)) return number;
-            }
-        }
-        return std::nullopt;
+        const auto number = [&](const Double3& p) { return number_at(p, own); };
+        return find_number_at_part(positions_, triangles_, part, number, stop);
     }
 
     std::optional<int> number_at(const Double3& p, std::uint32_t own) {

@@ -31,6 +31,38 @@ TEST(OrientOutward, ACavityThatTouchesTheOuterWallStaysInsideOut) {
     }
 }
 
+/// The cube from 0 to 1, and inside out a box through it with square ends on two of its sides.
+TestMesh with_tunnel(double from, double to) {
+    TestMesh tunnel = test::unit_cube();
+    for (Double3& p : tunnel.positions) {
+        p.y = from + p.y * (to - from);
+        p.z = from + p.z * (to - from);
+    }
+    return test::joined(test::unit_cube(), test::reversed(tunnel));
+}
+
+// Only the middles of edges tell that it lies inside.
+TEST(OrientOutward, ACavityWhoseVerticesAllLieOnTheOuterWallStaysInsideOut) {
+    const TestMesh mesh = with_tunnel(0.251, 0.751);
+    const Stepped done = orient_outward(test::repair_mesh_of(mesh));
+    EXPECT_TRUE(done.report.reversed.empty());
+    EXPECT_TRUE(done.report.refused.empty());
+    EXPECT_EQ(done.mesh.triangles, mesh.triangles);
+}
+
+TEST(OrientOutward, AComponentThatTouchesAnotherAtEveryPointIsRefused) {
+    const TestMesh mesh = with_tunnel(0, 1);
+    const Stepped done = orient_outward(test::repair_mesh_of(mesh));
+    EXPECT_TRUE(done.report.reversed.empty());
+    EXPECT_EQ(done.mesh.triangles, mesh.triangles);
+    ASSERT_EQ(done.report.refused.size(), 1U);
+    const Refusal& refusal = done.report.refused[0];
+    EXPECT_EQ(refusal.sentence,
+              "the component of triangle 12 touches that of triangle 0 at every point that was "
+              "tested, so it may be a cavity.");
+    EXPECT_EQ(refusal.triangles, (std::vector<std::uint32_t>{12, 0}));
+}
+
 // Its box fills that of the other, and it lies outside.
 TEST(OrientOutward, APartOutsideAnotherOfTheSameBoxIsTurned) {
     TestMesh corner;
