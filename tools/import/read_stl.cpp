@@ -95,7 +95,7 @@ const char* find_word(std::string_view lower, const char* at, const char* end) n
 class StlChunkReader {
 public:
     StlChunkReader(std::string_view text, PolygonChunk& chunk)
-        : chunk_(chunk), at_(text.data()), end_(at_ + text.size()) {
+        : chunk_(chunk), at_(text.data()), end_(at_ + text.size()), line_end_(at_) {
         chunk_.positions.reserve(text.size() / 60);
     }
 
@@ -185,11 +185,18 @@ private:
         return true;
     }
 
+    /// Returns the start of the line after that of at_. It is stored, because any number of solids
+    /// may share a line.
+    [[nodiscard]] const char* end_of_line() {
+        if (at_ >= line_end_) line_end_ = next_line(at_, end_);
+        return line_end_;
+    }
+
     /// Returns the end of a solid's name at at_: the end of the line, or the first facet if a whole
     /// facet follows on the line. Names may have any words, and some files any number of solids on
     /// a line.
-    [[nodiscard]] const char* end_of_name() const {
-        const char* const line_end = next_line(at_, end_);
+    [[nodiscard]] const char* end_of_name() {
+        const char* const line_end = end_of_line();
         const char* facet = line_end;
         bool has_vertex = false;
         for (const char* at = skip_space(at_, line_end); at < line_end;) {
@@ -218,7 +225,7 @@ private:
     void end_solid() {
         saw_end_ = true;
         const char* const name_end = end_of_name();
-        const bool is_whole_line = name_end == next_line(at_, end_);
+        const bool is_whole_line = name_end == end_of_line();
         at_ = is_whole_line ? name_end : find_word("solid", at_, name_end);
     }
 
@@ -233,6 +240,7 @@ private:
     PolygonChunk& chunk_;
     const char* at_;
     const char* end_;
+    const char* line_end_;  ///< of the last line asked for
     const char* open_facet_ = nullptr;
     std::size_t first_vertex_ = 0;
     bool saw_end_ = false;

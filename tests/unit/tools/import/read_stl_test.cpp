@@ -150,6 +150,19 @@ TEST(ReadStl, SolidsMayShareALine) {
     }
 }
 
+// If each solid looked for the end of the line, this would take minutes.
+TEST(ReadStl, ALineMayHaveManySolids) {
+    constexpr std::size_t kSolids = 40'000;
+    std::string text;
+    for (std::size_t i = 0; i < kSolids; ++i) {
+        text += (i % 2 == 0 ? "solid a " : "solid b ") + facet_at(0) + " endsolid ";
+    }
+    text += std::string(std::size_t{32} << 20, ' ');
+    const TriangleSoup s = kStlReader.soup(text);
+    EXPECT_EQ(s.triangles.size(), kSolids);
+    EXPECT_EQ(s.groups.runs.size(), kSolids);
+}
+
 TEST(ReadStl, NamesMayHaveAnyWords) {
     for (const std::string name : {"vertex 1 2", "facet", "my facet normal", "solid endsolid",
                                    "facet endfacet", "endfacet facet vertex 1", "solid solid"}) {
