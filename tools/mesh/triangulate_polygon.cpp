@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <set>
+#include <optional>
+#include <utility>
 
 #include "cdprep/exact/predicates.h"
+#include "mesh/half_edges.h"
 
 // Libraries serve fewer outlines: earcut decides by rounded numbers, and CGAL's constrained
 // triangulation makes one corner of those with equal positions.
@@ -196,12 +198,105 @@ private:
     std::vector<FlatBox> boxes_;  ///< node i has the children 2i and 2i + 1; the root is 1
 };
 
+/// A set of corners. Each bit above the first level says whether a word below has any bits.
+class CornerSet {
+public:
+    explicit CornerSet(std::size_t corners) {
+        do {
+            corners = (corners + kBits - 1) / kBits;
+            levels_.emplace_back(corners, 0);
+        } while (corners > 1);
+    }
+
+    void insert(std::size_t corner) {
+        for (Level& level : levels_) {
+            level[corner / kBits] |= bit_of(corner);
+            corner /= kBits;
+        }
+    }
+
+    void erase(std::size_t corner) {
+        for (Level& level : levels_) {
+            if ((level[corner / kBits] &= ~bit_of(corner)) != 0) return;
+            corner /= kBits;
+        }
+    }
+
+    /// Returns the first corner from `corner` on, else the first of all; nothing if empty.
+    [[nodiscard]] std::optional<std::uint32_t> first_from(std::uint32_t corner) const {
+        const auto found = first_at_least(corner);
+        return found ? found : first_at_least(0);
+    }
+
+private:
+    using Level = std::vector<std::uint64_t>;
+    static constexpr std::size_t kBits = 64;
+
+    static std::uint64_t bit_of(std::size_t i) {
+        return std::uint64_t{1} << i % kBits;
+    }
+
+    [[nodiscard]] std::optional<std::uint32_t> first_at_least(std::size_t at) const {
+        for (std::size_t i = 0; i < levels_.size(); ++i, at = at / kBits + 1) {
+            if (at / kBits >= levels_[i].size()) return std::nullopt;
+            const std::uint64_t later = levels_[i][at / kBits] >> at % kBits;
+            if (later == 0) continue;
+            at += static_cast<std::size_t>(std::countr_zero(later));
+            while (i-- > 0) {
+                at = kBits * at + static_cast<std::size_t>(std::countr_zero(levels_[i][at]));
+            }
+            return static_cast<std::uint32_t>(at);
+        }
+        return std::nullopt;
+    }
+
+    std::vector<Level> levels_;
+};
+
+/// Corners that are no ears, by an edge that prevents it.
+class BlockedCorners {
+public:
+    explicit BlockedCorners(std::size_t edges) : first_(edges, kNone) {}
+
+    void add(std::uint32_t edge, std::uint32_t corner) {
+        if (free_ == kNone) {
+            free_ = static_cast<std::uint32_t>(entries_.size());
+            entries_.push_back({kNone, kNone});
+        }
+        const std::uint32_t entry = std::exchange(free_, entries_[free_].next);
+        entries_[entry] = {corner, std::exchange(first_[edge], entry)};
+    }
+
+    /// Removes the corners of an edge, and calls `take` with each.
+    template <class Take>
+    void release(std::uint32_t edge, Take&& take) {
+        for (std::uint32_t i = std::exchange(first_[edge], kNone); i != kNone;) {
+            take(entries_[i].corner);
+            const std::uint32_t next = std::exchange(entries_[i].next, free_);
+            free_ = std::exchange(i, next);
+        }
+    }
+
+private:
+    struct Entry {
+        std::uint32_t corner;
+        std::uint32_t next;
+    };
+
+    std::vector<std::uint32_t> first_;  ///< the first entry of each edge
+    std::vector<Entry> entries_;
+    std::uint32_t free_ = kNone;  ///< the first unused entry
+};
+
 /// Clips ears off a weakly simple polygon that runs counter-clockwise.
 ///
 /// An ear is a left turn whose triangle no other edge enters. Ears whose cut passes through a
 /// third corner come last: clipping them may leave collinear corners. Spikes (paths that turn
 /// back on themselves) and repeated positions come first, as triangles without area: an ear
 /// beside a spike might lie outside.
+///
+/// A corner that is no ear is not tested again before a change could make it one. Else outlines
+/// whose ears appear against the order of corners would take quadratic time.
 class EarClipper {
 public:
     EarClipper(std::span<const Double2> flat, std::vector<Corners>& triangles,
@@ -211,7 +306,10 @@ public:
           triangles_(triangles),
           next_(flat.size()),
           previous_(flat.size()),
-          edges_(flat) {
+          edges_(flat),
+          spikes_(flat.size()),
+          clear_(Cut::clear, flat.size()),
+          any_(Cut::any, flat.size()) {
         const auto n = static_cast<std::uint32_t>(flat.size());
         for (std::uint32_t i = 0; i < n; ++i) {
             next_[i] = (i + 1) % n;
@@ -219,15 +317,16 @@ public:
         }
         left_ = n;
         for (std::uint32_t i = 0; i < n; ++i) {
-            if (is_spike(i)) spikes_.insert(spikes_.end(), i);
+            clear_.candidates.insert(i);
+            any_.candidates.insert(i);
+            if (is_spike(i)) spikes_.insert(i);
         }
     }
 
     PolygonCut run() {
         while (left_ > 3) {
             if (clip_spike()) continue;
-            if (clip_first([this](std::uint32_t i) { return is_ear(i, Cut::clear); })) continue;
-            if (clip_first([this](std::uint32_t i) { return is_ear(i, Cut::any); })) continue;
+            if (clip_ear(clear_) || clip_ear(any_)) continue;
             force_rest();
             return steps_ > max_steps_ ? PolygonCut::unfinished : PolygonCut::forced;
         }
@@ -238,23 +337,31 @@ public:
 private:
     enum class Cut : std::uint8_t { clear, any };
 
+    /// The search for ears with a kind of cut.
+    struct Search {
+        Search(Cut kind, std::size_t corners) : cut(kind), candidates(corners), blocked(corners) {}
+
+        Cut cut;
+        CornerSet candidates;  ///< all other corners are no ears
+        BlockedCorners blocked;
+    };
+
     /// Clips the first spike, starting after the last clipped corner.
     bool clip_spike() {
-        if (spikes_.empty()) return false;
-        const auto found = spikes_.lower_bound(at_);
-        clip(found == spikes_.end() ? *spikes_.begin() : *found);
-        return true;
+        const auto found = spikes_.first_from(at_);
+        if (found) clip(*found);
+        return found.has_value();
     }
 
-    /// Clips the first suitable corner, starting after the last clipped one.
-    template <class Test>
-    bool clip_first(Test&& may_go) {
-        std::uint32_t corner = at_;
-        for (std::uint32_t tried = 0; tried < left_; ++tried, corner = next_[corner]) {
+    /// Clips the first ear, starting after the last clipped corner.
+    bool clip_ear(Search& search) {
+        while (const auto corner = search.candidates.first_from(at_)) {
             if (steps_ > max_steps_) return false;
-            if (!may_go(corner)) continue;
-            clip(corner);
-            return true;
+            if (is_ear(*corner, search)) {
+                clip(*corner);
+                return true;
+            }
+            search.candidates.erase(*corner);
         }
         return false;
     }
@@ -265,10 +372,13 @@ private:
         triangles_.push_back({before, corner, after});
         next_[before] = after;
         previous_[after] = before;
+        next_[corner] = corner;
         at_ = after;
         --left_;
         edges_.set(corner, kNothing);
         edges_.set(before, box_of(flat_[before], flat_[after]));
+        update(clear_, before, corner, after);
+        update(any_, before, corner, after);
         // A spike depends on its two neighbours only.
         spikes_.erase(corner);
         for (const std::uint32_t i : {before, after}) {
@@ -278,6 +388,22 @@ private:
                 spikes_.erase(i);
             }
         }
+    }
+
+    /// Adds the corners that may be ears now that `corner` is clipped. Its two edges are gone.
+    void update(Search& search, std::uint32_t before, std::uint32_t corner, std::uint32_t after) {
+        for (const std::uint32_t edge : {before, corner}) {
+            search.blocked.release(edge, [&](std::uint32_t i) {
+                if (!is_clipped(i)) search.candidates.insert(i);
+            });
+        }
+        search.candidates.erase(corner);
+        search.candidates.insert(before);
+        search.candidates.insert(after);
+    }
+
+    [[nodiscard]] bool is_clipped(std::uint32_t i) const {
+        return next_[i] == i;
     }
 
     [[nodiscard]] int turn(std::uint32_t i) const {
@@ -292,7 +418,7 @@ private:
         return turn(i) == 0 && !is_between(before, flat_[i], after);
     }
 
-    bool is_ear(std::uint32_t i, Cut cut) {
+    bool is_ear(std::uint32_t i, Search& search) {
         ++steps_;
         if (turn(i) <= 0) return false;
         const Ear ear{flat_[previous_[i]], flat_[i], flat_[next_[i]]};
@@ -301,11 +427,17 @@ private:
                           {std::max(first.upper.x, ear.c.x), std::max(first.upper.y, ear.c.y)}};
         const auto may = [&](const FlatBox& of_edges) { return may_matter(ear, box, of_edges); };
         return !edges_.any(steps_, may, [&](std::uint32_t edge) {
-            const Double2& from = flat_[edge];
-            if (enters(ear, from, flat_[next_[edge]])) return true;
-            return cut == Cut::clear && is_between(ear.a, from, ear.c) &&
-                   exact::orient2d(ear.a, from, ear.c) == 0;
+            if (!prevents(ear, edge, search.cut)) return false;
+            search.blocked.add(edge, i);
+            return true;
         });
+    }
+
+    [[nodiscard]] bool prevents(const Ear& ear, std::uint32_t edge, Cut cut) const {
+        const Double2& from = flat_[edge];
+        if (enters(ear, from, flat_[next_[edge]])) return true;
+        return cut == Cut::clear && is_between(ear.a, from, ear.c) &&
+               exact::orient2d(ear.a, from, ear.c) == 0;
     }
 
     void force_rest() {
@@ -317,9 +449,10 @@ private:
     std::uint64_t max_steps_;
     std::span<const Double2> flat_;
     std::vector<Corners>& triangles_;
-    std::vector<std::uint32_t> next_, previous_;
+    std::vector<std::uint32_t> next_, previous_;  ///< the next of a clipped corner is itself
     EdgeTree edges_;
-    std::set<std::uint32_t> spikes_;
+    CornerSet spikes_;
+    Search clear_, any_;
     std::uint32_t at_ = 0;
     std::uint32_t left_ = 0;
     std::uint64_t steps_ = 0;

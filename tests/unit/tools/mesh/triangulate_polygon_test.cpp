@@ -215,6 +215,36 @@ TEST(TriangulatePolygon, AConcaveOutlineOfAHundredThousandCornersIsCut) {
     expect_ears(doubled);
 }
 
+/// A slot along an S: two half rings of radius 1 to 3 with fine inner and coarse outer walls.
+std::vector<Double3> s_slot(int fine) {
+    constexpr double kPi = 3.14159265358979323846;
+    std::vector<Double3> slot;
+    const auto add_arc = [&](double centre, double radius, double from, double to, int count) {
+        for (int i = 0; i < count; ++i) {
+            const double angle = from + (to - from) * i / count;
+            slot.push_back({centre + radius * std::cos(angle), radius * std::sin(angle), 0});
+        }
+    };
+    add_arc(0, 1, kPi, 0, fine);
+    add_arc(4, 3, kPi, 2 * kPi, 6);
+    slot.push_back({7, 0, 0});
+    add_arc(4, 1, 2 * kPi, kPi, fine);
+    add_arc(0, 3, 0, kPi, 6);
+    slot.push_back({-3, 0, 0});
+    return slot;
+}
+
+// In one of the directions, each ear is the corner before the last one.
+TEST(TriangulatePolygon, EarsMayAppearInEitherDirection) {
+    std::vector<Double3> slot = s_slot(2000);
+    for (int direction = 0; direction < 2; ++direction) {
+        std::vector<Corners> triangles;
+        EXPECT_EQ(triangulate_polygon(slot, triangles, 150 * slot.size()), PolygonCut::ears);
+        EXPECT_EQ(triangles.size(), slot.size() - 2);
+        std::reverse(slot.begin(), slot.end());
+    }
+}
+
 // Past the limit of steps the rest is a fan: hostile polygons end in time.
 TEST(TriangulatePolygon, AnOutlineThatTakesTooManyStepsIsUnfinished) {
     const std::vector<Double3> comb = in_plane_z(comb_of(1000));
