@@ -315,6 +315,13 @@ private:
                 std::to_string(count) + (count == 1 ? " mesh has" : " meshes have") +
                 " a skin or morph weights, which are not applied: vertices stay as stored.");
         }
+        if (const std::uint64_t count = arrays_.header.weightless_vertices; count > 0) {
+            soup.remarks.push_back(
+                std::to_string(count) +
+                (count == 1 ? " vertex of a skin has no joint weights: it follows its first joint."
+                            : " vertices of skins have no joint weights: they follow their first "
+                              "joints."));
+        }
         soup.metres_per_unit =
             std::isfinite(arrays_.header.metres_per_unit) && arrays_.header.metres_per_unit > 0
                 ? arrays_.header.metres_per_unit

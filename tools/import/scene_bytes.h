@@ -29,6 +29,8 @@ struct SceneHeader {
     std::uint64_t input_bytes;  ///< of all files opened
     /// Meshes with a skin or morph weights that were not applied.
     std::uint64_t unposed_meshes;
+    /// Vertices with a skin whose joint weights are all 0. They follow their first joint.
+    std::uint64_t weightless_vertices;
     // Arrays follow, in this order:
     std::uint64_t mesh_count;       ///< SceneMesh
     std::uint64_t node_count;       ///< SceneNode, parents before children, depth first
@@ -67,7 +69,7 @@ struct SceneNode {
     std::uint32_t is_posed;  ///< 1: its meshes are in the model's space, placed by a skin
 };
 
-static_assert(sizeof(SceneHeader) == 112 && std::is_trivially_copyable_v<SceneHeader>);
+static_assert(sizeof(SceneHeader) == 120 && std::is_trivially_copyable_v<SceneHeader>);
 static_assert(sizeof(SceneMesh) == 32 && std::is_trivially_copyable_v<SceneMesh>);
 static_assert(sizeof(SceneNode) == 144 && std::is_trivially_copyable_v<SceneNode>);
 

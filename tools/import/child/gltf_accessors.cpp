@@ -164,13 +164,23 @@ std::string GltfAccessors::read_buffer_file(const std::string& name) const {
     return read_bytes(*file, files_);
 }
 
+JsonValue GltfAccessors::find(std::uint64_t number) const {
+    const JsonValue accessor = root_["accessors"][number];
+    if (!accessor.exists()) fail("accessor " + std::to_string(number) + " does not exist");
+    return accessor;
+}
+
 /// Returns the accessor, which must have the type.
 JsonValue GltfAccessors::find(std::uint64_t number, std::string_view type) const {
-    const JsonValue accessor = root_["accessors"][number];
-    const std::string name = "accessor " + std::to_string(number);
-    if (!accessor.exists()) fail(name + " does not exist");
-    if (accessor["type"].text() != type) fail(name + " is not a " + std::string(type));
+    const JsonValue accessor = find(number);
+    if (accessor["type"].text() != type) {
+        fail("accessor " + std::to_string(number) + " is not a " + std::string(type));
+    }
     return accessor;
+}
+
+std::uint64_t GltfAccessors::count_of(std::uint64_t number) const {
+    return find(number)["count"].count("count", 0);
 }
 
 /// Finds the view of `name`, an accessor. Proves that it lies in its buffer.
@@ -221,7 +231,8 @@ GltfAccessors::Place GltfAccessors::find_elements(const std::string& name, JsonV
 }
 
 template <std::size_t Width>
-std::vector<std::array<double, Width>> GltfAccessors::read(std::uint64_t number) const {
+std::vector<std::array<double, Width>> GltfAccessors::read(std::uint64_t number,
+                                                           NoData no_data) const {
     const JsonValue accessor = find(number, type_of(Width));
     const std::string name = "accessor " + std::to_string(number);
     const std::uint64_t component = accessor["componentType"].count("componentType", 0);
@@ -229,7 +240,8 @@ std::vector<std::array<double, Width>> GltfAccessors::read(std::uint64_t number)
     const JsonValue sparse = accessor["sparse"];
     const bool normalized = accessor["normalized"].is_true();
     std::vector<std::array<double, Width>> elements;
-    if (accessor["bufferView"].exists() || !sparse.exists()) {
+    const bool may_lack_data = sparse.exists() || no_data == NoData::zeros;
+    if (accessor["bufferView"].exists() || !may_lack_data) {
         const Place all = find_elements(name, accessor, component, count, Width);
         elements.reserve(count);
         for (std::uint64_t i = 0; i < count; ++i) {
@@ -264,9 +276,9 @@ void GltfAccessors::replace_some(const std::string& name, JsonValue accessor,
     }
 }
 
-template std::vector<std::array<double, 3>> GltfAccessors::read<3>(std::uint64_t) const;
-template std::vector<std::array<double, 4>> GltfAccessors::read<4>(std::uint64_t) const;
-template std::vector<std::array<double, 16>> GltfAccessors::read<16>(std::uint64_t) const;
+template std::vector<std::array<double, 3>> GltfAccessors::read<3>(std::uint64_t, NoData) const;
+template std::vector<std::array<double, 4>> GltfAccessors::read<4>(std::uint64_t, NoData) const;
+template std::vector<std::array<double, 16>> GltfAccessors::read<16>(std::uint64_t, NoData) const;
 
 std::vector<std::uint32_t> GltfAccessors::read_indices(std::uint64_t number) const {
     const JsonValue accessor = find(number, "SCALAR");

@@ -27,6 +27,12 @@ template <class T>
     return value;
 }
 
+/// How to read an accessor without a buffer view that is not sparse either.
+enum class NoData : std::uint8_t {
+    refused,  ///< compressed meshes look like that
+    zeros,    ///< as glTF 2.0 defines it
+};
+
 /// The buffers of a glTF document, and the elements that its accessors find in them. All members
 /// throw std::runtime_error if the document contradicts itself; the message has the numbers.
 class GltfAccessors {
@@ -43,7 +49,11 @@ public:
     /// divided by their limit if they are normalized. A sparse accessor without a buffer view has
     /// zeros where it replaces nothing.
     template <std::size_t Width>
-    [[nodiscard]] std::vector<std::array<double, Width>> read(std::uint64_t number) const;
+    [[nodiscard]] std::vector<std::array<double, Width>> read(
+        std::uint64_t number, NoData no_data = NoData::refused) const;
+
+    /// Returns the number of elements that an accessor declares. Without data, it may be any.
+    [[nodiscard]] std::uint64_t count_of(std::uint64_t number) const;
 
     /// Returns the elements of an accessor of indices.
     [[nodiscard]] std::vector<std::uint32_t> read_indices(std::uint64_t number) const;
@@ -63,6 +73,7 @@ private:
     };
 
     [[nodiscard]] std::string read_buffer_file(const std::string& name) const;
+    [[nodiscard]] JsonValue find(std::uint64_t number) const;
     [[nodiscard]] JsonValue find(std::uint64_t number, std::string_view type) const;
     [[nodiscard]] View find_view(const std::string& name, std::uint64_t number) const;
     [[nodiscard]] Place find_elements(const std::string& name, JsonValue place,

@@ -324,8 +324,8 @@ private:
         for (std::size_t target = 0; target < weights.size(); ++target) {
             const JsonValue position = targets[target]["POSITION"];
             if (weights[target] == 0 || !position.exists()) continue;
-            const auto offsets =
-                read_attribute<3>(name, "morph target", position, mesh.vertices.size());
+            const auto offsets = read_attribute<3>(name, "morph target", position,
+                                                   mesh.vertices.size(), NoData::zeros);
             for (std::size_t i = 0; i < offsets.size(); ++i) {
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     mesh.vertices[i][axis] += weights[target] * offsets[i][axis];
@@ -338,14 +338,15 @@ private:
     template <std::size_t Width>
     [[nodiscard]] std::vector<std::array<double, Width>> read_attribute(
         const std::string& name, const std::string& attribute, JsonValue accessor,
-        std::size_t vertices) const {
+        std::size_t vertices, NoData no_data = NoData::refused) const {
         if (!accessor.exists()) fail(name + " has a skin, but no " + attribute);
-        auto elements = accessors_.read<Width>(accessor.count(attribute, 0));
-        if (elements.size() != vertices) {
+        const std::uint64_t number = accessor.count(attribute, 0);
+        // Checked first: elements without data would take memory for any count.
+        if (const std::uint64_t count = accessors_.count_of(number); count != vertices) {
             fail(name + " has " + std::to_string(vertices) + " vertices, but its " + attribute +
-                 " has " + std::to_string(elements.size()));
+                 " has " + std::to_string(count));
         }
-        return elements;
+        return accessors_.read<Width>(number, no_data);
     }
 
     // --- Skins -----------------------------------------------------------------------
@@ -398,40 +399,77 @@ private:
         return result;
     }
 
+    /// The sums of the places that joints give the vertices of a primitive, each times its weight.
+    struct Bent {
+        explicit Bent(std::size_t vertices)
+            : moved(vertices), sums(vertices), has_weights(vertices), first_joint(vertices) {}
+
+        std::vector<std::array<double, 3>> moved;
+        std::vector<double> sums;  ///< of the weights
+        std::vector<bool> has_weights;
+        std::vector<double> first_joint;  ///< the first number of JOINTS_0
+        bool all_mirror = true;
+
+        void follow(std::size_t vertex, const std::array<double, 3>& from, const Matrix& joint,
+                    double weight) {
+            const auto place = transformed(joint, from);
+            for (std::size_t i = 0; i < 3; ++i) moved[vertex][i] += weight * place[i];
+            sums[vertex] += weight;
+            has_weights[vertex] = true;
+            all_mirror = all_mirror && mirrors(joint);
+        }
+    };
+
     /// Moves each vertex to the weighted mean of the places that its joints give it. We divide by
     /// the sum of the weights, which is 1 only up to rounding. Faces are reversed if all joints
     /// mirror.
     void bend(const std::string& name, JsonValue attributes, const std::vector<Matrix>& joints,
-              Scene::Mesh& mesh) const {
-        std::vector<std::array<double, 3>> moved(mesh.vertices.size());
-        std::vector<double> sums(moved.size());
-        bool all_mirror = true;
+              Scene::Mesh& mesh) {
+        Bent bent(mesh.vertices.size());
         for (std::size_t set = 0; set == 0 || has_joints(attributes, set); ++set) {
-            const std::string numbers = "JOINTS_" + std::to_string(set);
-            const std::string weights = "WEIGHTS_" + std::to_string(set);
-            const auto number = read_attribute<4>(name, numbers, attributes[numbers], moved.size());
-            const auto weight = read_attribute<4>(name, weights, attributes[weights], moved.size());
-            for (std::size_t i = 0; i < 4 * moved.size(); ++i) {
-                const std::size_t vertex = i / 4;
-                const double w = weight[vertex][i % 4];
-                if (w == 0) continue;
-                const Matrix& joint = find_joint(name, number[vertex][i % 4], joints);
-                const auto place = transformed(joint, mesh.vertices[vertex]);
-                for (std::size_t axis = 0; axis < 3; ++axis) moved[vertex][axis] += w * place[axis];
-                sums[vertex] += w;
-                all_mirror = all_mirror && mirrors(joint);
-            }
+            follow_joints(name, attributes, set, joints, mesh, bent);
         }
-        for (std::size_t i = 0; i < moved.size(); ++i) {
-            if (!(sums[i] > 0)) {
+        follow_first_joints(name, joints, mesh, bent);
+        for (std::size_t i = 0; i < bent.moved.size(); ++i) {
+            if (!(bent.sums[i] > 0)) {
                 fail(name + " has joint weights at vertex " + std::to_string(i) +
                      " whose sum is not above 0; expected 1");
             }
-            for (double& x : moved[i]) x /= sums[i];
+            for (double& x : bent.moved[i]) x /= bent.sums[i];
         }
-        mesh.vertices = std::move(moved);
-        for (std::size_t i = 0; all_mirror && i < mesh.corners.size(); i += 3) {
+        mesh.vertices = std::move(bent.moved);
+        for (std::size_t i = 0; bent.all_mirror && i < mesh.corners.size(); i += 3) {
             std::swap(mesh.corners[i + 1], mesh.corners[i + 2]);
+        }
+    }
+
+    /// Adds the places by one set of four joints per vertex.
+    void follow_joints(const std::string& name, JsonValue attributes, std::size_t set,
+                       const std::vector<Matrix>& joints, const Scene::Mesh& mesh,
+                       Bent& bent) const {
+        const std::string numbers = "JOINTS_" + std::to_string(set);
+        const std::string weights = "WEIGHTS_" + std::to_string(set);
+        const std::size_t count = mesh.vertices.size();
+        const auto number = read_attribute<4>(name, numbers, attributes[numbers], count);
+        const auto weight = read_attribute<4>(name, weights, attributes[weights], count);
+        for (std::size_t i = 0; i < 4 * count; ++i) {
+            const std::size_t vertex = i / 4;
+            const double w = weight[vertex][i % 4];
+            if (set == 0 && i % 4 == 0) bent.first_joint[vertex] = number[vertex][0];
+            if (w == 0) continue;
+            bent.follow(vertex, mesh.vertices[vertex],
+                        find_joint(name, number[vertex][i % 4], joints), w);
+        }
+    }
+
+    /// Lets vertices whose weights are all 0 follow their first joint. They have no defined
+    /// place, and viewers such as three.js show them there.
+    void follow_first_joints(const std::string& name, const std::vector<Matrix>& joints,
+                             const Scene::Mesh& mesh, Bent& bent) {
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+            if (bent.has_weights[i]) continue;
+            bent.follow(i, mesh.vertices[i], find_joint(name, bent.first_joint[i], joints), 1);
+            ++scene_.weightless_vertices;
         }
     }
 

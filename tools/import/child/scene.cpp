@@ -65,6 +65,7 @@ SceneHeader describe(const Scene& scene, const InputFiles& files) {
     header.metres_per_unit = scene.metres_per_unit;
     header.input_bytes = files.bytes();
     header.unposed_meshes = scene.unposed_meshes;
+    header.weightless_vertices = scene.weightless_vertices;
     header.mesh_count = scene.meshes.size();
     header.node_count = scene.nodes.size();
     header.material_count = scene.materials.size();

@@ -35,7 +35,8 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Node> nodes;  ///< depth first
     std::vector<std::string> materials;
-    std::uint64_t unposed_meshes = 0;  ///< with a skin or morph weights that are not applied
+    std::uint64_t unposed_meshes = 0;       ///< with a skin or morph weights that are not applied
+    std::uint64_t weightless_vertices = 0;  ///< of skins: all their joint weights are 0
     double metres_per_unit = 0;
     format::UpAxis up_axis = format::UpAxis::unknown;
 };

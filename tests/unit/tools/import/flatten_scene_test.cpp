@@ -167,6 +167,18 @@ TEST(FlattenScene, MeshesThatAreNotPosedAreTold) {
                                         "applied: vertices stay as stored."}));
 }
 
+TEST(FlattenScene, VerticesWithoutJointWeightsAreTold) {
+    Bytes bytes({kTriangle}, {{"root", kNoParent, kIdentity, {0}}});
+    bytes.header.weightless_vertices = 1;
+    EXPECT_EQ(flatten(bytes.whole())->remarks,
+              (std::vector<std::string>{
+                  "1 vertex of a skin has no joint weights: it follows its first joint."}));
+    bytes.header.weightless_vertices = 3;
+    EXPECT_EQ(flatten(bytes.whole())->remarks,
+              (std::vector<std::string>{
+                  "3 vertices of skins have no joint weights: they follow their first joints."}));
+}
+
 // The same scene as parts: each node with its own place, geometry without it.
 TEST(PlacedScene, MeshNodesStayApart) {
     const MeshPart points = {{{0, 0, 0}}, {{0}}, 0};

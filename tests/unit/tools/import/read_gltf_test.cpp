@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -492,6 +493,34 @@ TEST_F(ReadGltf, EachNodeHasItsOwnWeights) {
     EXPECT_TRUE(read(document, MorphDocument::buffer())->single_precision);
 }
 
+// The second target has no data, which means zeros.
+TEST_F(ReadGltf, AMorphTargetWithoutDataMovesNothing) {
+    MorphDocument document;
+    document.mesh = R"(,"weights":[0.5,0.5])";
+    document.primitives = R"({"attributes":{"POSITION":0},"targets":[{"POSITION":1},)"
+                          R"({"POSITION":3}]})";
+    const std::string accessors = document.accessors;
+    const auto with_count = [&](const char* count) {
+        document.accessors =
+            accessors + R"(,{"componentType":5126,"type":"VEC3","count":)" + count + "}";
+        return document;
+    };
+    const auto soup = read(with_count("5"), MorphDocument::buffer());
+    ASSERT_TRUE(soup.ok()) << soup.error().message;
+    EXPECT_EQ(soup->positions[1], (Double3{6, 0, 0}));
+    EXPECT_EQ(soup->positions[4], (Double3{1, 5, 0.25}));
+    expect_refused(with_count("9007199254740992"),
+                   "has 5 vertices, but its morph target has 9007199254740992",
+                   MorphDocument::buffer());
+}
+
+// Compressed meshes have such positions, and are not read.
+TEST_F(ReadGltf, PositionsWithoutDataAreRefused) {
+    Document document;
+    document.accessors = R"({"componentType":5126,"count":5,"type":"VEC3"})";
+    expect_refused(document, "accessor 0 has no data");
+}
+
 TEST_F(ReadGltf, MorphTargetsThatDoNotFitAreNamed) {
     MorphDocument document;
     document.mesh = R"(,"weights":[0,0,0,1])";
@@ -609,10 +638,39 @@ TEST_F(ReadGltf, ASkinThatDoesNotFitIsNamed) {
     refused(R"(,"WEIGHTS_0":2)", "", "primitive 0 of mesh 0 has a skin, but no WEIGHTS_0");
     refused(R"(5121,"count":5)", R"(5121,"count":4)",
             "primitive 0 of mesh 0 has 5 vertices, but its JOINTS_0 has 4");
+}
+
+/// The buffer of a SkinDocument, with these weights at point 2 and none at point 4.
+std::string skin_with_weights(const std::vector<float>& weights) {
     std::string buffer = SkinDocument::buffer();
-    buffer.replace(80 + 16, 16, 16, '\0');
-    expect_refused(SkinDocument(), "has joint weights at vertex 1 whose sum is not above 0",
-                   buffer);
+    buffer.replace(80 + 2 * 16, 16, bytes_of(weights));
+    buffer.replace(80 + 4 * 16, 16, 16, '\0');
+    return buffer;
+}
+
+// The first joint of point 4 is 9, which does not exist, and then 0.
+TEST_F(ReadGltf, AVertexWithoutWeightsFollowsItsFirstJoint) {
+    std::string buffer = skin_with_weights({0, 0, 0, 0});
+    buffer.replace(60 + 16, 4, 4, '\0');
+    const auto soup = read(SkinDocument(), buffer);
+    ASSERT_TRUE(soup.ok()) << soup.error().message;
+    EXPECT_EQ(
+        soup->positions,
+        (std::vector<Double3>{{10, 0, 0}, {11, 20, 5}, {10, 1, 0}, {13, 2, 0}, {11, 5, 0.25}}));
+    EXPECT_EQ(soup->remarks,
+              (std::vector<std::string>{"2 vertices of skins have no joint weights: they follow "
+                                        "their first joints."}));
+    expect_refused(SkinDocument(), "uses joint 9, but its skin has 2 joints",
+                   skin_with_weights({0, 0, 0, 0}));
+}
+
+TEST_F(ReadGltf, JointWeightsWithoutAPositiveSumAreRefused) {
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    for (const std::vector<float>& weights : std::vector<std::vector<float>>{
+             {-1, 0.5f, 0, 0}, {-1, 1, 0, 0}, {kNaN, 0, 0, 0}, {1, kNaN, 0, 0}}) {
+        expect_refused(SkinDocument(), "has joint weights at vertex 2 whose sum is not above 0",
+                       skin_with_weights(weights).replace(60 + 16, 4, 4, '\0'));
+    }
 }
 
 TEST_F(ReadGltf, TextMayBeInAnotherEncodingAndDeepToALimit) {
