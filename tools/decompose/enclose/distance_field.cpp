@@ -16,6 +16,11 @@ using mesh::middle_of;
 // A number without a reason was chosen by trial: a finer field or more samples take more time.
 constexpr double kSampling = 0.4;    ///< of a spacing: sides of the last triangles
 constexpr double kCentreWay = 0.67;  ///< of the longest side: bound from centre to corner
+/// Of the longest side: the most that the sides at a cut may have. An exact middle needs 0.867. Far
+/// from 0, doubles along some axes may be coarser than the samples, and a middle is rounded to a
+/// corner there. The longest side might then never become shorter. Up to this share, it does after
+/// two cuts.
+constexpr double kMostAfterCut = 0.9;
 constexpr double kRounded = 1e-5;    ///< of a spacing: exceeds the rounding to float
 constexpr double kCoarser = 0.25;    ///< of a spacing: the step to a larger; halves the nodes
 constexpr double kTooLow = 0.35;     ///< of a spacing: a field is rarely lower than this
@@ -60,6 +65,15 @@ double interpolated(const GridPlace& place, const Node& node) {
     const double front = along_x(0, 0) + share[1] * (along_x(1, 0) - along_x(0, 0));
     const double back = along_x(0, 1) + share[1] * (along_x(1, 1) - along_x(0, 1));
     return front + share[2] * (back - front);
+}
+
+/// Returns the longest way from a point to a corner.
+double longest_way(const Double3& from, const std::array<Double3, 3>& corners) {
+    double longest = 0;
+    for (const Double3& corner : corners) {
+        longest = std::max(longest, mesh::euclidean_distance(from, corner));
+    }
+    return longest;
 }
 
 }  // namespace
@@ -270,8 +284,7 @@ void DistanceField::sample(std::array<Double3, 3> corners, Detail detail, Estima
     if (longest > ab)
         std::rotate(corners.begin(), corners.begin() + (longest == bc ? 1 : 2), corners.end());
     const Double3 cut = middle_of(corners[0], corners[1]);
-    // Far from 0, doubles may be coarser than the samples: the side has no number inside.
-    if (cut == corners[0] || cut == corners[1]) return;
+    if (longest_way(cut, corners) > kMostAfterCut * longest) return;
     sample({corners[0], cut, corners[2]}, detail, most);
     sample({cut, corners[1], corners[2]}, detail, most);
 }

@@ -55,8 +55,8 @@ public:
     [[nodiscard]] PointGroups nodes_beyond(double distance) const;
 
     /// Returns the greatest distance on the hull's surface if it exceeds `least`, else `least`
-    /// itself. Samples are about half a spacing apart, or as close as doubles permit. The same for
-    /// any `run`.
+    /// itself. Samples are about half a spacing apart, or farther where doubles are coarser. The
+    /// same for any `run`.
     [[nodiscard]] Estimate estimate(const ConvexHull& hull, double least, Detail detail,
                                     ParallelFor run = serial_for) const;
 
