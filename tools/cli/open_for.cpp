@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/open_for.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <system_error>
 
@@ -31,14 +33,24 @@ double unit_of(const Model& model) {
     return is_normalized ? 0 : model.header().metres_per_unit;
 }
 
-std::optional<Error> find_unlike_units(const std::filesystem::path& path_a, const Model& a,
-                                       const std::filesystem::path& path_b, const Model& b) {
-    const double unit_a = unit_of(a), unit_b = unit_of(b);
-    if (unit_a == 0 || unit_b == 0 || unit_a == unit_b) return std::nullopt;
+bool are_unlike_units(double unit_a, double unit_b) noexcept {
+    constexpr double kRounding = 1e-6;  // a float is right up to 6e-8
+    if (unit_a == 0 || unit_b == 0) return false;
+    return std::fabs(unit_a - unit_b) > kRounding * std::max(unit_a, unit_b);
+}
+
+std::optional<Error> find_unlike_units(const std::filesystem::path& path_a, double unit_a,
+                                       const std::filesystem::path& path_b, double unit_b) {
+    if (!are_unlike_units(unit_a, unit_b)) return std::nullopt;
     return Error{ErrorCode::bad_argument, path_a.string() + " is in " + report::unit_name(unit_a) +
                                               ", but " + path_b.string() + " is in " +
                                               report::unit_name(unit_b) +
                                               ". Convert one mesh, or bake both with one --unit."};
+}
+
+std::optional<Error> find_unlike_units(const std::filesystem::path& path_a, const Model& a,
+                                       const std::filesystem::path& path_b, const Model& b) {
+    return find_unlike_units(path_a, unit_of(a), path_b, unit_of(b));
 }
 
 }  // namespace cdprep::cli

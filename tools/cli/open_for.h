@@ -22,7 +22,17 @@ namespace cdprep::cli {
 /// --normalize.
 [[nodiscard]] double unit_of(const Model& model);
 
-/// Returns an error if the units of two models are known and differ: poses do not scale.
+/// Returns true if two lengths of units are known and differ by more than the rounding to floats,
+/// in which some formats store them.
+[[nodiscard]] bool are_unlike_units(double unit_a, double unit_b) noexcept;
+
+/// Returns an error if the units of two meshes are unlike: poses do not scale. Units are in metres.
+[[nodiscard]] std::optional<Error> find_unlike_units(const std::filesystem::path& path_a,
+                                                     double unit_a,
+                                                     const std::filesystem::path& path_b,
+                                                     double unit_b);
+
+/// As the overload for units, for two models.
 [[nodiscard]] std::optional<Error> find_unlike_units(const std::filesystem::path& path_a,
                                                      const Model& a,
                                                      const std::filesystem::path& path_b,

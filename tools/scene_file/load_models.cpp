@@ -210,7 +210,7 @@ private:
         const double unit = cli::unit_of(model);
         if (unit == 0) return std::nullopt;
         if (scene_.metres_per_unit == 0) return find_unlike_first(path, unit);
-        if (unit == scene_.metres_per_unit) return std::nullopt;
+        if (!cli::are_unlike_units(unit, scene_.metres_per_unit)) return std::nullopt;
         return Error{ErrorCode::bad_argument, scene_.name + ": " + path.string() + " is in " +
                                                   report::unit_name(unit) +
                                                   ", but the unit of the scene is " +
@@ -224,12 +224,9 @@ private:
             unit_ = unit;
             first_with_unit_ = path;
         }
-        if (unit == unit_) return std::nullopt;
-        return Error{ErrorCode::bad_argument,
-                     scene_.name + ": " + first_with_unit_.string() + " is in " +
-                         report::unit_name(unit_) + ", but " + path.string() + " is in " +
-                         report::unit_name(unit) +
-                         ". Convert one mesh, or bake both with one --unit."};
+        std::optional<Error> error = cli::find_unlike_units(first_with_unit_, unit_, path, unit);
+        if (error) error->message = scene_.name + ": " + error->message;
+        return error;
     }
 
     const SceneFile& scene_;

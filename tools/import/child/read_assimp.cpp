@@ -6,10 +6,12 @@
 #include <assimp/scene.h>
 
 #include <algorithm>
+#include <array>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
+#include <charconv>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -128,15 +130,25 @@ std::vector<Scene::Node> to_nodes(const aiNode* root) {
     return nodes;
 }
 
+/// Returns the number of the file that assimp rounded to a float, if it has few digits.
+double unrounded(float number) {
+    std::array<char, 32> digits{};
+    char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    double found = number;
+    std::from_chars(digits.data(), end, found);
+    return found;
+}
+
 /// Sets units and up axis, as far as assimp provides them.
 void describe_space(const aiMetadata& metadata, Scene& scene) {
-    constexpr double kMetresPerCentimetre = 0.01;  // the unit of FBX is a centimetre
+    // The unit of FBX is a centimetre. A product with 0.01 would be rounded once more.
+    constexpr double kCentimetresPerMetre = 100;
     float factor = 0;
     double exact_factor = 0;
     if (metadata.Get("UnitScaleFactor", exact_factor) && exact_factor > 0) {
-        scene.metres_per_unit = exact_factor * kMetresPerCentimetre;
+        scene.metres_per_unit = exact_factor / kCentimetresPerMetre;
     } else if (metadata.Get("UnitScaleFactor", factor) && factor > 0) {
-        scene.metres_per_unit = static_cast<double>(factor) * kMetresPerCentimetre;
+        scene.metres_per_unit = unrounded(factor) / kCentimetresPerMetre;
     }
     std::int32_t axis = 0;
     if (metadata.Get("UpAxis", axis) && axis >= 0 && axis <= 2) {

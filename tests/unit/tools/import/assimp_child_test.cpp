@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cdprep/format/checksum.h"
@@ -72,6 +73,34 @@ TEST_F(AssimpChild, ReadsASceneWithItsTransformsAndUnits) {
     EXPECT_EQ(s.metres_per_unit, 1);
     EXPECT_EQ(s.up_axis, format::UpAxis::y);
     EXPECT_FALSE(s.single_precision);
+}
+
+/// An FBX file of one triangle with a unit of so many centimetres.
+std::string fbx(const std::string& centimetres) {
+    return "; FBX 7.3.0 project file\n"
+           "FBXHeaderExtension: {\n FBXHeaderVersion: 1003\n FBXVersion: 7300\n}\n"
+           "GlobalSettings: {\n Version: 1000\n Properties70: {\n"
+           "  P: \"UnitScaleFactor\", \"double\", \"Number\", \"\"," +
+           centimetres +
+           "\n }\n}\nDefinitions: {\n Version: 100\n Count: 2\n"
+           " ObjectType: \"Model\" {\n  Count: 1\n }\n"
+           " ObjectType: \"Geometry\" {\n  Count: 1\n }\n}\n"
+           "Objects: {\n Geometry: 1000, \"Geometry::g\", \"Mesh\" {\n"
+           "  Vertices: *9 {\n   a: 0,0,0,1,0,0,0,1,0\n  }\n"
+           "  PolygonVertexIndex: *3 {\n   a: 0,1,-3\n  }\n  GeometryVersion: 124\n }\n"
+           " Model: 2000, \"Model::m\", \"Mesh\" {\n  Version: 232\n }\n}\n"
+           "Connections: {\n C: \"OO\",2000,0\n C: \"OO\",1000,2000\n}\n";
+}
+
+// assimp reads the unit as a float; these units are those of --unit, to the last bit.
+TEST_F(AssimpChild, UnitsOfFbxAreNotRoundedToFloats) {
+    const std::vector<std::pair<const char*, double>> units = {
+        {"0.1", 0.001}, {"1", 0.01}, {"2.54", 0.0254}, {"30.48", 0.3048}, {"100", 1}};
+    for (const auto& [centimetres, metres] : units) {
+        const auto result = import_file(write("u.fbx", fbx(centimetres)));
+        ASSERT_TRUE(result.ok()) << result.error().message;
+        EXPECT_EQ(result.value().metres_per_unit, metres) << centimetres;
+    }
 }
 
 TEST_F(AssimpChild, AnUntransformedSceneIsSingle) {

@@ -221,6 +221,8 @@ TEST(LoadModels, RefusesAnotherUnit) {
     EXPECT_NE(models.error().message.find("is in mm, but the unit of the scene is m"),
               std::string::npos)
         << models.error().message;
+    scene.metres_per_unit = static_cast<double>(0.001F);
+    EXPECT_TRUE(load(scene, options)) << "the same unit, rounded to a float";
 }
 
 TEST(LoadModels, NamesAMeshThatCannotBeRead) {
