@@ -232,7 +232,10 @@ def main():
         *(([*question, folder / "mm.cdp.h5", folder / "inches.cdp.h5"], 2,
            ["mm.cdp.h5 is in mm, but ", "inches.cdp.h5 is in in. "])
           for question in (["query", "distance"], ["query", "contacts", "--tolerance", "1"],
-                           ["query", "distance", "--structure", "hull"])),
+                           ["query", "distance", "--structure", "hull"],
+                           ["accuracy", "--quick"])),
+        (["accuracy", "--quick", "--unit", "in", folder / "mm.cdp.h5", folder / "sheet.off"], 2,
+         ["mm.cdp.h5 is in mm, but ", "sheet.off is in in. "]),
         (["query", "distance", "--scene", folder / "units.json"], 2,
          ["mm.cdp.h5 is in mm, but ", "inches.cdp.h5 is in in. "]),
         *(([*command, "-o", link], 2, [str(link), "replaced"]) for link in links for command in (

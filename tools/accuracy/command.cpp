@@ -26,6 +26,7 @@
 #include "cli/signals.h"
 #include "command_line/command_line.h"
 #include "command_line/command_page.h"
+#include "mesh/weld.h"
 #include "study/memory_model.h"
 
 namespace cdprep::cli {
@@ -117,14 +118,24 @@ bool is_baked(const fs::path& input) {
     return file && begin == format::kMagic;
 }
 
-/// Returns the mesh of a mesh file by load_mesh(), or the mesh of a baked file as it was baked. The
-/// first bytes decide which kind the file is. Shows that it is read. Fails with bad_argument if a
-/// baked file has no triangles or positions, or if the options ask to normalize or weld it.
-Result<mesh::Mesh> load_for_study(const fs::path& input, const LoadOptions& options,
+struct LoadedMesh {
+    mesh::Mesh mesh;
+    double metres_per_unit = 0;  ///< 0: unknown
+};
+
+/// Returns the mesh of a mesh file as bake makes it, or the mesh of a baked file as it was baked.
+/// The first bytes decide which kind the file is. Shows that it is read. Fails with bad_argument if
+/// a baked file has no triangles or positions, or if the options ask to normalize or weld it.
+Result<LoadedMesh> load_for_study(const fs::path& input, const LoadOptions& options,
                                   Progress& progress) {
     const bool is_mesh_file = !is_baked(input);
     progress.show(0, input.filename().string() + ": read");
-    if (is_mesh_file) return load_mesh(input, options);
+    if (is_mesh_file) {
+        const Result<mesh::TriangleSoup> soup = load_soup(input, options);
+        if (!soup) return soup.error();
+        return LoadedMesh{mesh::weld(soup.value(), {options.weld_distance}).mesh,
+                          soup->metres_per_unit};
+    }
     if (options.normalize || options.weld_distance > 0) {
         return Error{ErrorCode::bad_argument,
                      input.string() +
@@ -133,7 +144,7 @@ Result<mesh::Mesh> load_for_study(const fs::path& input, const LoadOptions& opti
     }
     const Result<Model> model = open_for(input, Ask::corners);
     if (!model) return model.error();
-    return study::mesh_of(model.value());
+    return LoadedMesh{study::mesh_of(model.value()), unit_of(model.value())};
 }
 
 Result<study::AccuracyStudy> study_pair(const Arguments& arguments, Progress& progress) {
@@ -141,16 +152,20 @@ Result<study::AccuracyStudy> study_pair(const Arguments& arguments, Progress& pr
     LoadOptions load = arguments.load;
     load.import = arguments.import.options();
     load.import.parallel_for = threads.parallel_for();
-    const Result<mesh::Mesh> a = load_for_study(arguments.a, load, progress);
+    const Result<LoadedMesh> a = load_for_study(arguments.a, load, progress);
     if (!a) return a.error();
     if (is_interrupted()) return interrupted(arguments.a);
-    const Result<mesh::Mesh> b = load_for_study(arguments.b, load, progress);
+    const Result<LoadedMesh> b = load_for_study(arguments.b, load, progress);
     if (!b) return b.error();
     if (is_interrupted()) return interrupted(arguments.b);
+    if (const auto unlike =
+            find_unlike_units(arguments.a, a->metres_per_unit, arguments.b, b->metres_per_unit)) {
+        return *unlike;
+    }
 
     Teller teller(progress);
     Result<study::AccuracyStudy> studied = study::study_accuracy(
-        a.value(), b.value(),
+        a->mesh, b->mesh,
         {.is_quick = arguments.is_quick,
          .seed = arguments.seed,
          .ladders = arguments.ladders,
