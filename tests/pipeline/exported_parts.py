@@ -39,10 +39,11 @@ def box(low, high, first=1):
     return "\n".join(lines) + "\n"
 
 
-def write_l_prism(path):
-    """An L of 2 x 2 squares less one, 1 high: no fewer than two convex parts are it."""
+def write_l_prism(path, first=0):
+    """An L of 2 x 2 squares less one, 1 high: no fewer than two convex parts are it. It begins at
+    `first` along x."""
     outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
-    lines = [f"v {x} {y} {z}" for z in (0, 1) for x, y in outline]
+    lines = [f"v {first + x!r} {y} {z}" for z in (0, 1) for x, y in outline]
     for i in range(6):
         k = (i + 1) % 6
         lines += [f"f {i + 1} {k + 1} {k + 7}", f"f {i + 1} {k + 7} {i + 7}"]
@@ -406,6 +407,24 @@ def check_budget_and_report(program, folder):
     must(report["outer_error_at_least"] <= report["outer_error"], f"{report}")
 
 
+def check_rounding(program, folder):
+    """A GLB far from 0 rounds corners. Errors count that, which may exceed what was asked."""
+    source = folder / "far_l.obj"
+    write_l_prism(source, 10000.0003)
+    for kind, error, is_met in (("obj", 1e-4, True), ("glb", 1e-4, False), ("glb", 1e-2, True)):
+        output = folder / f"far_l_out.{kind}"
+        report = decompose(program, source, "-o", output, "--max-error", error, "--table",
+                           code=0 if is_met else 1)
+        rounding = report.get("rounding", 0)
+        must((rounding > 1e-4) == (kind == "glb") and report["inner_error"] == rounding, f"{report}")
+        must(report["outer_error"] >= rounding, f"{report}")
+        must(max(row["outer_error"] for row in report["table"]) == report["outer_error"], f"{report}")
+        must(report["as_asked"] == is_met == (report["outer_error"] <= error), f"{report}")
+        must(report["outer_error_at_least"] <= report["outer_error"], f"{report}")
+    done = run(program, "decompose", source, "-o", output, "--max-error", 1e-4)
+    must(done.returncode == 1 and "because corners were rounded" in done.stdout, done.stdout)
+
+
 def check_progress_and_interrupt(program, folder):
     bracket, empty = SAMPLES / "bracket.obj", folder / "stopped"
     empty.mkdir()
@@ -519,6 +538,7 @@ def main():
         check_same_bytes(program, folder)
         check_enclosure(program, folder)
         check_budget_and_report(program, folder)
+        check_rounding(program, folder)
         check_progress_and_interrupt(program, folder)
         check_baked(program, folder)
         check_invalid_arguments(program, folder)

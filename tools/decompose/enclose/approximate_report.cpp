@@ -78,15 +78,20 @@ std::string approximate_text(const ApproximateReport& report) {
     }
     if (result.ran_out_of_work)
         text += "  the search budget was used up: a larger --work can give a tighter result\n";
-    if (!result.is_as_asked)
+    if (report.is_missed_by_rounding) {
+        text +=
+            "  the request is not met, because corners were rounded: write OBJ or permit a "
+            "larger error\n";
+    } else if (!result.is_as_asked) {
         text += "  the request is not met: it needs more parts or a larger error\n";
+    }
     if (report.left_out > 0) {
         text += "  " + std::to_string(report.left_out) + " flat parts were not written\n";
     }
     if (report.rounding > 0) {
         text += "  corners were rounded to floats, by at most " +
                 at_most_in_six_digits(report.rounding) +
-                ": the parts may miss the mesh by as much\n";
+                ": the parts may miss the mesh by as much, which the errors include\n";
     }
     if (report.is_for_simulators)
         text += "  size " + size_text(report.size, report.metres_per_unit) + "\n";

@@ -74,6 +74,25 @@ std::string unknown_unit(const fs::path& input, const EncloseOptions& options) {
                           : " needs. Give --unit mm, cm, m, in or ft.");
 }
 
+/// Adds the rounding of the written corners to the errors of the parts. They may then miss the
+/// request.
+void add_rounding(double rounding, report::ApproximateReport& report) {
+    report.rounding = rounding;
+    if (rounding == 0) return;
+    const auto above = [&](double bound) {
+        constexpr double kUp = 1 + 1e-15;  // above the rounding of the sum
+        return kUp * (bound + rounding);
+    };
+    convex::ApproximateParts& result = report.result;
+    for (convex::ApproximatePart& part : result.parts) part.error.upper = above(part.error.upper);
+    result.outer_error = above(result.outer_error);
+    result.outer_lower = std::max(0.0, result.outer_lower - rounding);
+    result.inner_error = rounding;
+    if (!result.is_as_asked || !report.max_error) return;
+    report.is_missed_by_rounding = result.outer_error > *report.max_error;
+    result.is_as_asked = !report.is_missed_by_rounding;
+}
+
 /// Writes the parts. For simulators, also writes the mass and the visual mesh, in metres, +z up.
 Result<Done> write_parts(mesh::Mesh mesh, bool is_balanced, const EncloseOptions& options,
                          const Threads& threads, report::ApproximateReport& report) {
@@ -110,7 +129,7 @@ Result<Done> write_parts(mesh::Mesh mesh, bool is_balanced, const EncloseOptions
         write::write_hulls(options.output, format, written, how);
     if (!done) return done.error();
     report.left_out = done->left_out;
-    report.rounding = done->rounding;
+    add_rounding(done->rounding, report);
     return Done{};
 }
 

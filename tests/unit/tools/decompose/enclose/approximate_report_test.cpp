@@ -43,5 +43,17 @@ TEST(ApproximateText, RoundsUpperBoundsUpwardsAndLowerBoundsDownwards) {
     EXPECT_NE(text.find("  0 0 0 0 0.123457\n"), std::string::npos) << text;
 }
 
+// More parts do not help where floats are too coarse.
+TEST(ApproximateText, TellsWhatMakesARequestUnmet) {
+    for (const bool by_rounding : {false, true}) {
+        ApproximateReport report;
+        report.result.is_as_asked = false;
+        report.is_missed_by_rounding = by_rounding;
+        const std::string text = approximate_text(report);
+        EXPECT_EQ(text.find("because corners were rounded") != std::string::npos, by_rounding);
+        EXPECT_EQ(text.find("it needs more parts") != std::string::npos, !by_rounding);
+    }
+}
+
 }  // namespace
 }  // namespace cdprep::report
