@@ -20,9 +20,10 @@ bool is_own(const std::filesystem::path& file) {
 std::optional<Error> find_foreign(const std::filesystem::path& file) {
     std::error_code unknown;
     if (!std::filesystem::is_regular_file(file, unknown) || is_own(file)) return std::nullopt;
+    const std::string line(kOwnLine.substr(0, kOwnLine.size() - 1));
     return Error{ErrorCode::bad_argument,
-                 file.string() +
-                     ": would be replaced, but cdprep did not write it. Choose another output, or "
+                 file.string() + ": would be replaced, but does not begin with '" + line +
+                     "': another program or an older cdprep wrote it. Choose another output, or "
                      "remove it."};
 }
 
