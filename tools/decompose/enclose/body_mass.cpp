@@ -57,7 +57,9 @@ const char* word_of(MassOf of) noexcept {
 std::string text_of(MassOf of) {
     if (of == MassOf::solid) return "the solid";
     if (of == MassOf::parts) return "the parts; overlaps count twice";
-    return "the mesh, which may meet itself; overlaps count twice";
+    return "the mesh, which may meet itself; each region counts by its winding number, which may "
+           "be "
+           "negative";
 }
 
 std::optional<WeighedBody> weigh(const mesh::Mesh& mesh, std::span<const convex::ConvexHull> parts,

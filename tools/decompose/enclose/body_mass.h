@@ -16,7 +16,7 @@ namespace cdprep::cli {
 /// What was weighed.
 enum class MassOf : std::uint8_t {
     solid,  ///< the volume that the mesh encloses, exact up to rounding
-    mesh,   ///< the same, but the mesh may meet itself: a region counts as often as it winds around
+    mesh,   ///< the same, but the mesh may meet itself: regions count by their winding numbers
     parts,  ///< the sum over the parts: overlaps count more than once
 };
 

@@ -58,7 +58,19 @@ TEST(Weigh, OverlapsAreToldOf) {
     ASSERT_TRUE(weighed);
     EXPECT_EQ(weighed->of, MassOf::mesh);
     EXPECT_NEAR(weighed->body.mass, 16, 1e-12);
-    EXPECT_NE(text_of(weighed->of).find("overlaps count twice"), std::string::npos);
+    EXPECT_NE(text_of(weighed->of).find("by its winding number"), std::string::npos);
+}
+
+// By hand: half of the small box is in the large one and counts 0 times; the rest of it counts -1
+// times. So 8 - 1/2 - 1/2.
+TEST(Weigh, AnInvertedBoxThatCrossesAnotherIsToldOf) {
+    const TestMesh large = moved_by(unit_cube(), 2, {});
+    const TestMesh small = moved_by(unit_cube(), 1, {0.5, 0.5, 1.5});
+    const auto weighed = weigh_boxes(joined(large, reversed(small)), {large, small});
+    ASSERT_TRUE(weighed);
+    EXPECT_EQ(weighed->of, MassOf::mesh);
+    EXPECT_NEAR(weighed->body.mass, 7, 1e-12);
+    EXPECT_NE(text_of(weighed->of).find("which may be negative"), std::string::npos);
 }
 
 TEST(Weigh, WhatIsNotBalancedHasTheMassOfTheParts) {
