@@ -90,7 +90,8 @@ std::string pieces_text(const SurfacePiecesReport& report) {
     text += report.tolerance == 0
                 ? std::string("  exact: every triangle lies on its hull\n")
                 : "  triangles lie at most " + at_most_in_six_digits(outer_error(pieces)) +
-                      " below their hulls (tolerance " + printed(report.tolerance, "%.6g") + ")\n";
+                      " below their hulls (tolerance " + at_most_in_six_digits(report.tolerance) +
+                      ")\n";  // rounded alike, so that a bound within it looks so
     text += "  edges: " + edge_line(pieces) + "\n";
     if (!report.output.empty()) text += "  written to " + printable(report.output) + "\n";
     if (!report.has_table) return text;

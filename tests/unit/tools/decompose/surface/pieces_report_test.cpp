@@ -21,5 +21,18 @@ TEST(PiecesText, RoundsTheBoundOnTheDepthUpwards) {
     EXPECT_NE(text.find("  0 1 0 no 0.123457\n"), std::string::npos) << text;
 }
 
+// The bound meets the tolerance, so its text may not seem to exceed it.
+TEST(PiecesText, RoundsTheToleranceAsTheBound) {
+    SurfacePiecesReport report;
+    report.tolerance = 0.33333333;
+    report.pieces.triangles = {0};
+    report.pieces.first = {0, 1};
+    report.pieces.pieces = {{.contained = false, .outer_error = 0.33333333}};
+    const std::string text = pieces_text(report);
+    EXPECT_NE(text.find("at most 0.333334 below their hulls (tolerance 0.333334)"),
+              std::string::npos)
+        << text;
+}
+
 }  // namespace
 }  // namespace cdprep::report
