@@ -8,6 +8,7 @@ Usage: invalid_arguments.py CDPREP
 import json
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -31,6 +32,25 @@ def write_touching(path, count):
         + "".join(f"{x + 10 * i} {y} {z}\n" for i in range(count) for x, y, z in corners)
         + "".join("3 {} {} {}\n".format(*(8 * i + v for v in triangle))
                   for i in range(count) for triangle in triangles))
+
+
+def write_triangle(folder):
+    """A glTF file with its buffer in buffer.bin, and a link to the buffer."""
+    numbers = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+    (folder / "buffer.bin").write_bytes(struct.pack("<9f", *numbers))
+    (folder / "triangle.gltf").write_text(json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "buffers": [{"uri": "buffer.bin", "byteLength": 36}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [0, 0, 0], "max": [1, 1, 0]}]}))
+    (folder / "buffer.obj").symlink_to(folder / "buffer.bin")
+    (folder / "triangle.json").write_text(json.dumps({
+        "cdprep_scene": 1, "layers": ["all"],
+        "objects": [{"name": name, "model": "triangle.gltf", "layer": "all"} for name in "ab"],
+        "pairs": [{"layers": ["all", "all"], "effects": ["overlap"]}]}))
 
 
 def main():
@@ -63,7 +83,10 @@ def main():
     links = [folder / "link.off", folder / "same" / "sheet.off", folder / "hard.off"]
     (folder / "latest").symlink_to(folder / "new")
     os.link(folder / "sheet.off", folder / "hard.off")
-    read = [folder / "sheet.off", folder / "list"]
+    write_triangle(folder)
+    (folder / "kept.toml").write_text("[validate]\nmax-issues = 3\n")
+    triangle, buffer = folder / "triangle.gltf", folder / "buffer.bin"
+    read = [folder / "sheet.off", folder / "list", buffer, folder / "kept.toml"]
     known = [digest(path) for path in read]
     (folder / "poses").write_text(IDENTITY + "\n1 0 0 0 1 0 0 0 -1 0 0 0\n")
     (folder / "words").write_text(IDENTITY + "\n1 0 0 0 1 0 0 0 x 0 0 0\n")
@@ -212,6 +235,20 @@ def main():
         (["validate", folder / "sheet.off", "-o", folder / "sheet.off"], 2, ["sheet.off"]),
         (["validate", folder / "sheet.off", "-o", folder / "no" / "report"], 4, ["report"]),
         (["validate", "--files-from", folder / "list", "-o", folder / "list"], 2, ["list"]),
+        *(([*words, buffer], 2, ["buffer.bin is an input or another output"]) for words in (
+            ["validate", triangle, "-o"], ["validate", folder / "sheet.off", triangle, "-o"],
+            ["validate", triangle, "--format", "json", "-o"], ["bake", triangle, "-o"],
+            ["compare", triangle, "--quick", "-o"],
+            ["accuracy", folder / "sheet.off", triangle, "--quick", "-o"],
+            ["simulate", triangle, "--frames", "1", "-o"],
+            ["simulate", folder / "triangle.json", "--frames", "1", "-o"],
+            ["simulate", folder / "triangle.json", "--plan", "--format", "json", "-o"])),
+        *(([command, triangle, *words, "-o", folder / "buffer.obj"], 2,
+           ["buffer.obj is an input or another output"]) for command, *words in (
+               ["hull"], ["repair"], ["decompose"], ["decompose", "--parts", "2"])),
+        *((["--config", folder / "kept.toml", command, folder / "sheet.off", "-o",
+            folder / "kept.toml"], 2, ["kept.toml is an input"])
+          for command in ("validate", "bake")),
         (["validate", folder / "sheet.off", "-o", folder / "new", "--html", folder / "latest"], 2,
          ["latest is an input or another output"]),
         (["compare", ""], 2, ["the value is empty."]),

@@ -150,7 +150,9 @@ Result<LoadedMesh> load_for_study(const fs::path& input, const LoadOptions& opti
 Result<study::AccuracyStudy> study_pair(const Arguments& arguments, Progress& progress) {
     const Threads threads(arguments.threads);
     LoadOptions load = arguments.load;
-    load.import = arguments.import.options();
+    std::vector<fs::path> outputs = arguments.saves;
+    outputs.push_back(arguments.output);
+    load.import = arguments.import.options(outputs);
     load.import.parallel_for = threads.parallel_for();
     const Result<LoadedMesh> a = load_for_study(arguments.a, load, progress);
     if (!a) return a.error();

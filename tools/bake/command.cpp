@@ -214,7 +214,7 @@ Exit run(const Command& command, Arguments& arguments) {
     arguments.options.effects = effects.value();
     arguments.options.structures = structures.value();
     arguments.options.bounds = bounds_named(arguments.bounds, effects.value());
-    arguments.options.import = arguments.import.options();
+    arguments.options.import = arguments.import.options(outputs.value());
     return bake_all(arguments, outputs.value(), parse_progress(arguments.progress));
 }
 

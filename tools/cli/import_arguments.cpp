@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/import_arguments.h"
+#include "cli/output_path.h"
 #include "command_line/command_line.h"
 
 #include <chrono>
 #include <map>
+#include <optional>
 
 namespace cdprep::cli {
 namespace {
@@ -16,7 +18,8 @@ const std::map<std::string, double> kMetresPerUnit = {
 }  // namespace
 
 // Qualified in full: clang-format takes a line that starts with "import" for a module import.
-cdprep::import::ImportOptions ImportArguments::options() const {
+cdprep::import::ImportOptions ImportArguments::options(
+    const std::vector<std::filesystem::path>& outputs) const {
     import::ImportOptions options;
     options.memory_bytes = memory_bytes;
     options.file_bytes = file_bytes;
@@ -24,6 +27,12 @@ cdprep::import::ImportOptions ImportArguments::options() const {
     options.allow_empty = allow_empty;
     if (!unit.empty()) options.metres_per_unit = kMetresPerUnit.at(unit);
     if (!up_axis.empty()) options.up_axis = up_axis == "y" ? format::UpAxis::y : format::UpAxis::z;
+    options.find_conflict = [outputs](const std::filesystem::path& file) -> std::optional<Error> {
+        for (const std::filesystem::path& output : outputs) {
+            if (auto error = find_replaced_input(file, output)) return error;
+        }
+        return std::nullopt;
+    };
     return options;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "import/import_file.h"
 
@@ -20,7 +22,10 @@ struct ImportArguments {
     std::string up_axis;  ///< "y" or "z"; empty: the axis of the file
     bool allow_empty = false;
 
-    [[nodiscard]] import::ImportOptions options() const;
+    /// Returns the options of an import that fails with bad_argument if the input refers to one of
+    /// the outputs: that file would be replaced. An empty path is none.
+    [[nodiscard]] import::ImportOptions options(
+        const std::vector<std::filesystem::path>& outputs = {}) const;
 };
 
 /// Adds the options to a command. `arguments` must outlive the command.

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <system_error>
 
+#include "command_line/command_line.h"
 #include "write/output_file.h"
 
 namespace cdprep::cli {
@@ -31,6 +32,10 @@ std::filesystem::path shortened(const std::filesystem::path& path) {
     const bool are_missing = failure && !std::filesystem::exists(path, failure) &&
                              !std::filesystem::exists(normal, failure);
     return is_same || are_missing ? normal : path;
+}
+
+UsedFiles::UsedFiles() {
+    add_input(settings_file());
 }
 
 bool UsedFiles::add(const std::filesystem::path& path) {

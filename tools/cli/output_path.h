@@ -25,9 +25,11 @@ namespace cdprep::cli {
 /// symbolic link leads to the folder above the link's target.
 [[nodiscard]] std::filesystem::path shortened(const std::filesystem::path& path);
 
-/// The files that a command reads and writes. An empty path is none.
+/// The files that a command reads and writes. An empty path is none. The settings file of --config
+/// is an input.
 class UsedFiles {
 public:
+    UsedFiles();
     void add_input(const std::filesystem::path& path);
     /// Adds a file that will be written. Fails with bad_argument if it is an input or another
     /// output, whatever name it has there.

@@ -45,6 +45,12 @@ void add_general_options(CLI::App& command) {
     for (CLI::App* each : command.get_subcommands(any)) add_general_options(*each);
 }
 
+/// Only one command line is parsed in a program.
+std::filesystem::path& known_settings_file() {
+    static std::filesystem::path file;
+    return file;
+}
+
 }  // namespace
 
 Option Option::type_name(const std::string& name) const {
@@ -166,6 +172,10 @@ void Command::callback(const std::function<void()>& run) const {
     app_->callback(run);
 }
 
+const std::filesystem::path& settings_file() {
+    return known_settings_file();
+}
+
 Program::Program(const std::string& name, const std::string& version, const std::string& summary)
     : app_(std::make_unique<CLI::App>(summary, name)) {
     app_->set_version_flag("--version", version)
@@ -175,6 +185,11 @@ Program::Program(const std::string& name, const std::string& version, const std:
                              "Read options from a TOML file: bake.jobs=2 means --jobs=2 of bake"))
         .type_name("FILE")
         .group("General");
+    // CLI11 calls this before the callback of the command.
+    app_->parse_complete_callback([app = app_.get()] {
+        const CLI::Option* const config = app->get_config_ptr();
+        known_settings_file() = config->count() > 0 ? config->results().back() : "";
+    });
     app_->require_subcommand(1);
 }
 

@@ -129,6 +129,9 @@ private:
     CLI::App* app_;
 };
 
+/// Returns the path of --config, or an empty path. Known when a command is called.
+[[nodiscard]] const std::filesystem::path& settings_file();
+
 /// The whole command line.
 class Program {
 public:

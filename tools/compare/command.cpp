@@ -103,7 +103,7 @@ Exit run(Arguments& arguments) {
     ComparisonOptions& options = arguments.options;
     options.tables = chosen_tables(arguments.tables);
     options.pairs = kPairs.at(arguments.pairs);
-    options.import = arguments.import.options();
+    options.import = arguments.import.options({arguments.output});
     const Threads threads(options.threads);
     Result<study::Comparison> compared = compare_models(arguments.inputs, settled(options), threads,
                                                         parse_progress(arguments.progress));

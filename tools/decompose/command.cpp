@@ -69,7 +69,7 @@ LoadOptions load_options(const Arguments& arguments, const Threads& threads, Pro
         progress.clear();
         std::cerr << "cdprep decompose: " << arguments.input.string() << ": " << sentences << '\n';
     };
-    load.import = arguments.import.options();
+    load.import = arguments.import.options({arguments.output});
     load.import.parallel_for = threads.parallel_for();
     return load;
 }

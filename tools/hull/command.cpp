@@ -91,7 +91,7 @@ Result<report::HullReport> find_hulls(const Arguments& arguments) {
     load.tell = [&](const std::string& sentences) {
         std::cerr << "cdprep hull: " << arguments.input.string() << ": " << sentences << '\n';
     };
-    load.import = arguments.import.options();
+    load.import = arguments.import.options({arguments.output});
     load.import.parallel_for = threads.parallel_for();
     const Result<mesh::TriangleSoup> loaded = load_soup(arguments.input, load);
     if (!loaded) return loaded.error();

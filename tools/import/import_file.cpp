@@ -58,8 +58,11 @@ std::optional<Error> note_files(const SourceFile& file, const std::filesystem::p
                                 const ImportOptions& options, mesh::TriangleSoup& soup) {
     soup.source_hash = hash_of(file);
     for (mesh::InputFile& other : soup.other_files) {
-        const Result<SourceFile> opened =
-            SourceFile::open(path.parent_path() / other.name, options.file_bytes);
+        const std::filesystem::path name = path.parent_path() / other.name;
+        if (options.find_conflict) {
+            if (auto conflict = options.find_conflict(name)) return conflict;
+        }
+        const Result<SourceFile> opened = SourceFile::open(name, options.file_bytes);
         if (!opened) return opened.error();
         other.hash = hash_of(*opened);
     }
@@ -75,11 +78,12 @@ Result<mesh::TriangleSoup> import_file(const std::filesystem::path& path,
         if (const auto kind = find_other_kind(file.bytes(), path)) return file.unreadable(*kind);
         Result<mesh::TriangleSoup> soup = read(file, path, options);
         if (!soup) return soup;
+        // First of all: a report about an empty file must not replace a file that it refers to.
+        if (const auto error = note_files(file, path, options, *soup)) return *error;
         if (soup->triangles.empty() && !options.allow_empty) return empty(file, *soup);
         if (soup->triangles.size() > mesh::kMostMeshTriangles) {
             return too_many(file, soup->triangles.size());
         }
-        if (const auto error = note_files(file, path, options, *soup)) return *error;
         if (options.metres_per_unit) soup->metres_per_unit = *options.metres_per_unit;
         if (options.up_axis) soup->up_axis = *options.up_axis;
         return soup;

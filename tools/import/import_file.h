@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "cdprep/advanced/parallel_for.h"
@@ -23,6 +24,9 @@ struct ImportOptions {
     std::optional<double> metres_per_unit;                ///< --unit: replaces the unit of the file
     std::optional<format::UpAxis> up_axis;                ///< --up-axis: likewise; rotates nothing
     ParallelFor parallel_for = serial_for;
+    /// Called with each other file that was read. An error ends the import. May be empty. Threads
+    /// may call it at once.
+    std::function<std::optional<Error>(const std::filesystem::path& file)> find_conflict = {};
 };
 
 /// Reads a mesh file. Our own readers read OBJ, STL, PLY and OFF. In a child process, our own
@@ -37,7 +41,8 @@ struct ImportOptions {
                                                      const ImportOptions& options = {});
 
 /// Sets the hash of the source, and of each other file that was read, so that a changed buffer
-/// changes the source. Fails if one of these files can no longer be read.
+/// changes the source. Fails if one of these files can no longer be read, or is in conflict by
+/// options.find_conflict.
 [[nodiscard]] std::optional<Error> note_files(const SourceFile& file,
                                               const std::filesystem::path& path,
                                               const ImportOptions& options,

@@ -158,7 +158,7 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
     const Threads threads(arguments.threads);
     options.parallel_for = threads.parallel_for();
     options.interrupted = is_interrupted;
-    import::ImportOptions limits = arguments.import.options();
+    import::ImportOptions limits = arguments.import.options({arguments.output});
     limits.parallel_for = threads.parallel_for();
     const Result<mesh::TriangleSoup> soup = import::import_file(arguments.input, limits);
     if (!soup) return soup.error();

@@ -93,8 +93,13 @@ public:
           page_(page),
           style_(style),
           threads_(arguments.threads),
-          import_(arguments.import.options()) {
+          import_(arguments.import.options(outputs_of(arguments))) {
         import_.parallel_for = threads_.parallel_for();
+        import_.find_conflict = [this, find = import_.find_conflict](const fs::path& file) {
+            std::optional<Error> conflict = find(file);
+            if (conflict) has_conflict_ = true;
+            return conflict;
+        };
     }
 
     Exit run() {
@@ -262,7 +267,7 @@ private:
             all.push_back({ErrorCode::bad_argument, refusal});
         }
         all.insert(all.end(), errors.begin(), errors.end());
-        if (is_json) {
+        if (is_json && !has_conflict_) {
             for (const Error& error : errors) refusals.push_back(error.message);
             const auto exit = static_cast<int>(exit_for(all.back().code));
             const std::string json = report::refused_json(scene_.name, exit, refusals);
@@ -443,7 +448,8 @@ private:
     PageOutput& page_;
     ProgressStyle style_;
     const Threads threads_;
-    import::ImportOptions import_;  ///< of a replay: those of the recording
+    import::ImportOptions import_;            ///< of a replay: those of the recording
+    std::atomic<bool> has_conflict_ = false;  ///< a model refers to an output
     scenes::SceneFile scene_;
     std::optional<scenes::AssemblyScene> assembly_;  ///< of a glTF file, without its scene
     fs::path folder_;                                ///< of the scene file

@@ -148,6 +148,7 @@ private:
         if (is_over()) return;
         progress_.clear();
         ++done_;
+        if (validation.has_conflict) has_conflict_ = true;
         if (report.error && !report.known_error && !shows_errors_) {
             std::cerr << "cdprep validate: " << report::printable(*report.error) << '\n';
         }
@@ -184,10 +185,11 @@ private:
         if (interrupted) writer_.set_interrupted(static_cast<int>(Exit::interrupted));
         deliver(writer_.tail());
         const auto exit = static_cast<Exit>(writer_.totals().exit);
-        if (!is_stuck_ && !(interrupted && output_.is_file())) {
+        const bool is_abandoned = interrupted || has_conflict_;
+        if (!is_stuck_ && !(is_abandoned && output_.is_file())) {
             if (const Result<Done> done = output_.finish(); !done) stop(done.error());
         }
-        if (!is_stuck_ && !interrupted && page_) {
+        if (!is_stuck_ && !is_abandoned && page_) {
             if (const Result<Done> done = page_->finish(); !done) stop(done.error());
         }
         return std::max(exit, stuck_);
@@ -202,6 +204,7 @@ private:
     std::timed_mutex progress_mutex_;
     std::size_t done_ = 0;
     bool is_ended_ = false;
+    bool has_conflict_ = false;  ///< an input refers to an output, so that no file may appear
     std::atomic<bool> is_stuck_ = false;  ///< the output accepts no more text
     Exit stuck_ = Exit::success;
 };
@@ -240,7 +243,7 @@ Result<Done> settle(ValidateArguments& arguments) {
     run.crossings = defects.crossings;
     run.coloured = arguments.output.empty() && is_coloured(arguments.colour);
     run.max_pairs = defects.max_pairs;
-    arguments.options.import = arguments.import.options();
+    arguments.options.import = arguments.import.options({arguments.output, arguments.html});
     arguments.options.leaves_out_colliders = !arguments.with_colliders;
     return Done{};
 }

@@ -65,7 +65,10 @@ void examine(Validation& result, const Input& input, const ValidationOptions& op
     limits.parallel_for = threads.parallel_for();
     auto imported =
         timed(report, "import", begins, [&] { return import::import_file(input.path, limits); });
-    if (!imported) return fail(report, imported.error(), known);
+    if (!imported) {
+        result.has_conflict = imported.error().code == ErrorCode::bad_argument;
+        return fail(report, imported.error(), known);
+    }
     if (is_interrupted()) return;
     result.soup = std::move(imported).value();
     report.remarks = result.soup.remarks;

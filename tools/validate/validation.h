@@ -24,7 +24,8 @@ struct ValidationOptions {
 
 struct Validation {
     report::ValidationReport report;
-    mesh::TriangleSoup soup;  ///< the validated soup; empty for a file that could not be read
+    mesh::TriangleSoup soup;    ///< the validated soup; empty for a file that could not be read
+    bool has_conflict = false;  ///< the import found one: the report must not become a file
 };
 
 /// Validates one file: imports it, finds defects, judges them. Calls `begins` with the name of

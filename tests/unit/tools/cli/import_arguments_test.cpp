@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace cdprep::cli {
@@ -48,6 +49,16 @@ TEST(ImportArguments, KeepTheDefaultsWhereNothingWasGiven) {
     EXPECT_FALSE(options.metres_per_unit);
     EXPECT_FALSE(options.up_axis);
     EXPECT_FALSE(options.allow_empty);
+}
+
+TEST(ImportArguments, RefuseOutputsThatTheInputRefersTo) {
+    const ImportArguments arguments;
+    const import::ImportOptions options = arguments.options({"", "a/report", "a/page"});
+    EXPECT_FALSE(options.find_conflict("a/buffer.bin"));
+    const std::optional<Error> conflict = options.find_conflict("a/./page");
+    ASSERT_TRUE(conflict);
+    EXPECT_EQ(conflict->code, ErrorCode::bad_argument);
+    EXPECT_FALSE(arguments.options().find_conflict("a/page"));
 }
 
 }  // namespace

@@ -371,6 +371,21 @@ TEST_F(ReadGltf, PrimitivesKeepMaterialsAndNodesNames) {
     EXPECT_EQ(names[soup->materials.runs[1].name], "steel");
 }
 
+TEST_F(ReadGltf, AFileInConflictEndsTheImport) {
+    scratch_.write("kept.bin", bytes_of(kPoints));
+    Document document;
+    document.buffers = R"({"uri":"kept.bin"})";
+    const auto path = scratch_.write("kept.gltf", document.text());
+    ImportOptions options;
+    options.find_conflict = [](const std::filesystem::path& file) -> std::optional<Error> {
+        if (file.filename() != "kept.bin") return std::nullopt;
+        return Error{ErrorCode::bad_argument, "kept.bin is an output."};
+    };
+    const auto soup = import_file(path, options);
+    ASSERT_FALSE(soup.ok());
+    EXPECT_EQ(soup.error().code, ErrorCode::bad_argument);
+}
+
 TEST_F(ReadGltf, NamesOfFilesMayBeEscaped) {
     scratch_.write("my buffer%.bin", bytes_of(kPoints));
     Document document;
