@@ -126,7 +126,8 @@ private:
             !both_contained && !question_.searched && !near_.touch && nearest->bounds.lower <= 0;
         if (may_touch && find_touch()) return find(contact);
         if (nearest->meet && has_ways) return answer_overlap(ways, 0, contact);
-        if (!nearest->meet && is_at_rest(*nearest) && (has_ways || find_all(ways))) {
+        const bool is_at_rest = !nearest->meet && nearest->bounds.upper <= rest();
+        if (is_at_rest && (has_ways || find_all(ways))) {
             return answer_at_rest(ways, *nearest, contact);
         }
         if (!nearest->meet || !(both_contained || near_.touch)) {
@@ -146,10 +147,6 @@ private:
 
     // --- Apart ----------------------------------------------------------------------
 
-    /// Returns whether the gap is so small that rounding may turn the direction across it.
-    [[nodiscard]] bool is_at_rest(const HullNearest& hulls) const noexcept {
-        return hulls.bounds.upper <= rest();
-    }
     /// Returns the gap up to which rounding may turn the direction across it.
     [[nodiscard]] double rest() const noexcept {
         const auto size_of = [](const ContactSide& side) {
@@ -164,9 +161,11 @@ private:
     [[nodiscard]] NearMeeting nearest_features(const HullNearest& hulls) const noexcept {
         if (!hulls.meet) {
             const auto a =
-                a_.find_feature(vertices_of(hulls.simplex, &Difference::a, a_.points().corners));
+                a_.find_feature(vertices_of(hulls.simplex, &Difference::a, a_.points().corners),
+                                weighted_sum(hulls.simplex, &Difference::at_a));
             const auto b =
-                b_.find_feature(vertices_of(hulls.simplex, &Difference::b, b_.points().corners));
+                b_.find_feature(vertices_of(hulls.simplex, &Difference::b, b_.points().corners),
+                                weighted_sum(hulls.simplex, &Difference::at_b));
             if (a && b) return {{*a, *b}, hulls};
         }
         return triangle_features();
@@ -205,6 +204,7 @@ private:
         contact.lower = meeting.nearest.bounds.lower;
         contact.upper = meeting.nearest.bounds.upper;
         contact.normal = normal_between(meeting, contact);
+        if (contact.upper <= rest()) contact.normal = unless_behind(contact.normal);
         if (a_.is_seen_from_behind(meeting.a, contact.normal) ||
             b_.is_seen_from_behind(meeting.b, -contact.normal)) {
             contact.flags |= contact_from_behind;
@@ -237,6 +237,13 @@ private:
         if (dot(normal, normal) > 0) return dot(normal, towards) < 0 ? -normal : normal;
         const Double3 way = dot(towards, towards) > 0 ? towards : contact.point_b - contact.point_a;
         return dot(way, way) > 0 ? unit(way) : a_.normal_of(meeting.a.triangle);
+    }
+
+    /// Returns the opposite of a normal if hulls that hardly meet part along that alone: across so
+    /// small a gap, the sign is rounding.
+    [[nodiscard]] Double3 unless_behind(const Double3& normal) const noexcept {
+        const double back = length_along(-normal);
+        return back <= rest() && back < length_along(normal) ? -normal : normal;
     }
 
     [[nodiscard]] std::optional<Double3> upright_normal(const Meeting& meeting,
@@ -424,11 +431,13 @@ private:
     /// if it leads through a face or an edge of a hull that no triangle has: deeper into the solid.
     [[nodiscard]] std::optional<Meeting> features_across(const WayOut& way) const noexcept {
         if (way.kind == WayKind::edges) return edges_across(way);
-        const auto a = way.kind == WayKind::face_a ? face_of(a_, way.a, way.normal)
-                                                   : farthest_of(a_, way.normal);
+        const auto on_a = [&] { return way_points(a_, b_, way.normal).on_a; };
+        const auto on_b = [&] { return way_points(a_, b_, way.normal).on_b; };
+        const auto a = way.kind == WayKind::face_a ? face_of(a_, way.a, way.normal, on_a)
+                                                   : farthest_of(a_, way.normal, on_a);
         if (!a) return std::nullopt;
-        const auto b = way.kind == WayKind::face_b ? face_of(b_, way.b, -way.normal)
-                                                   : farthest_of(b_, -way.normal);
+        const auto b = way.kind == WayKind::face_b ? face_of(b_, way.b, -way.normal, on_b)
+                                                   : farthest_of(b_, -way.normal, on_b);
         if (!b) return std::nullopt;
         return Meeting{*a, *b};
     }
@@ -450,18 +459,23 @@ private:
         if (feature || side.is_contained()) return feature;
         return PieceFeature{FeatureKind::face, side.triangles()[0], 0};
     }
+    /// `point()` returns the point of the side that the way leads from.
+    template <class Point>
     static std::optional<PieceFeature> face_of(const ContactSide& side, std::uint8_t place,
-                                               const Double3& normal) noexcept {
+                                               const Double3& normal, Point&& point) noexcept {
         if (const auto face = side.find_face(normal, nullptr)) return face;
         const PieceShape::Face& face = side.shape()->faces()[place];
         if (side.is_contained() && !face.is_covered) return std::nullopt;
-        return farthest_of(side, normal);
+        return farthest_of(side, normal, point);
     }
+    template <class Point>
     static std::optional<PieceFeature> farthest_of(const ContactSide& side,
-                                                   const Double3& direction) noexcept {
+                                                   const Double3& direction,
+                                                   Point&& point) noexcept {
         if (const auto face = side.find_face(direction, nullptr)) return face;
         const VertexSet farthest = side.farthest_vertices(direction);
-        const auto feature = side.find_feature(farthest, side.model().position(farthest.vertex[0]));
+        auto feature = side.find_feature(farthest);
+        if (!feature && farthest.count > 1) feature = side.find_feature(farthest, point());
         if (feature || side.is_contained()) return feature;
         return PieceFeature{FeatureKind::face, side.triangles()[0], 0};
     }

@@ -24,6 +24,9 @@ constexpr double kAligned = 1 - 1e-10;
 constexpr double kNoLean = 1e-12;
 /// The rise of an edge by its length, up to which it is level but for rounding.
 constexpr double kNoRise = 1e-9;
+/// How far a vertex may be beside an edge of the hull to divide it, as a share of its length. Files
+/// of floats round vertices by less.
+constexpr double kOnEdge = 1e-6;
 /// The most that rounding may turn the normal of a face, in radians, for the face to tell which
 /// directions its triangles face.
 constexpr double kSureTurn = 1e-3;
@@ -54,6 +57,23 @@ unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
 }
 
 }  // namespace
+
+/// An edge of a hull, which a mesh may divide.
+class ContactSide::StraightEdge {
+public:
+    StraightEdge(const Double3& from, const Double3& to)
+        : from_(from), along_(unit(to - from)), length_(largest_of(to - from)) {}
+
+    /// Returns whether a point lies on the line through the edge.
+    [[nodiscard]] bool has(const Double3& p) const {
+        return largest_of(cross(p - from_, along_)) <= kOnEdge * length_;
+    }
+
+private:
+    Double3 from_;
+    Double3 along_;
+    double length_;
+};
 
 ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece, PlacedHull* large,
                          Workspace::Storage& scratch) noexcept
@@ -173,18 +193,13 @@ std::optional<PieceFeature> ContactSide::find_feature(const VertexSet& set) cons
     return std::nullopt;
 }
 
-/// A mesh may divide an edge of the hull. Then no triangle has both of its ends.
-std::optional<PieceFeature> ContactSide::find_part_of_edge(const Double3& from, const Double3& to,
+std::optional<PieceFeature> ContactSide::find_part_of_edge(const StraightEdge& edge,
                                                            const Double3& near) const noexcept {
-    const Double3 way = to - from, along = unit(way);
-    const auto is_on = [&](const Double3& p) {
-        return largest_of(cross(p - from, along)) <= kLevel * largest_of(way);
-    };
     std::optional<PieceFeature> best;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const Corners at = corners_of(i);
-        const std::array<bool, 3> on = {is_on(at[0]), is_on(at[1]), is_on(at[2])};
+        const std::array<bool, 3> on = {edge.has(at[0]), edge.has(at[1]), edge.has(at[2])};
         for (std::uint32_t k = 0; k < 3; ++k) {
             const std::uint32_t next = (k + 1) % 3;
             if (!on[k] || !on[next]) continue;
@@ -202,9 +217,23 @@ std::optional<PieceFeature> ContactSide::find_part_of_edge(const Double3& from, 
 std::optional<PieceFeature> ContactSide::find_feature(const VertexSet& set,
                                                       const Double3& near) const noexcept {
     const auto feature = find_feature(set);
-    if (feature || set.count != 2) return feature;
-    return find_part_of_edge(model_->position(set.vertex[0]), model_->position(set.vertex[1]),
-                             near);
+    if (feature || set.count < 2) return feature;
+    // No triangle has them all. On an edge that the mesh divides, they lie on one line.
+    const auto vertices = std::span(set.vertex).first(set.count);
+    const auto farthest_from = [&](const Double3& p) {
+        Double3 best = p;
+        for (const std::uint32_t vertex : vertices) {
+            const Double3 at = model_->position(vertex);
+            if (largest_of(at - p) > largest_of(best - p)) best = at;
+        }
+        return best;
+    };
+    const Double3 from = farthest_from(model_->position(vertices[0]));
+    const StraightEdge edge(from, farthest_from(from));
+    for (const std::uint32_t vertex : vertices) {
+        if (!edge.has(model_->position(vertex))) return std::nullopt;
+    }
+    return find_part_of_edge(edge, near);
 }
 
 std::uint32_t ContactSide::nearest_triangle(const Double3& near) const noexcept {

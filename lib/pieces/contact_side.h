@@ -158,8 +158,8 @@ public:
     /// Returns the feature that one to three vertices span, if a triangle of the piece has them
     /// all. The first of several triangles counts.
     [[nodiscard]] std::optional<PieceFeature> find_feature(const VertexSet& set) const noexcept;
-    /// The same for vertices of the hull. Of an edge that the mesh divides, returns the part that
-    /// is nearest to a point.
+    /// The same for vertices of the hull, up to four. Of an edge that the mesh divides, returns the
+    /// part that is nearest to a point.
     [[nodiscard]] std::optional<PieceFeature> find_feature(const VertexSet& set,
                                                            const Double3& near) const noexcept;
 
@@ -278,8 +278,9 @@ private:
     /// triangle with the feature.
     [[nodiscard]] double facing(const PieceFeature& feature,
                                 const Double3& direction) const noexcept;
-    [[nodiscard]] std::optional<PieceFeature> find_part_of_edge(const Double3& from,
-                                                                const Double3& to,
+    class StraightEdge;
+    /// Returns the edge of a triangle that is a part of an edge and nearest to a point.
+    [[nodiscard]] std::optional<PieceFeature> find_part_of_edge(const StraightEdge& edge,
                                                                 const Double3& near) const noexcept;
     [[nodiscard]] std::uint32_t nearest_triangle(const Double3& near) const noexcept;
     template <class IsTaken, class Visit>

@@ -871,6 +871,44 @@ std::optional<Landing> find_landing(Touches&& touches) {
     }
 }
 
+/// A plate with so many sides that not every way out of it is tried.
+TestMesh round_plate() {
+    constexpr std::uint32_t kSides = 24;
+    std::vector<std::array<double, 2>> outline;
+    std::vector<std::array<std::uint32_t, 3>> cut;
+    for (std::uint32_t i = 0; i < kSides; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kSides;
+        outline.push_back({std::cos(angle), std::sin(angle)});
+        if (i > 1) cut.push_back({0, i - 1, i});
+    }
+    return prism(outline, cut);
+}
+
+/// A plate of three points whose edges are divided by vertices that lie on them up to rounding.
+TestMesh pointed_plate() {
+    std::vector<std::array<double, 2>> corner, outline;
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        const double angle = 0.1 + std::numbers::pi * i / 3, reach = i % 2 == 0 ? 2 : 0.8;
+        corner.push_back({reach * std::cos(angle), reach * std::sin(angle)});
+    }
+    const auto rounded = [](double x) { return std::round(1e9 * x) / 1e9; };
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        const auto &p = corner[i], &q = corner[(i + 1) % 6];
+        outline.push_back({rounded(p[0]), rounded(p[1])});
+        outline.push_back({rounded((p[0] + q[0]) / 2), rounded((p[1] + q[1]) / 2)});
+    }
+    return prism(outline, {{11, 0, 1},
+                           {11, 1, 10},
+                           {10, 1, 2},
+                           {3, 4, 5},
+                           {3, 5, 2},
+                           {2, 5, 6},
+                           {7, 8, 9},
+                           {7, 9, 6},
+                           {6, 9, 10},
+                           {2, 6, 10}});
+}
+
 // By definition: bodies that come to touch do so by their rounding, and are pushed back the way
 // they came or to a side. Edges of their hulls are divided in the mesh, or end at a seam.
 TEST(Contacts, BodiesThatBeginToTouchAreNotDeep) {
@@ -881,14 +919,16 @@ TEST(Contacts, BodiesThatBeginToTouchAreNotDeep) {
         open_with_pieces(prism({{0, 0}, {0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}, {0, 1}},
                                {{0, 1, 5}, {1, 4, 5}, {1, 2, 4}, {2, 3, 4}}));
     const OpenModel tip = open_with_pieces(on_its_tip());
-    const std::array<const OpenModel*, 3> models = {&arms, &plate, &tip};
+    const OpenModel disc = open_with_pieces(round_plate());
+    const OpenModel star = open_with_pieces(pointed_plate());
+    const std::array<const OpenModel*, 5> models = {&arms, &plate, &tip, &disc, &star};
     const Double3 way = {0.1, 0.2, 1};
     Workspace workspace;
     std::mt19937 random(26);
     std::size_t apart = 0, overlapping = 0;
     for (int round = 0; round < 1200; ++round) {
         SCOPED_TRACE(round);
-        const OpenModel &a = *models[random() % 3], &b = *models[random() % 3];
+        const OpenModel &a = *models[random() % 5], &b = *models[random() % 5];
         const Pose below = random_pose(random, 1), above = random_pose(random, 1);
         const auto at = [&](double height) {
             std::array<double, 12> rows{};
