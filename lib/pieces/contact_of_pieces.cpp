@@ -242,6 +242,7 @@ private:
     /// Returns the opposite of a normal if hulls that hardly meet part along that alone: across so
     /// small a gap, the sign is rounding.
     [[nodiscard]] Double3 unless_behind(const Double3& normal) const noexcept {
+        if (!(dot(normal, normal) > 0)) return normal;
         const double back = length_along(-normal);
         return back <= rest() && back < length_along(normal) ? -normal : normal;
     }

@@ -30,9 +30,9 @@ struct ApproximateReport {
     std::vector<std::string> node_names;  ///< by ApproximatePart::node; may be empty
     std::size_t left_out = 0;             ///< hulls that the output format cannot hold
     double rounding = 0;                  ///< of corners by the output; in the errors of `result`
-    bool is_missed_by_rounding = false;   ///< the request, which was met before
     std::optional<double> mass;           ///< the mass written, kilograms
     cli::MassOf mass_of = cli::MassOf::solid;
+    bool is_missed_by_rounding = false;  ///< the request, which was met before
     bool has_table = false;
     double seconds = 0;  ///< of the decomposition alone
     int exit = 0;
