@@ -162,10 +162,10 @@ private:
         if (!hulls.meet) {
             const auto a =
                 a_.find_feature(vertices_of(hulls.simplex, &Difference::a, a_.points().corners),
-                                weighted_sum(hulls.simplex, &Difference::at_a));
+                                [&] { return weighted_sum(hulls.simplex, &Difference::at_a); });
             const auto b =
                 b_.find_feature(vertices_of(hulls.simplex, &Difference::b, b_.points().corners),
-                                weighted_sum(hulls.simplex, &Difference::at_b));
+                                [&] { return weighted_sum(hulls.simplex, &Difference::at_b); });
             if (a && b) return {{*a, *b}, hulls};
         }
         return triangle_features();
@@ -416,11 +416,14 @@ private:
             if (other && way.length > kMuchShorter * other->way.length) break;
             const std::optional<Meeting> meeting = features_across(way);
             if (!meeting || leads_inside(*meeting, way.normal)) continue;
+            const bool is_leaning = leans(*meeting, way.normal);
+            const bool is_other = is_leaning && !other && !leaves_along_plane(*meeting, way.normal);
+            if (is_leaning && leaning && !is_other) continue;
             Exit exit = {way, *meeting, i};
             if (leads_through_cut(exit)) continue;
-            if (!leans(*meeting, way.normal)) return exit;
+            if (!is_leaning) return exit;
             if (!leaning) leaning = exit;
-            if (!other && !leaves_along_plane(*meeting, way.normal)) other = exit;
+            if (is_other) other = exit;
         }
         if (other) return *other;
         if (!leaning) return {ways[0], {}, 0};
@@ -443,24 +446,26 @@ private:
         return Meeting{*a, *b};
     }
     [[nodiscard]] std::optional<Meeting> edges_across(const WayOut& way) const noexcept {
-        const WayPoints points = points_on_edges(way);
-        const auto a = edge_of(a_, way.a, points.on_a);
+        const auto on_a = [&] { return points_on_edges(way).on_a; };
+        const auto a = edge_of(a_, way.a, on_a);
         if (!a) return std::nullopt;
-        const auto b = edge_of(b_, way.b, points.on_b);
+        const auto on_b = [&] { return points_on_edges(way).on_b; };
+        const auto b = edge_of(b_, way.b, on_b);
         if (!b) return std::nullopt;
         return Meeting{*a, *b};
     }
+    /// `point()` returns the point of the side that the way leads from.
+    template <class Point>
     static std::optional<PieceFeature> edge_of(const ContactSide& side, std::uint8_t place,
-                                               const Double3& near) noexcept {
+                                               Point&& point) noexcept {
         const PieceShape::Edge& edge = side.shape()->edges()[place];
         VertexSet ends;
         ends.add(side.points().corners[edge.from]);
         ends.add(side.points().corners[edge.to]);
-        const auto feature = side.find_feature(ends, near);
+        const auto feature = side.find_feature(ends, point);
         if (feature || side.is_contained()) return feature;
         return PieceFeature{FeatureKind::face, side.triangles()[0], 0};
     }
-    /// `point()` returns the point of the side that the way leads from.
     template <class Point>
     static std::optional<PieceFeature> face_of(const ContactSide& side, std::uint8_t place,
                                                const Double3& normal, Point&& point) noexcept {
@@ -474,9 +479,7 @@ private:
                                                    const Double3& direction,
                                                    Point&& point) noexcept {
         if (const auto face = side.find_face(direction, nullptr)) return face;
-        const VertexSet farthest = side.farthest_vertices(direction);
-        auto feature = side.find_feature(farthest);
-        if (!feature && farthest.count > 1) feature = side.find_feature(farthest, point());
+        const auto feature = side.find_feature(side.farthest_vertices(direction), point);
         if (feature || side.is_contained()) return feature;
         return PieceFeature{FeatureKind::face, side.triangles()[0], 0};
     }

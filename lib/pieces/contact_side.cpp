@@ -24,9 +24,6 @@ constexpr double kAligned = 1 - 1e-10;
 constexpr double kNoLean = 1e-12;
 /// The rise of an edge by its length, up to which it is level but for rounding.
 constexpr double kNoRise = 1e-9;
-/// How far a vertex may be beside an edge of the hull to divide it, as a share of its length. Files
-/// of floats round vertices by less.
-constexpr double kOnEdge = 1e-6;
 /// The most that rounding may turn the normal of a face, in radians, for the face to tell which
 /// directions its triangles face.
 constexpr double kSureTurn = 1e-3;
@@ -57,23 +54,6 @@ unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
 }
 
 }  // namespace
-
-/// An edge of a hull, which a mesh may divide.
-class ContactSide::StraightEdge {
-public:
-    StraightEdge(const Double3& from, const Double3& to)
-        : from_(from), along_(unit(to - from)), length_(largest_of(to - from)) {}
-
-    /// Returns whether a point lies on the line through the edge.
-    [[nodiscard]] bool has(const Double3& p) const {
-        return largest_of(cross(p - from_, along_)) <= kOnEdge * length_;
-    }
-
-private:
-    Double3 from_;
-    Double3 along_;
-    double length_;
-};
 
 ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece, PlacedHull* large,
                          Workspace::Storage& scratch) noexcept
@@ -214,26 +194,37 @@ std::optional<PieceFeature> ContactSide::find_part_of_edge(const StraightEdge& e
     return best;
 }
 
-std::optional<PieceFeature> ContactSide::find_feature(const VertexSet& set,
-                                                      const Double3& near) const noexcept {
-    const auto feature = find_feature(set);
-    if (feature || set.count < 2) return feature;
-    // No triangle has them all. On an edge that the mesh divides, they lie on one line.
+bool ContactSide::begins_with(std::uint32_t vertex, const StraightEdge& edge) const noexcept {
+    Fan room;
+    for (const std::uint32_t t : triangles_around(vertex, room)) {
+        const format::Triangle& triangle = model_->model->mesh().triangles[t];
+        const unsigned k = corner_of(triangle, vertex);
+        if (k == 3) continue;
+        for (const unsigned next : {(k + 1) % 3, (k + 2) % 3}) {
+            if (edge.has(model_->position(triangle.vertex[next]))) return true;
+        }
+    }
+    return false;
+}
+
+std::optional<StraightEdge> ContactSide::find_divided_edge(const VertexSet& set) const noexcept {
+    if (set.count < 2) return std::nullopt;
     const auto vertices = std::span(set.vertex).first(set.count);
-    const auto farthest_from = [&](const Double3& p) {
-        Double3 best = p;
+    const auto farthest_from = [&](std::uint32_t from) {
+        std::uint32_t best = from;
+        double most = 0;
         for (const std::uint32_t vertex : vertices) {
-            const Double3 at = model_->position(vertex);
-            if (largest_of(at - p) > largest_of(best - p)) best = at;
+            const double far = largest_of(model_->position(vertex) - model_->position(from));
+            if (far > most) most = far, best = vertex;
         }
         return best;
     };
-    const Double3 from = farthest_from(model_->position(vertices[0]));
-    const StraightEdge edge(from, farthest_from(from));
-    for (const std::uint32_t vertex : vertices) {
-        if (!edge.has(model_->position(vertex))) return std::nullopt;
-    }
-    return find_part_of_edge(edge, near);
+    const std::uint32_t from = set.count == 2 ? vertices[0] : farthest_from(vertices[0]);
+    const std::uint32_t to = set.count == 2 ? vertices[1] : farthest_from(from);
+    const StraightEdge edge(model_->position(from), model_->position(to));
+    const auto is_on = [&](std::uint32_t vertex) { return edge.has(model_->position(vertex)); };
+    if (set.count > 2 && !std::all_of(vertices.begin(), vertices.end(), is_on)) return std::nullopt;
+    return begins_with(from, edge) ? std::optional(edge) : std::nullopt;
 }
 
 std::uint32_t ContactSide::nearest_triangle(const Double3& near) const noexcept {
@@ -371,7 +362,8 @@ bool ContactSide::has_face_at(const Double3& direction, const MovedHull& hull,
 PieceFeature ContactSide::feature_along(const Double3& direction,
                                         const Double3& near) const noexcept {
     if (const auto face = find_face(direction, &near)) return *face;
-    if (const auto feature = find_feature(farthest_vertices(direction), near)) return *feature;
+    const auto here = [&] { return near; };
+    if (const auto feature = find_feature(farthest_vertices(direction), here)) return *feature;
     return {FeatureKind::face, nearest_triangle(near), 0};
 }
 

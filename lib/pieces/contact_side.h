@@ -72,6 +72,26 @@ struct VertexSet {
     }
 };
 
+/// The line through an edge of a hull.
+class StraightEdge {
+public:
+    StraightEdge(const Double3& from, const Double3& to)
+        : from_(from), along_(unit(to - from)), most_(kOnEdge * largest_of(to - from)) {}
+
+    [[nodiscard]] bool has(const Double3& p) const {
+        return largest_of(cross(p - from_, along_)) <= most_;
+    }
+
+private:
+    /// How far a vertex may be beside an edge to divide it, as a share of its length. Files of
+    /// floats round vertices by less.
+    static constexpr double kOnEdge = 1e-6;
+
+    Double3 from_;
+    Double3 along_;
+    double most_;
+};
+
 /// Unit directions any of which may be the normal of a contact.
 struct UnitDirections {
     std::array<Double3, 4> way{};
@@ -159,9 +179,14 @@ public:
     /// all. The first of several triangles counts.
     [[nodiscard]] std::optional<PieceFeature> find_feature(const VertexSet& set) const noexcept;
     /// The same for vertices of the hull, up to four. Of an edge that the mesh divides, returns the
-    /// part that is nearest to a point.
+    /// part that is nearest to point().
+    template <class Point>
     [[nodiscard]] std::optional<PieceFeature> find_feature(const VertexSet& set,
-                                                           const Double3& near) const noexcept;
+                                                           Point&& point) const noexcept {
+        if (const auto feature = find_feature(set)) return feature;
+        const auto edge = find_divided_edge(set);
+        return edge ? find_part_of_edge(*edge, point()) : std::nullopt;
+    }
 
     /// Returns a triangle of the piece that faces a unit direction squarely: the nearest to a point
     /// or, if that is null, the first.
@@ -278,7 +303,11 @@ private:
     /// triangle with the feature.
     [[nodiscard]] double facing(const PieceFeature& feature,
                                 const Double3& direction) const noexcept;
-    class StraightEdge;
+    /// Returns the edge on which all vertices lie, if the mesh divides it.
+    [[nodiscard]] std::optional<StraightEdge> find_divided_edge(
+        const VertexSet& set) const noexcept;
+    /// Returns whether an edge of a triangle at a vertex lies on an edge.
+    [[nodiscard]] bool begins_with(std::uint32_t vertex, const StraightEdge& edge) const noexcept;
     /// Returns the edge of a triangle that is a part of an edge and nearest to a point.
     [[nodiscard]] std::optional<PieceFeature> find_part_of_edge(const StraightEdge& edge,
                                                                 const Double3& near) const noexcept;
