@@ -26,8 +26,8 @@ constexpr std::size_t kMostNearNormals = 16;
 /// The cosine of the angle between two unit directions up to which rounding may turn one behind the
 /// other.
 constexpr double kBeside = 1e-9;
-/// The gap, as a share of coordinates, up to which the direction across it is not sure: that
-/// between two vertices is off by less than 1e-5 beyond.
+/// The gap, as a share of coordinates, up to which the direction across it is not sure. Across a
+/// larger gap between two vertices, it is off by less than 1e-5.
 constexpr double kRest = 0x1p-36;
 /// How many times shorter an exit must be to be preferred to one that ends at both surfaces.
 constexpr double kMuchShorter = 2;

@@ -193,8 +193,8 @@ public:
     [[nodiscard]] std::optional<PieceFeature> find_face(const Double3& direction,
                                                         const Double3* near) const noexcept;
 
-    /// Returns whether a triangle of the piece that faces a unit direction squarely is at most so
-    /// far from a point, or from a hull.
+    /// Returns whether a triangle that faces a unit direction squarely is at most `most` away from
+    /// a point, or from a hull.
     [[nodiscard]] bool has_face_at(const Double3& direction, const Double3& point,
                                    double most) const noexcept;
     [[nodiscard]] bool has_face_at(const Double3& direction, const MovedHull& hull,

@@ -22,8 +22,8 @@ namespace cdprep::cli {
 /// --normalize.
 [[nodiscard]] double unit_of(const Model& model);
 
-/// Returns true if two lengths of units are known and differ by more than the rounding to floats,
-/// in which some formats store them.
+/// Returns true if two units are known and differ by more than the rounding to floats. Some formats
+/// store units in floats.
 [[nodiscard]] bool are_unlike_units(double unit_a, double unit_b) noexcept;
 
 /// Returns an error if the units of two meshes are unlike: poses do not scale. Units are in metres.

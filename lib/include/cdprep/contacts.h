@@ -168,8 +168,8 @@ struct ContactsVerdict {
 ///
 /// A translation snags if it tilts across a flat or reflex edge, towards the adjacent face. At a
 /// vertex, the tilt counts only if a triangle there reaches farther along the translation than the
-/// vertex. A translation also snags if it leads through a face of the hull that no triangle covers,
-/// or past a reflex edge at which a face's triangles end.
+/// vertex. A translation also snags if it leads through a face of the hull that no triangle covers.
+/// So it does past a reflex edge at which the triangles of a face end.
 /// The shortest translation that does not snag is used. Exception: some translations tilt across
 /// reflex edges only, and do not lead deeper into a solid. The shortest of these is used if it is
 /// less than half as long, or if all translations snag. Without such a translation, the shortest
@@ -194,12 +194,11 @@ struct ContactsVerdict {
 ///
 /// The manifold spans the area where two faces of the pieces are within the tolerance. Its points
 /// are the corners of one face, clipped by the other. ManifoldPoint::distance is the distance of
-/// the two faces there, along the normal. Without contact_overlap, it is negative by rounding only,
-/// or by up to 2e-5 of the face's size where the faces are not quite parallel. Points farther
-/// behind the other face are left out. The normal of the clipping face may deviate
-/// from that of the contact by up to 0.03 radians. This happens if nearly parallel faces are
-/// nearest where two of their edges cross. The deepest point is first, then those that span the
-/// largest area.
+/// the two faces there, along the normal. Without contact_overlap, it is at least -2e-5 of the
+/// face's size: the faces may not be quite parallel. Points farther behind the other face are left
+/// out. The normal of the clipping face may deviate from that of the contact by up to 0.03 radians.
+/// This happens if nearly parallel faces are nearest where two of their edges cross. The deepest
+/// point is first, then those that span the largest area.
 ///
 /// The answer is the same on every processor. With Body::surface, a piece inside the hull of
 /// another makes a contact only if their triangles are within the tolerance.
